@@ -1,0 +1,126 @@
+// Expressions in x, y, z with exact first and second derivatives.
+// It never differentiates by finite differences and knows no mesh, time or units.
+#pragma once
+
+#include <deal.II/base/point.h>
+#include <deal.II/base/symmetric_tensor.h>
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// A scalar expression of the position. Grammar, from weak to strong binding:
+  ///   c ? a : b    ||    &&    < <= > >= == !=    + -    * /    unary + - !    ^ (right to left)
+  /// with numbers, parentheses, the variables x, y, z, the constant pi and the functions
+  ///   sin cos tan asin acos atan sinh cosh tanh exp log sqrt abs   (one argument)
+  ///   atan2 min max pow (two)   if(condition, then, else) (three; the branch not taken may be
+  ///   undefined).
+  /// -x^2 is -(x^2). Comparisons give 0 or 1. Constant parts are folded when parsing.
+  /// At a kink (abs, min, max, a comparison) the derivatives are those of the branch taken.
+  class Expression
+  {
+  public:
+    /// The constant zero.
+    Expression();
+
+    /// Parse @p text; @p where names the parameter in messages. Throws InputError with the
+    /// position of the first character that is not understood and what is allowed there.
+    explicit Expression(const std::string &text, const std::string &where = "");
+
+    double
+    value(const dealii::Point<3> &p) const;
+
+    /// Derivatives with respect to x, y, z.
+    dealii::Tensor<1, 3>
+    gradient(const dealii::Point<3> &p) const;
+
+    dealii::SymmetricTensor<2, 3>
+    hessian(const dealii::Point<3> &p) const;
+
+    /// Whether the value is the same at every point (after folding).
+    bool
+    is_constant() const;
+
+    /// Value and both derivatives in one pass.
+    struct Jet
+    {
+      double                        value = 0.;
+      dealii::Tensor<1, 3>          gradient;
+      dealii::SymmetricTensor<2, 3> hessian;
+    };
+    Jet
+    jet(const dealii::Point<3> &p) const;
+
+    /// What a node does, by number of operands: none, one, two, three.
+    enum class Operation : unsigned char
+    {
+      // clang-format off
+      constant, x, y, z,
+      minus, negate, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, abs,
+      add, subtract, multiply, divide, power, atan2, min, max,
+      less, less_equal, greater, greater_equal, equal, not_equal, both, either,
+      select
+      // clang-format on
+    };
+
+    static unsigned int
+    n_operands(Operation operation);
+
+    /// Value of an operation on numbers; operands that it does not have are ignored.
+    static double
+    apply(Operation operation, double a, double b = 0., double c = 0.);
+
+    /// One node of the syntax tree: an operation on earlier nodes.
+    struct Node
+    {
+      Operation                   operation = Operation::constant;
+      std::array<unsigned int, 3> operands{};
+      double                      constant = 0.;
+    };
+
+  private:
+    /// In source/base/expression_parser.cc.
+    static std::vector<Node>
+    parse(const std::string &text, const std::string &where);
+
+    std::vector<Node> nodes; ///< operands before operations; the last is the root
+  };
+
+  /// Three expressions, the components of a vector.
+  class VectorExpression
+  {
+  public:
+    /// The constant zero.
+    VectorExpression() = default;
+
+    /// Parse "ex; ey; ez". Throws InputError as Expression does, and for another number of parts.
+    explicit VectorExpression(const std::string &text, const std::string &where = "");
+
+    dealii::Tensor<1, 3>
+    value(const dealii::Point<3> &p) const;
+
+    /// gradient[i][j] = d v_i / d x_j.
+    dealii::Tensor<2, 3>
+    gradient(const dealii::Point<3> &p) const;
+
+    /// hessian[i] = second derivatives of v_i.
+    std::array<dealii::SymmetricTensor<2, 3>, 3>
+    hessian(const dealii::Point<3> &p) const;
+
+    bool
+    is_constant() const;
+
+    /// Whether the value is zero at every point.
+    bool
+    is_zero() const;
+
+    const Expression &
+    operator[](unsigned int component) const;
+
+  private:
+    std::array<Expression, 3> components;
+  };
+} // namespace mortise

@@ -1,0 +1,86 @@
+// One elastic body: triangulation, hp space of displacements, mapping, conformity constraints and
+// material. It never knows of other bodies, of interfaces or of parameter files.
+#pragma once
+
+#include <mortise/base/types.h>
+
+#include <mortise/body/hp_constraints.h>
+#include <mortise/body/mesh_source.h>
+#include <mortise/material/linear_elastic.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/mapping_q_cache.h>
+
+#include <deal.II/hp/fe_collection.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  class Body
+  {
+  public:
+    using CellIterator = dealii::DoFHandler<dim>::active_cell_iterator;
+
+    /// @p index is the position of the body in the scene.
+    Body(const std::string &name, unsigned int index, const LinearElastic &material, MPI_Comm comm);
+
+    /// Mesh of the body. Collective; throws InputError (@p where starts the message).
+    void
+    create_mesh(const MeshParameters &parameters, const std::string &where);
+
+    /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
+    /// of a cell; mapping of the largest degree on curved meshes; conformity constraints.
+    /// Collective; throws InputError for a region that the mesh does not have.
+    void
+    create_space(unsigned int                                         degree,
+                 const std::map<dealii::types::material_id, unsigned> &degree_by_region,
+                 const std::string                                   &where);
+
+    /// Degree of the displacement on @p cell.
+    unsigned int
+    degree(const CellIterator &cell) const
+    {
+      return cell->get_fe().degree;
+    }
+
+    /// Boundary id of @p boundary; throws InputError listing the names that exist.
+    dealii::types::boundary_id
+    boundary_id(const std::string &boundary, const std::string &where) const;
+
+    /// Number of cells, smallest and largest degree over all ranks. Collective.
+    struct Statistics
+    {
+      dealii::types::global_cell_index cells      = 0;
+      unsigned int                     degree_min = 0;
+      unsigned int                     degree_max = 0;
+    };
+    Statistics
+    statistics() const;
+
+    const std::string   name;
+    const unsigned int  index;
+    const LinearElastic material;
+
+    HexTriangulation             triangulation;
+    MeshNames                    names;
+    bool                         curved = false; ///< not meshed by trilinear cells
+    dealii::hp::FECollection<dim> fe;             ///< FESystem(FE_Legendre(p), 3), rising p
+    dealii::DoFHandler<dim>      dof_handler;
+
+    std::unique_ptr<dealii::MappingQCache<dim>> mapping;
+    unsigned int                                mapping_degree = 1;
+
+    dealii::IndexSet                  relevant_dofs; ///< of owned and ghost cells, and their masters
+    dealii::AffineConstraints<double> conformity; ///< hanging nodes and mixed degrees; left open
+    std::unique_ptr<EntityDegrees>    degrees;    ///< of edges and faces, by the minimum rule
+  };
+} // namespace mortise

@@ -1,0 +1,39 @@
+// Prescribed displacements of one body as constraints, and prescribed tractions as data.
+// It never assembles.
+#pragma once
+
+#include <mortise/body/body.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+namespace mortise
+{
+  /// A prescribed displacement of some components on one boundary.
+  struct DirichletCondition
+  {
+    dealii::types::boundary_id                                    boundary;
+    std::array<bool, dim>                                         fixed{}; ///< components it prescribes
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> value; ///< a length; empty: zero
+  };
+
+  /// A prescribed traction on one boundary.
+  struct TractionCondition
+  {
+    dealii::types::boundary_id boundary;
+    /// Force per area at a point with outward unit normal.
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &, const dealii::Tensor<1, dim> &)>
+      traction;
+  };
+
+  /// Constrain the displacements of @p body on its Dirichlet boundaries. The values are interpolated
+  /// by projections: at vertices, then in L2 on edges, then on faces, up to the degree that
+  /// conformity leaves (Demkowicz, projection-based interpolation). @p constraints holds the body's
+  /// conformity constraints, is not closed, and stays so; dofs that it constrains are left alone.
+  /// Collective.
+  void
+  add_dirichlet_constraints(const Body                            &body,
+                            const std::vector<DirichletCondition> &conditions,
+                            dealii::AffineConstraints<double>     &constraints);
+} // namespace mortise

@@ -1,0 +1,84 @@
+// The minimum rule: the polynomial degree of each edge and face of a mesh is the least of all
+// cells around it, across hanging nodes and ranks, and the degree of freedom that stands for a
+// mode there. It never writes constraints (see hp_constraints.h).
+#pragma once
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <map>
+#include <vector>
+
+namespace mortise
+{
+  /// Degrees of edges and faces by the minimum rule, for a DoFHandler whose elements are
+  /// FE_Legendre or FESystem(FE_Legendre(p), n). The space is
+  ///
+  /// - cell interiors: all modes of the cell's degree;
+  /// - faces, edges: modes up to the least degree of all cells that touch them with more than a
+  ///   vertex, those on the finer side of a hanging face or edge included;
+  /// - edges of a face that is refined on one side only: not above the degree of that face, since
+  ///   their modes must be represented by every cell on its finer side.
+  ///
+  /// Valid on locally owned and ghost cells. The object must be rebuilt when the DoFHandler
+  /// changes; it keeps a reference to it.
+  class EntityDegrees
+  {
+  public:
+    using CellIterator = dealii::DoFHandler<3>::active_cell_iterator;
+
+    /// Collective over the ranks of @p dof_handler, whose degrees of freedom are distributed.
+    explicit EntityDegrees(const dealii::DoFHandler<3> &dof_handler);
+
+    /// Degree of line @p l of @p cell: 1 .. degree of the cell.
+    unsigned int
+    line_degree(const CellIterator &cell, unsigned int l) const;
+
+    /// Degree of face @p f of @p cell in both directions: 1 .. degree of the cell.
+    unsigned int
+    quad_degree(const CellIterator &cell, unsigned int f) const;
+
+    /// Whether all cells of all ranks have one element: degrees are then those of the cells and
+    /// get_master_dofs() gives the cell's own degrees of freedom.
+    bool
+    one_degree() const
+    {
+      return uniform;
+    }
+
+    /// For each local degree of freedom of @p cell the global index of the one that carries its
+    /// mode in the minimum-rule space: itself, that of a neighbour of another degree, or
+    /// numbers::invalid_dof_index if the mode is above the degree of its edge or face (zero).
+    /// Those of hanging edges and faces are not resolved to the coarse side here.
+    /// @p masters is resized to the cell's n_dofs_per_cell().
+    void
+    get_master_dofs(const CellIterator                           &cell,
+                    std::vector<dealii::types::global_dof_index> &masters) const;
+
+  private:
+    /// The element (index in the collection) that stands for an entity.
+    using Entity = std::vector<unsigned char>;
+
+    void
+    collect_from_cells();
+    void
+    spread_over_hanging_faces();
+    void
+    spread_over_hanging_lines();
+    void
+    exchange_degrees();
+    void
+    exchange_masters();
+    void
+    find_masters(const CellIterator                           &cell,
+                 std::vector<dealii::types::global_dof_index> &masters) const;
+    void
+    lower(unsigned char &element, unsigned int candidate) const;
+
+    const dealii::DoFHandler<3> &dof_handler;
+    bool                         uniform;
+    Entity                       line_degrees, quad_degrees;                ///< by index
+    Entity                       vertex_element, line_element, quad_element; ///< by index
+    /// Of those ghost cells where they are not the cell's own, as their owners see them.
+    std::map<unsigned int, std::vector<dealii::types::global_dof_index>> ghost_masters;
+  };
+} // namespace mortise

@@ -1,0 +1,41 @@
+// Coarse hexahedral meshes of simple bodies as plain data, in the body's own coordinates.
+// It never builds a triangulation, never moves the body and never checks its input's ranges.
+#pragma once
+
+#include <mortise/body/mesh_source.h>
+
+#include <deal.II/grid/manifold.h>
+#include <deal.II/grid/tria_description.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// Vertices, cells and boundary faces before a triangulation is made of them.
+  struct CoarseMesh
+  {
+    std::vector<dealii::Point<3>>    vertices;
+    std::vector<dealii::CellData<3>> cells;
+    dealii::SubCellData              faces; ///< boundary faces with their ids
+    MeshNames                        names;
+
+    /// Geometry of all entities, moved like the vertices; none: flat.
+    std::unique_ptr<dealii::Manifold<3>> manifold;
+  };
+
+  /// The body described by @p parameters (any source but file), vertices already moved.
+  CoarseMesh
+  generate(const MeshParameters &parameters);
+
+  /// Boundary names of a generator, in the order of their ids.
+  std::vector<std::string>
+  generator_boundaries(const MeshParameters &parameters);
+
+  /// Names of the generators ("Source" but file) and of the surfaces of a curved block.
+  std::vector<std::string>
+  generator_names();
+  std::vector<std::string>
+  surface_names();
+} // namespace mortise

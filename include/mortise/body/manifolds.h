@@ -1,0 +1,108 @@
+// Closed-form geometry of curved bodies: sphere, cylinder, block with a curved middle surface.
+// Smooth, cheap, never iterative; each carries the rigid motion of its body and has no length
+// scale of its own.
+#pragma once
+
+#include <mortise/base/rigid_motion.h>
+
+#include <deal.II/grid/manifold.h>
+
+#include <memory>
+
+namespace mortise
+{
+  /// Concentric spheres about the body's origin: a point between others has the weighted mean of
+  /// their radii and the normalised weighted mean of their directions. Weights must be such that
+  /// the mean direction does not vanish (an octant always is).
+  class SphereManifold : public dealii::Manifold<3>
+  {
+  public:
+    explicit SphereManifold(const RigidMotion &motion);
+
+    std::unique_ptr<dealii::Manifold<3>>
+    clone() const override;
+
+    dealii::Point<3>
+    get_new_point(const dealii::ArrayView<const dealii::Point<3>> &points,
+                  const dealii::ArrayView<const double>           &weights) const override;
+
+    void
+    get_new_points(const dealii::ArrayView<const dealii::Point<3>> &points,
+                   const dealii::Table<2, double>                  &weights,
+                   dealii::ArrayView<dealii::Point<3>>              new_points) const override;
+
+    dealii::Tensor<1, 3>
+    get_tangent_vector(const dealii::Point<3> &x1, const dealii::Point<3> &x2) const override;
+
+  private:
+    dealii::Point<3> centre;
+  };
+
+  /// Concentric cylinders about the body's z axis; chart (r, angle, z) with the angle in
+  /// (-pi, pi], so a body must not cross the half plane y = 0, x < 0.
+  class CylinderManifold : public dealii::ChartManifold<3>
+  {
+  public:
+    explicit CylinderManifold(const RigidMotion &motion);
+
+    std::unique_ptr<dealii::Manifold<3>>
+    clone() const override;
+    dealii::Point<3>
+    pull_back(const dealii::Point<3> &p) const override;
+    dealii::Point<3>
+    push_forward(const dealii::Point<3> &chart) const override;
+    dealii::DerivativeForm<1, 3, 3>
+    push_forward_gradient(const dealii::Point<3> &chart) const override;
+
+  private:
+    RigidMotion motion;
+  };
+
+  /// A block x0..x1, y0..y1, z0..z1 whose middle plane z = z_middle is bent into
+  /// z = z_middle + F(x, y): chart (x, y, zeta) with z = zeta + g(zeta) F(x, y), where the hat
+  /// function g is 1 on the middle plane and falls linearly to 0 on bottom and top. Linear in zeta
+  /// in each half, so inverted exactly. Needs |F| below the height of each half.
+  class CurvedBlockManifold : public dealii::ChartManifold<3>
+  {
+  public:
+    /// Formulas in MeshParameters.
+    enum class Surface
+    {
+      bump,
+      saddle,
+      wave
+    };
+
+    /// The block and its middle surface.
+    struct Shape
+    {
+      double  x0, y0, z0, x1, y1, z1;
+      double  z_middle;
+      double  amplitude;
+      Surface surface;
+
+      /// Height F over the middle plane and its derivatives in x and y.
+      struct Height
+      {
+        double value, dx, dy;
+      };
+      Height
+      height(double x, double y) const;
+    };
+
+    CurvedBlockManifold(const Shape &shape, const RigidMotion &motion);
+
+    std::unique_ptr<dealii::Manifold<3>>
+    clone() const override;
+    dealii::Point<3>
+    pull_back(const dealii::Point<3> &p) const override;
+    dealii::Point<3>
+    push_forward(const dealii::Point<3> &chart) const override;
+    dealii::DerivativeForm<1, 3, 3>
+    push_forward_gradient(const dealii::Point<3> &chart) const override;
+
+  private:
+    Shape       shape;
+    RigidMotion motion;
+  };
+} // namespace mortise

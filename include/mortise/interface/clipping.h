@@ -1,0 +1,128 @@
+// The overlap of a slave face with a master face as a closed loop in the slave's reference
+// square. It never places quadrature points and never looks at distances or normals.
+#pragma once
+
+#include <mortise/interface/projection.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// One side of an overlap, from p to q in the slave's reference coordinates: straight, or the
+  /// pull-back of a part of a master edge.
+  struct LoopPiece
+  {
+    double p[2], q[2];
+    int    edge  = -1;      ///< master edge 0..3, see EdgePolynomial; -1: straight
+    double tau_p = 0;       ///< parameters of the ends on that edge
+    double tau_q = 0;
+    double mid[2] = {0, 0}; ///< the curve's point at the mean of both parameters
+  };
+
+  /// Clips the four curved edges of a master face, pulled back to the slave's reference
+  /// coordinates, against the unit square.
+  ///
+  /// Every edge is cut where it crosses a side of the square, by Newton's method on
+  /// (tau, xi, alpha) within a bracket; after that no piece crosses a side, and Sutherland and
+  /// Hodgman's walk needs no geometry for curved pieces. Pieces that lie outside on one side are
+  /// replaced by their chords, which are outside as well. No decision depends on a tolerance in
+  /// a way that could change the area by more than rounding: values below 1e-13 count as "on the
+  /// side", and taking them for inside or outside is equally right.
+  class LoopClipper
+  {
+  public:
+    /// Compute the loop; it runs in the direction in which the master's edges run. Returns false
+    /// where a Newton iteration near the slave face did not converge.
+    bool
+    clip(const SlaveMap &slave, const MasterMap &master);
+
+    /// The overlap; empty where there is none.
+    std::vector<LoopPiece> loop;
+
+    /// The whole master face lies in the slave face: the loop is the master's own boundary.
+    bool whole_master = false;
+
+    /// The loop is the boundary of the whole square.
+    bool whole_slave = false;
+
+    /// Signed area of the polygon through ends and middles of the pieces, and its centroid.
+    double area        = 0;
+    double centroid[2] = {0, 0};
+
+  private:
+    struct Breakpoint
+    {
+      unsigned int edge;
+      double       tau;
+      double       xi[2], dxi[2];
+    };
+
+    struct Segment
+    {
+      unsigned int first; ///< breakpoints first and first + 1
+      bool         far;   ///< outside on one side
+    };
+
+    struct Crossing
+    {
+      unsigned int segment, side;
+      double       tau_0, tau_1, f_0, f_1; ///< bracket
+      double       tau;
+      double       xi[2];
+    };
+
+    void
+    subdivide_edge(const unsigned int edge);
+    void
+    subdivide(const unsigned int edge, const double tau_0, const double tau_1, unsigned int depth);
+    void
+    locate_breakpoints();
+    void
+    find_crossings(const unsigned int segment, const unsigned int side);
+    void
+    sample_segment(const unsigned int segment, const unsigned int side);
+    void
+    solve_crossings();
+    void
+    solve_batch(const unsigned int begin, const unsigned int n);
+    void
+    solve_by_sections(Crossing &crossing);
+    void
+    pull_back_edge(const unsigned int edge, const Lanes &tau, Lanes (&xi)[2], const unsigned int n);
+    void
+    build_pieces();
+    void
+    add_piece(const Segment &segment, LoopPiece piece);
+    void
+    locate_middles();
+    void
+    settle(LoopPiece &piece);
+    void
+    clip_straight(const unsigned int side);
+    void
+    measure();
+
+    const SlaveMap  *slave  = nullptr;
+    const MasterMap *master = nullptr;
+    bool             failed = false;
+
+    std::vector<Breakpoint> breakpoints;
+    std::vector<Segment>    segments;
+    std::vector<Crossing>   crossings;
+    std::vector<LoopPiece>  scratch;
+    std::vector<double>     control; ///< stack of control polygons of the subdivision
+  };
+
+  /// A convex polygon with few corners.
+  struct ConvexPolygon
+  {
+    static constexpr unsigned int max_corners = 16;
+
+    unsigned int n = 0;
+    double       x[max_corners][2];
+  };
+
+  /// Sutherland and Hodgman for straight edges: the part of @p polygon in [0,1]^2.
+  void
+  clip_to_unit_square(ConvexPolygon &polygon);
+} // namespace mortise

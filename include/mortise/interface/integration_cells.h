@@ -1,0 +1,115 @@
+// Quadrature on the overlap of a slave face with a master face: clip, cut into cells, place
+// points and map each back to both faces. It never knows shape functions or degrees of freedom.
+#pragma once
+
+#include <mortise/interface/search.h>
+#include <mortise/interface/surface_face.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// Points of one pair, as separate arrays that keep their storage from pair to pair. Entry q of
+  /// each array belongs to the same point: x_m(eta) = x_s(xi) + gap n/|n|, n the slave's averaged
+  /// normal field.
+  struct IntegrationPoints
+  {
+    std::array<std::vector<double>, 2> slave_xi;   ///< reference coordinates in the slave face
+    std::array<std::vector<double>, 2> master_eta; ///< reference coordinates in the master face
+    std::vector<double>                weight;     ///< area on the true slave surface
+    std::array<std::vector<double>, 3> slave_x;    ///< position on the slave face
+    std::array<std::vector<double>, 3> master_x;   ///< position on the master face
+    std::vector<double>                gap; ///< along the unit normal; positive: open
+
+    unsigned int
+    size() const
+    {
+      return weight.size();
+    }
+
+    void
+    resize(const unsigned int n);
+  };
+
+  /// What became of a pair.
+  enum class PairStatus : unsigned char
+  {
+    accepted,
+    no_overlap,    ///< nothing left after clipping
+    normals_agree, ///< the outward normals do not oppose everywhere on the overlap
+    too_far,       ///< the gap exceeds the search fraction of the larger face somewhere
+    failed         ///< a Newton iteration did not converge: to be counted and reported
+  };
+
+  struct PairResult
+  {
+    PairStatus   status  = PairStatus::no_overlap;
+    double       area    = 0; ///< of the overlap on the slave surface; 0 unless accepted
+    unsigned int n_cells = 0; ///< integration cells
+    double       max_gap = 0; ///< largest |gap| of the points
+  };
+
+  /// Points per direction in each integration cell, for products of two shape functions of
+  /// the given degrees. @p linear: both faces are parallelograms with one common normal, all
+  /// cells have straight edges and all maps are linear. The choice and its measured errors stand
+  /// with the definition.
+  unsigned int
+  quadrature_points(const unsigned int degree_slave,
+                    const unsigned int degree_master,
+                    const bool         linear);
+
+  /// Integrates over one slave face after the other against any number of masters. Owns all
+  /// scratch memory: one object per thread.
+  class PairIntegrator
+  {
+  public:
+    explicit PairIntegrator(const double search_fraction = default_search_fraction);
+    ~PairIntegrator();
+
+    /// Choose the slave face of the pairs to come. Copies what it needs.
+    void
+    reinit(const SurfaceFace &slave);
+
+    /// The overlap of the present slave with @p master; @p points is overwritten and is empty
+    /// unless the pair is accepted. The degrees are those of the shape functions.
+    PairResult
+    integrate(const SurfaceFace &master,
+              const unsigned int degree_slave,
+              const unsigned int degree_master,
+              IntegrationPoints &points);
+
+    /// Points per direction and cell; 0 (default): as quadrature_points() says.
+    void
+    set_points_per_direction(const unsigned int n);
+
+    /// Area of the present slave face.
+    double
+    slave_area() const;
+
+    struct Scratch;
+
+  private:
+    std::unique_ptr<Scratch> scratch;
+  };
+
+  /// Sums over the pairs of one slave face or of many.
+  struct Coverage
+  {
+    double       slave_area   = 0;
+    double       covered_area = 0;
+    unsigned int n_candidates = 0;
+    unsigned int n_pairs      = 0; ///< accepted ones
+    unsigned int n_cells      = 0;
+    unsigned int n_points     = 0;
+    unsigned int n_failures   = 0; ///< pairs with status failed
+    double       max_gap      = 0;
+
+    void
+    add(const Coverage &other);
+
+    void
+    add(const PairResult &pair, const unsigned int n_points);
+  };
+} // namespace mortise

@@ -1,0 +1,146 @@
+// The one rule for points of the interface, x_m(eta) = x_s(xi) + alpha n(xi), solved in both
+// directions on the true curved faces. It never decides whether two faces belong together.
+#pragma once
+
+#include <mortise/interface/surface_evaluation.h>
+
+namespace mortise
+{
+  /// A slave face with its normal field n: bilinear in the vertex normals. All positions are
+  /// relative to origin(), the face's centre, so that a scene far from zero loses nothing.
+  class SlaveMap
+  {
+  public:
+    void
+    reinit(const SurfaceFace &slave);
+
+    const dealii::Point<3> &
+    origin() const
+    {
+      return frame.center;
+    }
+
+    /// A parallelogram with one normal: chart() is the exact pull-back.
+    bool
+    linear() const
+    {
+      return is_linear;
+    }
+
+    /// Reference coordinates and height in the linear picture of the face.
+    void
+    chart(const Vec3<Lanes> &x, Lanes (&xi)[2], Lanes &height) const;
+
+    /// Position, derivatives and normal field at points of the face.
+    void
+    evaluate(const Lanes (&xi)[2], Vec3<Lanes> &x, Vec3<Lanes> (&dx)[2]) const;
+
+    Vec3<Lanes>
+    normal(const Lanes (&xi)[2]) const;
+
+    /// What a Newton step needs at any xi: the face continued by its tangents outside of the
+    /// reference square (continuously, and well defined however far away), the normal field
+    /// continued as a constant, and dx[i] + alpha dn/dxi_i.
+    void
+    evaluate_extended(const Lanes (&xi)[2],
+                      const Lanes &alpha,
+                      Vec3<Lanes> &x,
+                      Vec3<Lanes> (&dx)[2],
+                      Vec3<Lanes> &n) const;
+
+    /// Solve x = x_s(xi) + alpha n(xi) for xi and alpha. Points far outside of the face get their
+    /// chart coordinates: only the side on which they lie matters there. With @p has_guess, xi
+    /// and alpha start the iteration. Returns the lanes that did not converge as bits.
+    unsigned int
+    pull_back(const Vec3<Lanes> &x, const bool has_guess, Lanes (&xi)[2], Lanes &alpha) const;
+
+    /// d xi / d tau for a point that moves with velocity @p dx, by differentiating the rule.
+    void
+    pull_back_derivative(const Vec3<Lanes> &dx,
+                         const Lanes (&xi)[2],
+                         const Lanes &alpha,
+                         Lanes (&dxi)[2]) const;
+
+    /// Chart coordinates beyond these, widened by twist() times the height, belong to points that
+    /// are outside of the face on that side.
+    double near_lower[2], near_upper[2];
+
+    /// How much the normal field tilts against the frame's normal, in reference coordinates per
+    /// unit of height.
+    double
+    twist() const
+    {
+      return normal_twist;
+    }
+
+    /// Heights beyond this count as this (the farthest master that can be a partner).
+    double height_limit;
+
+  private:
+    bool           is_linear;
+    FaceFrame      frame;
+    FacePolynomial polynomial;
+    Vec3<double>   center_dual[2], height_dual;
+    Vec3<double>   vertex_normal[4]; ///< as coefficients of 1, xi_1, xi_2, xi_1 xi_2
+    double         normal_twist;
+  };
+
+  /// A master face relative to the origin of a slave face.
+  class MasterMap
+  {
+  public:
+    void
+    reinit(const SurfaceFace &master, const dealii::Point<3> &origin);
+
+    bool
+    affine() const
+    {
+      return is_affine;
+    }
+
+    /// Solve x_m(eta) = x + alpha n for eta and alpha, n fixed. With @p has_guess, eta starts the
+    /// iteration. @p x_m is the point, @p slope the product n . outward master normal direction
+    /// (negative where the faces oppose). Returns the lanes that did not converge as bits.
+    unsigned int
+    project(const Vec3<Lanes> &x,
+            const Vec3<Lanes> &n,
+            const bool         has_guess,
+            Lanes (&eta)[2],
+            Lanes       &alpha,
+            Vec3<Lanes> &x_m,
+            Lanes       &slope) const;
+
+    FacePolynomial polynomial;
+    EdgePolynomial edges[4];
+    double         orientation;
+
+  private:
+    bool         is_affine;
+    Vec3<double> center, tangent[2];
+  };
+
+  /// Coefficients of r = s[0] a + s[1] b + s[2] c.
+  inline void
+  solve_3x3(const Vec3<Lanes> &a,
+            const Vec3<Lanes> &b,
+            const Vec3<Lanes> &c,
+            const Vec3<Lanes> &r,
+            Lanes (&s)[3])
+  {
+    const Vec3<Lanes> bc = cross(b, c);
+    const Lanes       d  = 1. / dot(a, bc);
+    s[0]                 = dot(r, bc) * d;
+    s[1]                 = dot(r, cross(c, a)) * d;
+    s[2]                 = dot(r, cross(a, b)) * d;
+  }
+
+  /// Bit l is set where lane l of @p a exceeds lane l of @p b or is not a number.
+  inline unsigned int
+  lanes_above(const Lanes &a, const Lanes &b)
+  {
+    unsigned int result = 0;
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      result |= static_cast<unsigned int>(!(a[l] <= b[l])) << l;
+    return result;
+  }
+} // namespace mortise

@@ -1,0 +1,126 @@
+// Exact solutions of elastic problems, with stresses and body forces derived exactly.
+// It never uses a mesh or finite differences.
+#pragma once
+
+#include <mortise/base/expression.h>
+#include <mortise/base/rigid_motion.h>
+#include <mortise/material/linear_elastic.h>
+
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// A displacement field on one or several bodies. @p body is the index of the body in the scene;
+  /// points are in the scene's (moved) coordinates.
+  class ExactSolution
+  {
+  public:
+    virtual ~ExactSolution() = default;
+
+    virtual dealii::Tensor<1, 3>
+    displacement(const dealii::Point<3> &p, unsigned int body) const = 0;
+
+    /// gradient[i][j] = d u_i / d x_j.
+    virtual dealii::Tensor<2, 3>
+    gradient(const dealii::Point<3> &p, unsigned int body) const = 0;
+
+    virtual dealii::SymmetricTensor<2, 3>
+    stress(const dealii::Point<3> &p, unsigned int body) const = 0;
+
+    /// Force per volume, -div sigma.
+    virtual dealii::Tensor<1, 3>
+    body_force(const dealii::Point<3> &p, unsigned int body) const = 0;
+
+    virtual unsigned int
+    n_bodies() const = 0;
+  };
+
+  /// A displacement given by expressions, the same in every body; stresses by body's material.
+  class ExpressionSolution : public ExactSolution
+  {
+  public:
+    ExpressionSolution(const VectorExpression           &displacement,
+                       const std::vector<LinearElastic> &materials);
+
+    dealii::Tensor<1, 3>
+    displacement(const dealii::Point<3> &p, unsigned int body) const override;
+    dealii::Tensor<2, 3>
+    gradient(const dealii::Point<3> &p, unsigned int body) const override;
+    dealii::SymmetricTensor<2, 3>
+    stress(const dealii::Point<3> &p, unsigned int body) const override;
+    dealii::Tensor<1, 3>
+    body_force(const dealii::Point<3> &p, unsigned int body) const override;
+    unsigned int
+    n_bodies() const override;
+
+  private:
+    VectorExpression           expression;
+    std::vector<LinearElastic> materials;
+  };
+
+  /// Lame's thick sphere, or thick cylinder in plane strain, of one or more concentric layers
+  /// under pressure inside and outside; displacement and radial stress are continuous where two
+  /// layers meet. u_r = A r + B / r^(d-1) with d = 3 (sphere) or 2 (cylinder) in each layer.
+  /// Source: Timoshenko and Goodier, Theory of Elasticity, chapters 4 and 12.
+  class LameSolution : public ExactSolution
+  {
+  public:
+    enum class Geometry
+    {
+      sphere,
+      cylinder ///< axis z before the motion
+    };
+
+    struct Layer
+    {
+      double        inner_radius;
+      double        outer_radius;
+      LinearElastic material; ///< nu = 0.5 is allowed here
+    };
+
+    /// Layer i is body i; layers may come in any order of radius. The centre (axis) is the origin
+    /// (z axis) before @p motion. Pressures are positive in compression. Throws InputError for
+    /// radii that are not 0 < inner < outer and for layers that do not touch (1e-8 relative).
+    LameSolution(Geometry                  geometry,
+                 const std::vector<Layer> &layers,
+                 double                    pressure_inside,
+                 double                    pressure_outside = 0.,
+                 const RigidMotion        &motion           = RigidMotion());
+
+    dealii::Tensor<1, 3>
+    displacement(const dealii::Point<3> &p, unsigned int body) const override;
+    dealii::Tensor<2, 3>
+    gradient(const dealii::Point<3> &p, unsigned int body) const override;
+    dealii::SymmetricTensor<2, 3>
+    stress(const dealii::Point<3> &p, unsigned int body) const override;
+    /// Zero.
+    dealii::Tensor<1, 3>
+    body_force(const dealii::Point<3> &p, unsigned int body) const override;
+    unsigned int
+    n_bodies() const override;
+
+    /// u_r at @p radius in layer @p body.
+    double
+    radial_displacement(double radius, unsigned int body) const;
+    /// sigma_r at @p radius in layer @p body (negative in compression).
+    double
+    radial_stress(double radius, unsigned int body) const;
+
+  private:
+    /// u_r = A r + B / r^(d-1); sigma_r = mean - shear / r^d. The stresses have constants of their
+    /// own, which stay finite at nu = 0.5.
+    struct Coefficients
+    {
+      double A, B, mean, shear, poisson_ratio;
+    };
+
+    /// p in the frame of the solution, projected to the xy plane for the cylinder.
+    dealii::Tensor<1, 3>
+    radius_vector(const dealii::Point<3> &p) const;
+
+    unsigned int              d; ///< 3 for the sphere, 2 for the cylinder
+    std::vector<Coefficients> coefficients;
+    RigidMotion               motion;
+  };
+} // namespace mortise

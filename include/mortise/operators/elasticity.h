@@ -1,0 +1,43 @@
+// Linear elasticity of one body assembled into the system of the scene, and its loads.
+// It never knows of interfaces and never solves.
+#pragma once
+
+#include <mortise/base/types.h>
+#include <mortise/body/body.h>
+#include <mortise/body/boundary_conditions.h>
+#include <mortise/body/numbering.h>
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <functional>
+#include <vector>
+
+namespace mortise
+{
+  /// Loads on one body.
+  struct Loads
+  {
+    /// Force per volume; empty: none.
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> body_force;
+    std::vector<TractionCondition>                                    tractions;
+  };
+
+  /// Couplings of the dofs of each cell of @p body. @p constraints are those of the scene.
+  void
+  add_cell_couplings(const Body                              &body,
+                     const DisplacementNumbering             &numbering,
+                     const dealii::AffineConstraints<double> &constraints,
+                     dealii::DynamicSparsityPattern          &sparsity);
+
+  /// Add int sigma(u):eps(v) and int b.v + int t.v to @p stiffness and @p load, constraints
+  /// resolved; the caller compresses. Collective; throws InputError on all ranks for a cell of
+  /// negative volume.
+  void
+  assemble_elasticity(const Body                              &body,
+                      const Loads                             &loads,
+                      const DisplacementNumbering             &numbering,
+                      const dealii::AffineConstraints<double> &constraints,
+                      SparseMatrix                            &stiffness,
+                      Vector                                  &load);
+} // namespace mortise

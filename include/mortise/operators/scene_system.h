@@ -1,0 +1,35 @@
+// The system of a scene from its bodies: constraints in one numbering, the stiffness of all
+// bodies, and the structure that preconditioners use. It never looks at interfaces.
+#pragma once
+
+#include <mortise/operators/block_system.h>
+#include <mortise/operators/elasticity.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  using Bodies = std::vector<std::unique_ptr<Body>>;
+
+  /// The constraints of all bodies (conformity and Dirichlet, each in its body's numbering, not
+  /// closed) in the numbering of the scene, closed.
+  dealii::AffineConstraints<double>
+  scene_constraints(const Bodies                                         &bodies,
+                    const DisplacementNumbering                          &numbering,
+                    const std::vector<dealii::AffineConstraints<double>> &body_constraints);
+
+  /// Assemble stiffness and load of @p system. Collective; throws InputError for tangled cells.
+  void
+  assemble_bodies(const Bodies                            &bodies,
+                  const std::vector<Loads>                &loads,
+                  const DisplacementNumbering             &numbering,
+                  const dealii::AffineConstraints<double> &constraints,
+                  BlockSystem                             &system);
+
+  /// Fill vertex_dofs, vertex_points, vertex_body, entity_blocks and max_degree of @p system.
+  void
+  describe_structure(const Bodies                &bodies,
+                     const DisplacementNumbering &numbering,
+                     BlockSystem                 &system);
+} // namespace mortise

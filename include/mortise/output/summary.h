@@ -1,0 +1,115 @@
+// The summary of a run, `summary.json`, as plain data: what scripts read. Members that a run
+// has no value for are absent in the file, not zero. It never computes anything.
+#pragma once
+
+#include <mortise/base/timers.h>
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mortise
+{
+  struct ProgramInfo
+  {
+    std::string  name = "mortise";
+    std::string  version;
+    std::string  dealii;
+    unsigned int ranks = 1;
+    std::string  build_type;
+  };
+
+  /// Name, versions and build type of this program on @p n_ranks ranks.
+  ProgramInfo
+  program_info(unsigned int n_ranks);
+
+  struct BodySummary
+  {
+    std::string   name;
+    std::string   shape; ///< "hexahedra" or "tetrahedra"
+    std::uint64_t cells      = 0;
+    unsigned int  degree_min = 0;
+    unsigned int  degree_max = 0;
+    std::uint64_t dofs       = 0;
+  };
+
+  struct DofSummary
+  {
+    std::uint64_t                displacement = 0;
+    std::optional<std::uint64_t> pressure;
+    std::optional<std::uint64_t> multiplier;
+    std::uint64_t                total = 0;
+  };
+
+  struct InterfaceSummary
+  {
+    std::string           name;
+    std::uint64_t         slave_faces        = 0;
+    std::uint64_t         master_faces       = 0;
+    std::uint64_t         candidate_pairs    = 0;
+    std::uint64_t         pairs              = 0;
+    std::uint64_t         integration_cells  = 0;
+    std::uint64_t         quadrature_points  = 0;
+    double                slave_area         = 0.;
+    double                covered_area       = 0.;
+    std::optional<double> worst_face_coverage_error;
+    std::optional<double> partition_of_unity_error;
+    std::optional<double> force_residual;
+    std::optional<double> moment_residual;
+    std::optional<double> linear_completeness_error;
+  };
+
+  struct SolverSummary
+  {
+    std::string                  method; ///< "saddle point", "condensed", "direct"
+    std::optional<std::string>   preconditioner;
+    std::optional<std::uint64_t> iterations;
+    double                       relative_residual = 0.;
+  };
+
+  /// Relative errors against the exact solution.
+  struct ErrorSummary
+  {
+    std::optional<double> displacement_l2;
+    std::optional<double> energy;
+    std::optional<double> multiplier_l2;
+  };
+
+  struct StepSummary
+  {
+    unsigned int                  step  = 0;
+    unsigned int                  cycle = 0;
+    std::vector<BodySummary>      bodies;
+    DofSummary                    dofs;
+    std::vector<InterfaceSummary> interfaces;
+    std::optional<SolverSummary>  solver; ///< absent until solved
+    std::optional<ErrorSummary>   errors; ///< absent without an exact solution
+    /// User-requested functionals in the order of the request: point values, resultants.
+    std::vector<std::pair<std::string, std::vector<double>>> quantities;
+  };
+
+  struct Summary
+  {
+    ProgramInfo                                 program;
+    std::string                                 title;
+    std::string                                 status; ///< "done", "not converged", ...
+    std::vector<StepSummary>                    steps;
+    std::vector<std::pair<std::string, double>> timings; ///< Timers::walls(), seconds
+    PeakMemory                                  memory;
+  };
+
+  /// The text of summary.json. Numbers are written with the digits that read back to the same
+  /// double (17 at most); one that is not finite is written as null.
+  std::string
+  to_json(const Summary &summary);
+
+  /// Write @p directory /summary.json, made with its parents if need be. A reader sees the old
+  /// file or the new one, never half of it. Rank 0 writes. Throws InputError on every rank if
+  /// the directory cannot be made or written. Collective.
+  void
+  write_summary(const Summary &summary, const std::string &directory, MPI_Comm comm);
+} // namespace mortise

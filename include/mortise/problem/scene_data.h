@@ -1,0 +1,36 @@
+// What the parameters of a scene mean as functions: exact solution, loads, prescribed
+// displacements. It never touches a mesh beyond the ids of its boundaries.
+#pragma once
+
+#include <mortise/body/boundary_conditions.h>
+#include <mortise/material/exact_solution.h>
+#include <mortise/operators/scene_system.h>
+#include <mortise/problem/parameters.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// Material of each body.
+  std::vector<LinearElastic>
+  materials(const Parameters &parameters);
+
+  /// The exact solution that the parameters name; null if there is none. The named ones take
+  /// radii, pressures, materials and the motion of the scene from the bodies. Throws InputError if
+  /// the bodies are not what the named solution is for.
+  std::shared_ptr<const ExactSolution>
+  make_exact_solution(const Parameters &parameters);
+
+  /// Body force and tractions of body @p b. The result refers to @p exact.
+  Loads
+  make_loads(const Parameters                           &parameters,
+             const Body                                 &body,
+             const std::shared_ptr<const ExactSolution> &exact);
+
+  /// Prescribed displacements of body @p b.
+  std::vector<DirichletCondition>
+  make_dirichlet(const Parameters                           &parameters,
+                 const Body                                 &body,
+                 const std::shared_ptr<const ExactSolution> &exact);
+} // namespace mortise

@@ -1,0 +1,18 @@
+// The one entrance to the solvers: chooses a method and runs it. It never changes the system.
+#pragma once
+
+#include <mortise/operators/block_system.h>
+#include <mortise/solvers/solve_report.h>
+#include <mortise/solvers/solver_options.h>
+
+namespace mortise
+{
+  /// Solve the system by the method asked for. Collective.
+  ///
+  /// @p u and @p lambda are (re)initialised to the owned ranges of the system; what they held is
+  /// not used. lambda has size zero without an interface.
+  /// A solve that does not reach the tolerance returns converged == false and the last iterate;
+  /// nothing is thrown. The reported residual is always recomputed from the equations.
+  SolveReport
+  solve(const BlockSystem &system, const SolverOptions &options, Vector &u, Vector &lambda);
+} // namespace mortise

@@ -1,0 +1,274 @@
+#include <mortise/body/entity_degrees.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/fe/fe.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned char no_element = 255;
+
+    /// Number of components n of an element FESystem(FE_Legendre(p), n), 1 for a scalar one.
+    unsigned int
+    n_components(const FiniteElement<3> &fe)
+    {
+      Assert(fe.n_base_elements() == 1, ExcMessage("one base element is needed"));
+      return fe.n_components();
+    }
+  } // namespace
+
+  EntityDegrees::EntityDegrees(const DoFHandler<3> &dof_handler)
+    : dof_handler(dof_handler)
+  {
+    AssertThrow(dof_handler.get_fe_collection().size() < no_element,
+                ExcMessage("at most 254 elements in a collection"));
+    unsigned int smallest = no_element, largest = 0;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          smallest = std::min<unsigned int>(smallest, cell->active_fe_index());
+          largest  = std::max<unsigned int>(largest, cell->active_fe_index());
+        }
+    const MPI_Comm comm = dof_handler.get_communicator();
+    uniform = Utilities::MPI::min(smallest, comm) >= Utilities::MPI::max(largest, comm);
+    if (uniform)
+      return;
+
+    collect_from_cells();
+    spread_over_hanging_faces();
+    spread_over_hanging_lines();
+    // A hanging face far from this rank lowers its edges, which may be edges here: the owner of
+    // the coarse cell knows. The second round brings the ghost cells up to date.
+    exchange_degrees();
+    spread_over_hanging_lines();
+    exchange_degrees();
+    exchange_masters();
+  }
+
+  void
+  EntityDegrees::lower(unsigned char &element, const unsigned int candidate) const
+  {
+    const auto &fes = dof_handler.get_fe_collection();
+    if (element == no_element ||
+        std::make_pair(fes[candidate].degree, candidate) <
+          std::make_pair(fes[element].degree, static_cast<unsigned int>(element)))
+      element = candidate;
+  }
+
+  void
+  EntityDegrees::collect_from_cells()
+  {
+    const Triangulation<3> &triangulation = dof_handler.get_triangulation();
+    line_degrees.assign(triangulation.n_raw_lines(), 255);
+    quad_degrees.assign(triangulation.n_raw_quads(), 255);
+    vertex_element.assign(triangulation.n_vertices(), no_element);
+    line_element.assign(triangulation.n_raw_lines(), no_element);
+    quad_element.assign(triangulation.n_raw_quads(), no_element);
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        {
+          const unsigned int  element = cell->active_fe_index();
+          const unsigned char degree  = cell->get_fe().degree;
+          for (const unsigned int v : cell->vertex_indices())
+            lower(vertex_element[cell->vertex_index(v)], element);
+          for (const unsigned int l : cell->line_indices())
+            {
+              lower(line_element[cell->line_index(l)], element);
+              line_degrees[cell->line_index(l)] =
+                std::min(line_degrees[cell->line_index(l)], degree);
+            }
+          for (const unsigned int f : cell->face_indices())
+            {
+              lower(quad_element[cell->face_index(f)], element);
+              quad_degrees[cell->face_index(f)] =
+                std::min(quad_degrees[cell->face_index(f)], degree);
+            }
+        }
+  }
+
+  void
+  EntityDegrees::spread_over_hanging_faces()
+  {
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int f : cell->face_indices())
+          {
+            const auto face = cell->face(f);
+            if (!face->has_children())
+              continue;
+            unsigned char degree = quad_degrees[face->index()];
+            for (unsigned int c = 0; c < 4; ++c)
+              degree = std::min(degree, quad_degrees[face->child(c)->index()]);
+            quad_degrees[face->index()] = degree;
+            for (unsigned int c = 0; c < 4; ++c)
+              quad_degrees[face->child(c)->index()] = degree;
+            for (unsigned int l = 0; l < 4; ++l)
+              {
+                unsigned char &edge = line_degrees[face->line(l)->index()];
+                edge                = std::min(edge, degree);
+              }
+            // The four lines inside the face.
+            for (const auto &[c, l] : {std::pair<unsigned int, unsigned int>{0, 1},
+                                       {0, 3},
+                                       {3, 0},
+                                       {3, 2}})
+              line_degrees[face->child(c)->line(l)->index()] = degree;
+          }
+  }
+
+  void
+  EntityDegrees::spread_over_hanging_lines()
+  {
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (!cell->is_artificial())
+        for (const unsigned int l : cell->line_indices())
+          {
+            const auto line = cell->line(l);
+            if (!line->has_children())
+              continue;
+            unsigned char &degree = line_degrees[line->index()];
+            for (unsigned int c = 0; c < 2; ++c)
+              degree = std::min(degree, line_degrees[line->child(c)->index()]);
+            for (unsigned int c = 0; c < 2; ++c)
+              line_degrees[line->child(c)->index()] = degree;
+          }
+  }
+
+  void
+  EntityDegrees::exchange_degrees()
+  {
+    using Degrees = std::array<unsigned char, 18>;
+    if (Utilities::MPI::n_mpi_processes(dof_handler.get_communicator()) == 1)
+      return;
+    const auto pack = [&](const CellIterator &cell) -> std_cxx17::optional<Degrees> {
+      Degrees degrees;
+      for (unsigned int l = 0; l < 12; ++l)
+        degrees[l] = line_degrees[cell->line_index(l)];
+      for (unsigned int f = 0; f < 6; ++f)
+        degrees[12 + f] = quad_degrees[cell->face_index(f)];
+      return degrees;
+    };
+    const auto unpack = [&](const CellIterator &cell, const Degrees &degrees) {
+      for (unsigned int l = 0; l < 12; ++l)
+        {
+          unsigned char &degree = line_degrees[cell->line_index(l)];
+          degree                = std::min(degree, degrees[l]);
+        }
+      for (unsigned int f = 0; f < 6; ++f)
+        {
+          unsigned char &degree = quad_degrees[cell->face_index(f)];
+          degree                = std::min(degree, degrees[12 + f]);
+        }
+    };
+    GridTools::exchange_cell_data_to_ghosts<Degrees, DoFHandler<3>>(dof_handler, pack, unpack);
+  }
+
+  void
+  EntityDegrees::exchange_masters()
+  {
+    using Masters = std::vector<types::global_dof_index>;
+    if (Utilities::MPI::n_mpi_processes(dof_handler.get_communicator()) == 1)
+      return;
+    Masters    dofs, masters;
+    const auto pack = [&](const CellIterator &cell) -> std_cxx17::optional<Masters> {
+      dofs.resize(cell->get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      find_masters(cell, masters);
+      if (masters == dofs)
+        return {};
+      return masters;
+    };
+    const auto unpack = [&](const CellIterator &cell, const Masters &masters) {
+      ghost_masters[cell->active_cell_index()] = masters;
+    };
+    GridTools::exchange_cell_data_to_ghosts<Masters, DoFHandler<3>>(dof_handler, pack, unpack);
+  }
+
+  unsigned int
+  EntityDegrees::line_degree(const CellIterator &cell, const unsigned int l) const
+  {
+    return uniform ? cell->get_fe().degree : line_degrees[cell->line_index(l)];
+  }
+
+  unsigned int
+  EntityDegrees::quad_degree(const CellIterator &cell, const unsigned int f) const
+  {
+    return uniform ? cell->get_fe().degree : quad_degrees[cell->face_index(f)];
+  }
+
+  void
+  EntityDegrees::get_master_dofs(const CellIterator                   &cell,
+                                 std::vector<types::global_dof_index> &masters) const
+  {
+    Assert(!cell->is_artificial(), ExcMessage("owned and ghost cells only"));
+    const auto ghost = cell->is_ghost() ? ghost_masters.find(cell->active_cell_index()) :
+                                          ghost_masters.end();
+    if (ghost != ghost_masters.end())
+      masters = ghost->second;
+    else if (uniform || cell->is_ghost())
+      {
+        masters.resize(cell->get_fe().n_dofs_per_cell());
+        cell->get_dof_indices(masters);
+      }
+    else
+      find_masters(cell, masters);
+  }
+
+  void
+  EntityDegrees::find_masters(const CellIterator                   &cell,
+                              std::vector<types::global_dof_index> &masters) const
+  {
+    const FiniteElement<3> &fe           = cell->get_fe();
+    const unsigned int      components   = n_components(fe);
+    const unsigned int      p            = fe.degree;
+    const unsigned int      n            = p - 1;
+    constexpr auto          zero         = numbers::invalid_dof_index;
+    const auto             &fes          = dof_handler.get_fe_collection();
+    const auto              first_on     = [&](const unsigned int structdim, const unsigned int o) {
+      return structdim == 1 ? fe.get_first_line_index() + o * fe.n_dofs_per_line() :
+                              fe.get_first_quad_index(o);
+    };
+    masters.resize(fe.n_dofs_per_cell());
+    cell->get_dof_indices(masters);
+
+    for (unsigned int v = 0; v < 8; ++v)
+      for (unsigned int c = 0; c < components; ++c)
+        masters[v * components + c] =
+          cell->vertex_dof_index(v, c, vertex_element[cell->vertex_index(v)]);
+
+    for (unsigned int l = 0; l < 12; ++l)
+      {
+        const unsigned int element = line_element[cell->line_index(l)];
+        const unsigned int degree  = line_degrees[cell->line_index(l)];
+        const unsigned int m       = fes[element].degree - 1;
+        for (unsigned int c = 0; c < components; ++c)
+          for (unsigned int i = 0; i < n; ++i)
+            masters[first_on(1, l) + c * n + i] =
+              i + 2 > degree ? zero : cell->line(l)->dof_index(c * m + i, element);
+      }
+
+    for (unsigned int f = 0; f < 6; ++f)
+      {
+        const unsigned int element  = quad_element[cell->face_index(f)];
+        const unsigned int degree   = quad_degrees[cell->face_index(f)];
+        const unsigned int m        = fes[element].degree - 1;
+        const bool         standard = cell->face_orientation(f);
+        for (unsigned int c = 0; c < components; ++c)
+          for (unsigned int j = 0; j < n; ++j)
+            for (unsigned int i = 0; i < n; ++i)
+              masters[first_on(2, f) + (c * n + j) * n + i] =
+                std::max(i, j) + 2 > degree ?
+                  zero :
+                  cell->quad(f)->dof_index((c * m + (standard ? j : i)) * m + (standard ? i : j),
+                                           element);
+      }
+  }
+} // namespace mortise

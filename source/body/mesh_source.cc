@@ -1,0 +1,164 @@
+#include <mortise/base/error.h>
+#include <mortise/body/mesh_file.h>
+#include <mortise/body/mesh_source.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The edges of a cell, from deal.II's line vertex 0 to 1, must run the same way in all cells.
+    bool
+    consistently_ordered(const std::vector<CellData<3>> &cells)
+    {
+      std::set<std::pair<unsigned int, unsigned int>> edges;
+      for (const CellData<3> &cell : cells)
+        for (unsigned int line = 0; line < 12; ++line)
+          edges.emplace(cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 0)],
+                        cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 1)]);
+      return std::none_of(edges.begin(), edges.end(), [&](const auto &edge) {
+        return edges.count({edge.second, edge.first}) > 0;
+      });
+    }
+
+    /// Order the cells so that a face between two of them is at most transposed; a mesh that has
+    /// no such order has one after a uniform refinement. Throws if even that fails.
+    void
+    order_cells(CoarseMesh &mesh, const std::string &where)
+    {
+      if (consistently_ordered(mesh.cells))
+        return;
+      std::vector<CellData<3>> ordered = mesh.cells;
+      GridTools::consistently_order_cells(ordered);
+      if (!consistently_ordered(ordered))
+        {
+          Triangulation<3> serial;
+          serial.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
+          serial.refine_global(1);
+          Triangulation<3> flat;
+          GridGenerator::flatten_triangulation(serial, flat);
+          std::tie(mesh.vertices, ordered, mesh.faces) =
+            GridTools::get_coarse_mesh_description(flat);
+          GridTools::consistently_order_cells(ordered);
+          if (!consistently_ordered(ordered))
+            throw InputError(
+              where + ": the cells of the mesh cannot be ordered consistently, not even after "
+                      "one uniform refinement");
+        }
+      mesh.cells = ordered;
+    }
+
+    /// The Jacobian determinant is positive in all corners of all cells.
+    void
+    check_shapes(const CoarseMesh &mesh, const std::string &where)
+    {
+      for (std::size_t c = 0; c < mesh.cells.size(); ++c)
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            const auto  &vertices = mesh.cells[c].vertices;
+            Tensor<2, 3> edges;
+            for (unsigned int d = 0; d < 3; ++d)
+              edges[d] =
+                mesh.vertices[vertices[v | (1 << d)]] - mesh.vertices[vertices[v & ~(1 << d)]];
+            if (determinant(edges) > 0.)
+              continue;
+            std::ostringstream message;
+            message << where << ": cell " << c << " near (" << mesh.vertices[vertices[v]]
+                    << ") is turned inside out; allowed: convex hexahedra";
+            throw InputError(message.str());
+          }
+    }
+    CoarseMesh
+    coarse_mesh(const MeshParameters &parameters, const std::string &where)
+    {
+      CoarseMesh mesh;
+      if (parameters.source == "file")
+        {
+          mesh                     = read_mesh_file(parameters.file, where);
+          const RigidMotion motion = rigid_motion(parameters);
+          for (Point<3> &vertex : mesh.vertices)
+            vertex = motion(vertex);
+        }
+      else
+        mesh = generate(parameters);
+      order_cells(mesh, where);
+      check_shapes(mesh, where);
+      return mesh;
+    }
+
+    /// Refine @p ball.times times all cells whose centre or any vertex lies within the ball.
+    void
+    refine_near(const RefinementBall &ball,
+                HexTriangulation     &triangulation,
+                const std::string    &where)
+    {
+      for (unsigned int time = 0; time < ball.times; ++time)
+        {
+          unsigned int n_flagged = 0;
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (cell->is_locally_owned())
+              {
+                bool near = cell->center().distance(ball.centre) <= ball.radius;
+                for (const unsigned int v : cell->vertex_indices())
+                  near = near || cell->vertex(v).distance(ball.centre) <= ball.radius;
+                if (near)
+                  {
+                    cell->set_refine_flag();
+                    ++n_flagged;
+                  }
+              }
+          if (Utilities::MPI::sum(n_flagged, triangulation.get_communicator()) == 0)
+            {
+              std::ostringstream message;
+              message << where << ": Refine near finds no cell with its centre or a vertex within "
+                      << ball.radius << " of (" << ball.centre
+                      << "); allowed: a ball that meets the body where it stands after Rotate and "
+                         "Translate";
+              throw InputError(message.str());
+            }
+          triangulation.execute_coarsening_and_refinement();
+        }
+    }
+  } // namespace
+
+  MeshNames
+  create_mesh(const MeshParameters &parameters,
+              HexTriangulation     &triangulation,
+              const std::string    &where)
+  {
+    Assert(triangulation.n_levels() == 0, ExcMessage("The triangulation is not empty."));
+    // A file may be missing or damaged on some ranks only.
+    CoarseMesh  mesh;
+    std::string problem;
+    try
+      {
+        validate(parameters, where);
+        mesh = coarse_mesh(parameters, where);
+      }
+    catch (const InputError &error)
+      {
+        problem = error.what();
+      }
+    throw_if_any(problem, triangulation.get_communicator());
+
+    triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
+    if (mesh.manifold != nullptr)
+      {
+        triangulation.set_all_manifold_ids(0);
+        triangulation.set_manifold(0, *mesh.manifold);
+      }
+    triangulation.refine_global(parameters.refinements);
+    for (const RefinementBall &ball : parse_refine_near(parameters.refine_near, where))
+      refine_near(ball, triangulation, where);
+    return mesh.names;
+  }
+} // namespace mortise

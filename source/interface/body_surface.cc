@@ -1,0 +1,122 @@
+#include <mortise/interface/body_surface.h>
+
+#include <mortise/body/face_topology.h>
+#include <mortise/body/fe_legendre.h>
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    SurfaceFace
+    face_geometry(const Body &body, const Body::CellIterator &cell, const unsigned int f)
+    {
+      SurfaceFace face;
+      face.degree            = body.mapping_degree;
+      face.orientation       = face_topology::outward_sign(f);
+      face.id                = cell->global_active_cell_index() * 6 + f;
+      face.owner             = cell->subdomain_id();
+      const QGaussLobatto<1> nodes(face.degree + 1);
+      for (unsigned int j = 0; j <= face.degree; ++j)
+        for (unsigned int i = 0; i <= face.degree; ++i)
+          face.points.push_back(body.mapping->transform_unit_to_real_cell(
+            cell, face_topology::unit_point(f, nodes.point(i)[0], nodes.point(j)[0])));
+      return face;
+    }
+
+    FaceTrace
+    face_trace(const Body                      &body,
+               const Body::CellIterator        &cell,
+               const unsigned int               f,
+               const DisplacementNumbering     &numbering,
+               const AffineConstraints<double> &constraints)
+    {
+      FaceTrace trace;
+      trace.degree     = body.degree(cell);
+      trace.modulus    = body.material.young_modulus;
+      const auto dofs  = face_dofs(body, cell, f);
+      trace.begin      = {0};
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int k = 0; k < trace.n_functions(); ++k)
+          {
+            const auto dof = numbering(body.index, dofs[c][k]);
+            if (constraints.is_constrained(dof))
+              for (const auto &entry : *constraints.get_constraint_entries(dof))
+                {
+                  trace.column.push_back(entry.first);
+                  trace.weight.push_back(entry.second);
+                }
+            else
+              {
+                trace.column.push_back(dof);
+                trace.weight.push_back(1.);
+              }
+            trace.constant.push_back(constraints.get_inhomogeneity(dof));
+            trace.begin.push_back(trace.column.size());
+          }
+      return trace;
+    }
+  } // namespace
+
+  std::array<std::vector<types::global_dof_index>, dim>
+  face_dofs(const Body &body, const Body::CellIterator &cell, const unsigned int face_number)
+  {
+    const auto &fe = cell->get_fe();
+    std::vector<types::global_dof_index> cell_dofs(fe.n_dofs_per_cell());
+    cell->get_dof_indices(cell_dofs);
+    const std::vector<unsigned int> on_face = face_dof_indices(body.degree(cell), face_number);
+
+    std::array<std::vector<types::global_dof_index>, dim> dofs;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (const unsigned int i : on_face)
+        dofs[c].push_back(cell_dofs[fe.component_to_system_index(c, i)]);
+    return dofs;
+  }
+
+  BodySurface
+  extract_surface(const Body                      &body,
+                  const types::boundary_id         boundary,
+                  const DisplacementNumbering     &numbering,
+                  const AffineConstraints<double> &constraints)
+  {
+    // ghost cells take part in the averaging of normals
+    BodySurface                               surface;
+    std::vector<SurfaceFace>                  faces;
+    std::vector<std::array<std::uint64_t, 4>> vertices;
+    std::vector<bool>                         owned;
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+            {
+              faces.push_back(face_geometry(body, cell, f));
+              std::array<std::uint64_t, 4> corners;
+              for (unsigned int v = 0; v < 4; ++v)
+                corners[v] = cell->vertex_index(face_topology::vertex(f, v % 2, v / 2));
+              vertices.push_back(corners);
+              owned.push_back(cell->is_locally_owned());
+              if (owned.back())
+                {
+                  surface.cells.push_back(cell);
+                  surface.face_numbers.push_back(f);
+                }
+            }
+    average_vertex_normals(faces, vertices);
+
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      if (owned[i])
+        {
+          const unsigned int local = surface.faces.size();
+          surface.traces.push_back(face_trace(
+            body, surface.cells[local], surface.face_numbers[local], numbering, constraints));
+          faces[i].finalize();
+          faces[i].payload = Utilities::pack(surface.traces.back(), false);
+          surface.faces.push_back(std::move(faces[i]));
+        }
+    return surface;
+  }
+} // namespace mortise

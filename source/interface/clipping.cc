@@ -1,0 +1,414 @@
+#include <mortise/interface/clipping.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  namespace
+  {
+    // Reference coordinates this close to a side are on it.
+    constexpr double on_side = 1e-13;
+
+    // Sides of the square: 0: xi_1 >= 0, 1: xi_1 <= 1, 2: xi_2 >= 0, 3: xi_2 <= 1.
+    inline double
+    inside_by(const double (&xi)[2], const unsigned int side)
+    {
+      return side % 2 == 0 ? xi[side / 2] : 1. - xi[side / 2];
+    }
+
+    inline double
+    snapped(const double f)
+    {
+      return std::abs(f) <= on_side ? 0. : f;
+    }
+
+    inline void
+    snap_to_sides(double (&xi)[2])
+    {
+      for (auto &x : xi)
+        x = std::abs(x) <= on_side ? 0. : std::abs(1. - x) <= on_side ? 1. : x;
+    }
+
+    // The value nearest to zero of the cubic with these ends and slopes at seven inner points,
+    // with the sign of the ends (both of one sign).
+    double
+    nearest_of_cubic(const double f_0, const double f_1, const double d_0, const double d_1)
+    {
+      const double sign   = f_0 + f_1 >= 0 ? 1. : -1.;
+      double       result = std::min(sign * f_0, sign * f_1);
+      for (unsigned int i = 1; i < 8; ++i)
+        {
+          const double t = i / 8., s = 1. - t;
+          const double f = s * s * (1. + 2. * t) * f_0 + t * t * (1. + 2. * s) * f_1 +
+                           s * s * t * d_0 - t * t * s * d_1;
+          result = std::min(result, sign * f);
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  bool
+  LoopClipper::clip(const SlaveMap &slave_map, const MasterMap &master_map)
+  {
+    slave  = &slave_map;
+    master = &master_map;
+    failed = false;
+    breakpoints.clear();
+    segments.clear();
+    crossings.clear();
+    loop.clear();
+    for (unsigned int edge = 0; edge < 4; ++edge)
+      subdivide_edge(edge);
+    locate_breakpoints();
+    for (unsigned int s = 0; s < segments.size(); ++s)
+      if (!segments[s].far)
+        for (unsigned int side = 0; side < 4; ++side)
+          find_crossings(s, side);
+    solve_crossings();
+    build_pieces();
+    for (unsigned int side = 0; side < 4; ++side)
+      clip_straight(side);
+    measure();
+    return !failed;
+  }
+
+
+
+  // Cut an edge until each part is outside of the slave face on one side, or short and flat
+  // enough in the slave's chart for its ends and slopes to describe it.
+  void
+  LoopClipper::subdivide_edge(const unsigned int edge)
+  {
+    const EdgePolynomial &polynomial = master->edges[edge];
+    const LagrangeBasis  &basis      = lagrange_basis(polynomial.degree);
+    const unsigned int    n          = polynomial.degree + 1;
+    double                nodal[3][max_face_nodes];
+    for (unsigned int begin = 0; begin < n; begin += n_lanes)
+      {
+        Vec3<Lanes>        x;
+        const unsigned int count = std::min(n_lanes, n - begin);
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          for (unsigned int d = 0; d < 3; ++d)
+            x[d][l] = polynomial.coefficients[d][begin + std::min(l, count - 1)];
+        Lanes xi[2], height;
+        slave->chart(x, xi, height);
+        for (unsigned int l = 0; l < count; ++l)
+          {
+            nodal[0][begin + l] = xi[0][l];
+            nodal[1][begin + l] = xi[1][l];
+            nodal[2][begin + l] = height[l];
+          }
+      }
+    control.assign(3 * n, 0.);
+    for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          control[d * n + i] += basis.bernstein[i][j] * nodal[d][j];
+    breakpoints.push_back({edge, 0., {0., 0.}, {0., 0.}});
+    subdivide(edge, 0., 1., 0);
+  }
+
+
+
+  void
+  LoopClipper::subdivide(const unsigned int edge,
+                         const double       tau_0,
+                         const double       tau_1,
+                         unsigned int       depth)
+  {
+    constexpr double       flat_enough = 0.25, short_enough = 3.;
+    constexpr unsigned int max_depth = 14;
+
+    const unsigned int n    = master->edges[edge].degree + 1;
+    const unsigned int base = control.size() - 3 * n;
+    double             low[3], high[3], bend = 0, length = 0;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double *c = &control[base + d * n];
+        low[d] = high[d] = c[0];
+        for (unsigned int i = 1; i < n; ++i)
+          {
+            low[d]  = std::min(low[d], c[i]);
+            high[d] = std::max(high[d], c[i]);
+            if (d < 2)
+              bend = std::max(bend, std::abs(c[i] - c[0] - (c[n - 1] - c[0]) * i / (n - 1.)));
+          }
+        if (d < 2)
+          length = std::max(length, high[d] - low[d]);
+      }
+    const double height   = std::min(std::max(high[2], -low[2]), slave->height_limit);
+    const double widening = slave->twist() * height;
+    const bool   far      = low[0] > slave->near_upper[0] + widening ||
+                     high[0] < slave->near_lower[0] - widening ||
+                     low[1] > slave->near_upper[1] + widening ||
+                     high[1] < slave->near_lower[1] - widening;
+    const bool simple = bend <= flat_enough && (slave->linear() || length <= short_enough);
+    if (far || simple || depth >= max_depth)
+      {
+        segments.push_back({static_cast<unsigned int>(breakpoints.size() - 1), far});
+        breakpoints.push_back({edge, tau_1, {0., 0.}, {0., 0.}});
+        return;
+      }
+
+    // de Casteljau: the left half goes on the stack, the right half stays below it.
+    control.resize(base + 6 * n);
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        double *right = &control[base + d * n], *left = &control[base + (3 + d) * n];
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            left[i] = right[0];
+            for (unsigned int j = 0; j + 1 < n - i; ++j)
+              right[j] = 0.5 * (right[j] + right[j + 1]);
+          }
+      }
+    const double tau = 0.5 * (tau_0 + tau_1);
+    subdivide(edge, tau_0, tau, depth + 1);
+    control.resize(base + 3 * n);
+    subdivide(edge, tau, tau_1, depth + 1);
+  }
+
+
+
+  void
+  LoopClipper::locate_breakpoints()
+  {
+    for (unsigned int begin = 0; begin < breakpoints.size(); begin += n_lanes)
+      {
+        const unsigned int count = std::min<unsigned int>(n_lanes, breakpoints.size() - begin);
+        unsigned int       edge[n_lanes];
+        Lanes              tau;
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          {
+            const Breakpoint &point = breakpoints[begin + std::min(l, count - 1)];
+            edge[l]                 = point.edge;
+            tau[l]                  = point.tau;
+          }
+        Vec3<Lanes> x, dx;
+        evaluate_edges(master->edges, edge, tau, x, dx);
+        Lanes xi[2], dxi[2], alpha;
+        if (slave->pull_back(x, false, xi, alpha) != 0)
+          failed = true;
+        slave->pull_back_derivative(dx, xi, alpha, dxi);
+        for (unsigned int l = 0; l < count; ++l)
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              breakpoints[begin + l].xi[i]  = xi[i][l];
+              breakpoints[begin + l].dxi[i] = dxi[i][l];
+            }
+      }
+    for (auto &point : breakpoints)
+      snap_to_sides(point.xi);
+    // The end of an edge is the beginning of the next one.
+    for (unsigned int b = 0; b < breakpoints.size(); ++b)
+      if (breakpoints[b].tau == 0.)
+        {
+          const Breakpoint &before = breakpoints[b == 0 ? breakpoints.size() - 1 : b - 1];
+          std::copy(before.xi, before.xi + 2, breakpoints[b].xi);
+        }
+  }
+
+
+
+  void
+  LoopClipper::find_crossings(const unsigned int segment, const unsigned int side)
+  {
+    const Breakpoint &a     = breakpoints[segments[segment].first];
+    const Breakpoint &b     = breakpoints[segments[segment].first + 1];
+    const double      f_0   = snapped(inside_by(a.xi, side));
+    const double      f_1   = snapped(inside_by(b.xi, side));
+    const double      scale = (side % 2 == 0 ? 1. : -1.) * (b.tau - a.tau);
+    const double      d_0   = scale * a.dxi[side / 2];
+    const double      d_1   = scale * b.dxi[side / 2];
+    // An edge that runs along the side, as on two polynomial pictures of one smooth surface, may
+    // cross it several times.
+    const double slope   = std::abs(d_0) + std::abs(d_1);
+    const bool   grazing = std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
+    // Both ends on one side: a bulge can only cross where it heads for the side at both ends.
+    const bool heading = f_0 * d_0 <= 0 && f_1 * d_1 >= 0 && f_0 * f_1 > 0 &&
+                         nearest_of_cubic(f_0, f_1, d_0, d_1) <
+                           0.5 * std::min(std::abs(f_0), std::abs(f_1));
+    const bool leaving = (f_0 == 0. && f_1 * d_0 < 0) || (f_1 == 0. && f_0 * d_1 > 0);
+    if (grazing || heading || leaving)
+      sample_segment(segment, side);
+    else if (f_0 * f_1 < 0)
+      crossings.push_back({segment, side, a.tau, b.tau, f_0, f_1, 0., {0., 0.}});
+  }
+
+
+
+  // Look for changes of sign inside of a segment, ever finer around the point where the curve
+  // comes closest to changing its side.
+  void
+  LoopClipper::sample_segment(const unsigned int segment, const unsigned int side)
+  {
+    const Breakpoint  &a    = breakpoints[segments[segment].first];
+    const Breakpoint  &b    = breakpoints[segments[segment].first + 1];
+    const double       f_a  = snapped(inside_by(a.xi, side));
+    const double       f_b  = snapped(inside_by(b.xi, side));
+    const double       sign = f_a + f_b >= 0 ? 1. : -1.;
+    double             low = a.tau, high = b.tau;
+    constexpr unsigned rounds = 5;
+    for (unsigned int round = 0; round < rounds; ++round)
+      {
+        Lanes tau, xi[2];
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          tau[l] = low + (high - low) * (l + 1.) / (n_lanes + 1.);
+        pull_back_edge(a.edge, tau, xi, n_lanes);
+        double       previous_tau = a.tau, previous = f_a, least = 1e300;
+        unsigned int n_found = 0, best = 0;
+        for (unsigned int l = 0; l <= n_lanes; ++l)
+          {
+            const bool   last      = l == n_lanes;
+            const double x[2]      = {last ? b.xi[0] : xi[0][l], last ? b.xi[1] : xi[1][l]};
+            const double f         = last ? f_b : snapped(inside_by(x, side));
+            const double here      = last ? b.tau : tau[l];
+            if (f * previous < 0)
+              {
+                crossings.push_back(
+                  {segment, side, previous_tau, here, previous, f, 0., {0., 0.}});
+                ++n_found;
+              }
+            if (!last && sign * f < least)
+              {
+                least = sign * f;
+                best  = l;
+              }
+            if (f != 0.)
+              {
+                previous     = f;
+                previous_tau = here;
+              }
+          }
+        if (n_found > 0 || (f_a == 0. && f_b == 0.))
+          return;
+        const double width = (high - low) / (n_lanes + 1.);
+        low                = tau[best] - width;
+        high               = tau[best] + width;
+      }
+  }
+
+
+
+  void
+  LoopClipper::pull_back_edge(const unsigned int edge,
+                              const Lanes       &tau,
+                              Lanes (&xi)[2],
+                              const unsigned int n)
+  {
+    unsigned int edge_of_lane[n_lanes];
+    std::fill(edge_of_lane, edge_of_lane + n_lanes, edge);
+    Vec3<Lanes> x, dx;
+    evaluate_edges(master->edges, edge_of_lane, tau, x, dx);
+    Lanes alpha;
+    if ((slave->pull_back(x, false, xi, alpha) & ((1u << n) - 1)) != 0)
+      failed = true;
+  }
+
+
+
+  void
+  LoopClipper::solve_crossings()
+  {
+    for (unsigned int begin = 0; begin < crossings.size(); begin += n_lanes)
+      solve_batch(begin, std::min<unsigned int>(n_lanes, crossings.size() - begin));
+    for (auto &crossing : crossings)
+      {
+        if (!(crossing.tau >= crossing.tau_0 && crossing.tau <= crossing.tau_1))
+          solve_by_sections(crossing);
+        crossing.xi[crossing.side / 2] = crossing.side % 2;
+        snap_to_sides(crossing.xi);
+      }
+  }
+
+
+
+  // Newton's method for x_m(tau) = x_s(xi) + alpha n(xi) with one coordinate of xi held on its
+  // side: unknowns are tau, the other coordinate and alpha. What leaves its bracket or does not
+  // converge keeps a tau that is not a number.
+  void
+  LoopClipper::solve_batch(const unsigned int begin, const unsigned int n)
+  {
+    Lanes        tau, xi[2], alpha, on_first, low, high;
+    unsigned int edge[n_lanes];
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        const Crossing   &crossing = crossings[begin + std::min(l, n - 1)];
+        const Breakpoint &a        = breakpoints[segments[crossing.segment].first];
+        const Breakpoint &b        = breakpoints[segments[crossing.segment].first + 1];
+        const double      weight   = crossing.f_0 / (crossing.f_0 - crossing.f_1);
+        const unsigned    fixed    = crossing.side / 2;
+        edge[l]                    = a.edge;
+        low[l]                     = crossing.tau_0;
+        high[l]                    = crossing.tau_1;
+        tau[l]         = crossing.tau_0 + weight * (crossing.tau_1 - crossing.tau_0);
+        const double t = (tau[l] - a.tau) / (b.tau - a.tau);
+        xi[0][l]       = (1 - t) * a.xi[0] + t * b.xi[0];
+        xi[1][l]       = (1 - t) * a.xi[1] + t * b.xi[1];
+        xi[fixed][l]   = crossing.side % 2;
+        on_first[l]    = fixed == 0 ? 1. : 0.;
+      }
+    Vec3<Lanes> x_m, dx_m;
+    evaluate_edges(master->edges, edge, tau, x_m, dx_m);
+    Lanes ignored[2];
+    slave->chart(x_m, ignored, alpha);
+    const Lanes  slack  = 1e-12 * (high - low);
+    unsigned int active = (1u << n_lanes) - 1;
+    for (unsigned int iteration = 0; active != 0 && iteration < 12; ++iteration)
+      {
+        Vec3<Lanes> x_s, dx[2], normal;
+        slave->evaluate_extended(xi, alpha, x_s, dx, normal);
+        const Vec3<Lanes> free = on_first * dx[1] + (1. - on_first) * dx[0];
+        Lanes             step[3];
+        solve_3x3(dx_m, free, normal, x_s - x_m, step);
+        tau += step[0];
+        xi[0] -= (1. - on_first) * step[1];
+        xi[1] -= on_first * step[1];
+        alpha = -step[2];
+        tau   = minimum(maximum(tau, low - 0.5 * (high - low)), high + 0.5 * (high - low));
+        const Lanes change = maximum(absolute(step[0]) / (high - low), absolute(step[1]));
+        if (iteration > 0)
+          active &= lanes_above(change, broadcast(3e-8));
+        evaluate_edges(master->edges, edge, tau, x_m, dx_m);
+      }
+    for (unsigned int l = 0; l < n; ++l)
+      {
+        Crossing  &crossing = crossings[begin + l];
+        const bool good     = (active & (1u << l)) == 0 && tau[l] >= low[l] - slack[l] &&
+                          tau[l] <= high[l] + slack[l];
+        crossing.tau   = good ? std::min(std::max(tau[l], low[l]), high[l]) : std::nan("");
+        crossing.xi[0] = xi[0][l];
+        crossing.xi[1] = xi[1][l];
+      }
+  }
+
+
+
+  // The safe way: nine-fold sections of the bracket.
+  void
+  LoopClipper::solve_by_sections(Crossing &crossing)
+  {
+    const unsigned int edge = breakpoints[segments[crossing.segment].first].edge;
+    double low = crossing.tau_0, high = crossing.tau_1;
+    for (unsigned int round = 0; round < 17; ++round)
+      {
+        Lanes tau, xi[2];
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          tau[l] = low + (high - low) * (l + 1.) / (n_lanes + 1.);
+        pull_back_edge(edge, tau, xi, n_lanes);
+        unsigned int l = 0;
+        for (; l < n_lanes; ++l)
+          {
+            crossing.xi[0] = xi[0][l];
+            crossing.xi[1] = xi[1][l];
+            if (inside_by(crossing.xi, crossing.side) * crossing.f_0 <= 0)
+              break;
+          }
+        high = l < n_lanes ? tau[l] : high;
+        low  = l > 0 ? tau[l - 1] : low;
+      }
+    crossing.tau = 0.5 * (low + high);
+  }
+} // namespace mortise

@@ -1,0 +1,111 @@
+#include <mortise/interface/interface_handler.h>
+
+#include <mortise/interface/search.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  InterfaceHandler::InterfaceHandler(const std::string      &name,
+                                     BodySurface             slave,
+                                     BodySurface             master,
+                                     const InterfaceOptions &options,
+                                     const MPI_Comm          comm)
+    : interface_name(name)
+    , slave_surface(std::move(slave))
+    , master_surface(std::move(master))
+    , options(options)
+    , comm(comm)
+    , candidates(slave_surface.faces.size())
+    , covered_fraction(slave_surface.faces.size(), 0.)
+  {
+    near_masters = exchange_near_faces(
+      slave_surface.faces, master_surface.faces, options.search_fraction, comm);
+    for (SurfaceFace &face : near_masters)
+      {
+        near_traces.push_back(Utilities::unpack<FaceTrace>(face.payload, false));
+        face.payload.clear();
+      }
+    for (SurfaceFace &face : slave_surface.faces)
+      face.payload.clear();
+
+    const FaceTree tree(near_masters, options.search_fraction);
+    for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
+      tree.candidates(slave_surface.faces[s], candidates[s]);
+  }
+
+  void
+  InterfaceHandler::visit_pairs(const Visitor &visitor)
+  {
+    using Clock = std::chrono::steady_clock;
+    PairIntegrator    integrator(options.search_fraction);
+    IntegrationPoints points;
+    integrator.set_points_per_direction(options.points_per_direction.value_or(0));
+
+    Coverage  sum;
+    double    worst_error = -1.;
+    Point<3>  worst_centre;
+    Clock::duration clipping(0);
+    for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
+      {
+        const unsigned int slave_degree = slave_surface.traces[s].degree;
+        auto               before       = Clock::now();
+        integrator.reinit(slave_surface.faces[s]);
+        Coverage face;
+        face.slave_area = integrator.slave_area();
+        clipping += Clock::now() - before;
+        for (const unsigned int m : candidates[s])
+          {
+            before = Clock::now();
+            const PairResult pair =
+              integrator.integrate(near_masters[m], slave_degree, near_traces[m].degree, points);
+            clipping += Clock::now() - before;
+            face.add(pair, points.size());
+            if (pair.status == PairStatus::accepted)
+              visitor(s, m, points);
+          }
+        covered_fraction[s] = face.covered_area / face.slave_area;
+        if (std::fabs(1. - covered_fraction[s]) > worst_error)
+          {
+            worst_error  = std::fabs(1. - covered_fraction[s]);
+            worst_centre = slave_surface.faces[s].frame.center;
+          }
+        sum.add(face);
+      }
+    totals.clipping_seconds = std::chrono::duration<double>(clipping).count();
+    sum_report(sum, worst_error, worst_centre);
+  }
+
+  void
+  InterfaceHandler::sum_report(const Coverage &local,
+                               const double    worst_error,
+                               const Point<3> &worst_centre)
+  {
+    const auto total = [&](const std::uint64_t n) { return Utilities::MPI::sum(n, comm); };
+    totals.slave_faces       = total(slave_surface.faces.size());
+    totals.master_faces      = total(master_surface.faces.size());
+    totals.candidate_pairs   = total(local.n_candidates);
+    totals.pairs             = total(local.n_pairs);
+    totals.integration_cells = total(local.n_cells);
+    totals.quadrature_points = total(local.n_points);
+    totals.failed_pairs      = total(local.n_failures);
+    totals.slave_area        = Utilities::MPI::sum(local.slave_area, comm);
+    totals.covered_area      = Utilities::MPI::sum(local.covered_area, comm);
+    totals.max_gap           = Utilities::MPI::max(local.max_gap, comm);
+    totals.worst_face_error  = Utilities::MPI::max(worst_error, comm);
+
+    // several faces may be equally bad: name the one of the lowest rank
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const unsigned int me      = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int reporter =
+      Utilities::MPI::min(worst_error == totals.worst_face_error ? me : n_ranks, comm);
+    totals.worst_face_centre =
+      Utilities::MPI::broadcast(comm, worst_centre, std::min(reporter, n_ranks - 1));
+  }
+} // namespace mortise

@@ -1,0 +1,184 @@
+#include "pair_scratch.h"
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Overlaps below this fraction of the slave's reference square are rounding.
+    constexpr double empty_area = 1e-15;
+
+    double
+    area_of(const ConvexPolygon &polygon)
+    {
+      double twice = 0;
+      for (unsigned int i = 1; i + 1 < polygon.n; ++i)
+        twice += (polygon.x[i][0] - polygon.x[0][0]) * (polygon.x[i + 1][1] - polygon.x[0][1]) -
+                 (polygon.x[i][1] - polygon.x[0][1]) * (polygon.x[i + 1][0] - polygon.x[0][0]);
+      return 0.5 * std::abs(twice);
+    }
+
+    // Corners of a cell: bilinear from (s,t) in the unit square. a + s b + t c + s t d.
+    struct Cell
+    {
+      double a[2], b[2], c[2], d[2];
+    };
+
+    // A convex polygon as a fan of quadrilaterals from its first corner; an odd corner left over
+    // makes a triangle, a quadrilateral with two corners in one.
+    unsigned int
+    cut_into_cells(const ConvexPolygon &polygon, Cell (&cells)[ConvexPolygon::max_corners])
+    {
+      unsigned int n_cells = 0;
+      for (unsigned int i = 1; i + 1 < polygon.n; i += 2)
+        {
+          const auto &p_0 = polygon.x[0], &p_1 = polygon.x[i], &p_2 = polygon.x[i + 1];
+          const auto &p_3  = i + 2 < polygon.n ? polygon.x[i + 2] : polygon.x[0];
+          Cell       &cell = cells[n_cells++];
+          for (unsigned int d = 0; d < 2; ++d)
+            {
+              cell.a[d] = p_0[d];
+              cell.b[d] = p_1[d] - p_0[d];
+              cell.c[d] = p_3[d] - p_0[d];
+              cell.d[d] = p_2[d] - p_1[d] - cell.c[d];
+            }
+        }
+      return n_cells;
+    }
+
+    // An affine function of xi: value at (1/2, 1/2) and slopes.
+    struct Affine
+    {
+      double value, slope[2];
+    };
+
+    struct PointMaps
+    {
+      Affine eta[2], slave_x[3], master_x[3], gap;
+    };
+
+    void
+    fill_cell(const Cell        &cell,
+              const GaussRule   &rule,
+              const PointMaps   &maps,
+              const double       surface_jacobian,
+              const unsigned int offset,
+              IntegrationPoints &points)
+    {
+      const unsigned int n = rule.tensor_weight.size();
+      const double *__restrict s = rule.s.data(), *__restrict t = rule.t.data();
+      const double *__restrict w      = rule.tensor_weight.data();
+      double *__restrict xi_1         = points.slave_xi[0].data() + offset;
+      double *__restrict xi_2         = points.slave_xi[1].data() + offset;
+      double *__restrict weight       = points.weight.data() + offset;
+      for (unsigned int q = 0; q < n; ++q)
+        {
+          const double st = s[q] * t[q];
+          xi_1[q] = cell.a[0] + s[q] * cell.b[0] + t[q] * cell.c[0] + st * cell.d[0];
+          xi_2[q] = cell.a[1] + s[q] * cell.b[1] + t[q] * cell.c[1] + st * cell.d[1];
+          const double determinant =
+            (cell.b[0] + t[q] * cell.d[0]) * (cell.c[1] + s[q] * cell.d[1]) -
+            (cell.b[1] + t[q] * cell.d[1]) * (cell.c[0] + s[q] * cell.d[0]);
+          weight[q] = std::abs(determinant) * w[q] * surface_jacobian;
+        }
+      const auto fill = [&](const Affine &map, std::vector<double> &values) {
+        double *__restrict value = values.data() + offset;
+        for (unsigned int q = 0; q < n; ++q)
+          value[q] =
+            map.value + (xi_1[q] - 0.5) * map.slope[0] + (xi_2[q] - 0.5) * map.slope[1];
+      };
+      for (unsigned int i = 0; i < 2; ++i)
+        fill(maps.eta[i], points.master_eta[i]);
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          fill(maps.slave_x[d], points.slave_x[d]);
+          fill(maps.master_x[d], points.master_x[d]);
+        }
+      fill(maps.gap, points.gap);
+    }
+  } // namespace
+
+
+
+  PairResult
+  integrate_linear_pair(PairIntegrator::Scratch &scratch,
+                        const SurfaceFace       &master,
+                        const GaussRule         &rule,
+                        IntegrationPoints       &points)
+  {
+    PairResult          result;
+    const FaceFrame    &s_frame = scratch.slave_frame, &m_frame = master.frame;
+    const Tensor<1, 3> &n = s_frame.normal;
+    const Tensor<1, 3>  s_area = cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
+    const Tensor<1, 3>  m_area = cross_product_3d(m_frame.tangent[0], m_frame.tangent[1]);
+
+    // xi - 1/2 = shift + A (eta - 1/2)
+    const Tensor<1, 3> center = m_frame.center - s_frame.center;
+    double             shift[2], A[2][2];
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        shift[i] = s_frame.dual[i] * center;
+        for (unsigned int j = 0; j < 2; ++j)
+          A[i][j] = s_frame.dual[i] * m_frame.tangent[j];
+      }
+    ConvexPolygon polygon;
+    polygon.n                         = 4;
+    constexpr double corner[4][2] = {{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}};
+    for (unsigned int v = 0; v < 4; ++v)
+      for (unsigned int i = 0; i < 2; ++i)
+        polygon.x[v][i] = 0.5 + shift[i] + A[i][0] * corner[v][0] + A[i][1] * corner[v][1];
+    clip_to_unit_square(polygon);
+    const double area = polygon.n < 3 ? 0. : area_of(polygon);
+    if (area <= empty_area)
+      return result;
+    if (!(master.orientation * (n * m_area) < 0))
+      {
+        result.status = PairStatus::normals_agree;
+        return result;
+      }
+
+    PointMaps    maps;
+    const double det       = A[0][0] * A[1][1] - A[0][1] * A[1][0];
+    const double B[2][2]   = {{A[1][1] / det, -A[0][1] / det}, {-A[1][0] / det, A[0][0] / det}};
+    const double to_height = 1. / (s_area * n);
+    for (unsigned int i = 0; i < 2; ++i)
+      maps.eta[i] = {0.5 - B[i][0] * shift[0] - B[i][1] * shift[1], {B[i][0], B[i][1]}};
+    maps.gap = {0., {0., 0.}};
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double *e_0 = maps.eta[0].slope, *e_1 = maps.eta[1].slope;
+        const double  t_0 = m_frame.tangent[0][d], t_1 = m_frame.tangent[1][d];
+        maps.slave_x[d]  = {s_frame.center[d], {s_frame.tangent[0][d], s_frame.tangent[1][d]}};
+        maps.master_x[d] = {center[d] + (maps.eta[0].value - .5) * t_0 +
+                              (maps.eta[1].value - .5) * t_1,
+                            {e_0[0] * t_0 + e_1[0] * t_1, e_0[1] * t_0 + e_1[1] * t_1}};
+        maps.gap.value += s_area[d] * to_height * maps.master_x[d].value;
+        for (unsigned int i = 0; i < 2; ++i)
+          maps.gap.slope[i] += s_area[d] * to_height * maps.master_x[d].slope[i];
+        maps.master_x[d].value += s_frame.center[d];
+      }
+    for (unsigned int v = 0; v < polygon.n; ++v)
+      result.max_gap = std::max(result.max_gap,
+                                std::abs(maps.gap.value +
+                                         (polygon.x[v][0] - .5) * maps.gap.slope[0] +
+                                         (polygon.x[v][1] - .5) * maps.gap.slope[1]));
+    if (!(result.max_gap <= scratch.gap_limit))
+      {
+        result.status = PairStatus::too_far;
+        return result;
+      }
+
+    Cell cells[ConvexPolygon::max_corners];
+    result.n_cells         = cut_into_cells(polygon, cells);
+    const unsigned int n_q = rule.tensor_weight.size();
+    points.resize(result.n_cells * n_q);
+    for (unsigned int c = 0; c < result.n_cells; ++c)
+      fill_cell(cells[c], rule, maps, s_area.norm(), c * n_q, points);
+    result.area   = area * s_area.norm();
+    result.status = PairStatus::accepted;
+    return result;
+  }
+} // namespace mortise

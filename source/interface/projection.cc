@@ -1,0 +1,261 @@
+#include <mortise/interface/projection.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Newton converges quadratically: after a step of this size (in reference coordinates) the
+    // error is its square.
+    constexpr double       step_tolerance = 3e-8;
+    constexpr unsigned int max_iterations = 25;
+  } // namespace
+
+
+
+  void
+  SlaveMap::reinit(const SurfaceFace &slave)
+  {
+    frame     = slave.frame;
+    is_linear = slave.linear;
+    polynomial.reinit(slave, frame.center);
+
+    const Tensor<1, 3> area   = cross_product_3d(frame.tangent[0], frame.tangent[1]);
+    const double       volume = area * frame.normal;
+    height_dual               = to_vec3(area / volume);
+    for (unsigned int i = 0; i < 2; ++i)
+      center_dual[i] = to_vec3(frame.dual[i]);
+
+    const auto &n    = slave.vertex_normals;
+    vertex_normal[0] = to_vec3(n[0]);
+    vertex_normal[1] = to_vec3(n[1] - n[0]);
+    vertex_normal[2] = to_vec3(n[2] - n[0]);
+    vertex_normal[3] = to_vec3(n[3] - n[2] - n[1] + n[0]);
+
+    normal_twist = 0;
+    for (const auto &normal : n)
+      for (const auto &dual : frame.dual)
+        normal_twist =
+          std::max(normal_twist, std::abs(dual * normal) / std::max(0.1, frame.normal * normal));
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        // Outside of the face its tangents continue it, so the distance between the chart and the
+        // true coordinates grows in proportion: twice the deviation on the face and a half.
+        const double deviation =
+          std::max({0., -frame.chart_lower[i], frame.chart_upper[i] - 1.});
+        near_lower[i] = is_linear ? 0. : -0.5 - 3. * deviation;
+        near_upper[i] = is_linear ? 1. : 1.5 + 3. * deviation;
+      }
+    height_limit = slave.size;
+  }
+
+
+
+  void
+  SlaveMap::chart(const Vec3<Lanes> &x, Lanes (&xi)[2], Lanes &height) const
+  {
+    xi[0]  = 0.5 + dot(x, center_dual[0]);
+    xi[1]  = 0.5 + dot(x, center_dual[1]);
+    height = dot(x, height_dual);
+  }
+
+
+
+  void
+  SlaveMap::evaluate(const Lanes (&xi)[2], Vec3<Lanes> &x, Vec3<Lanes> (&dx)[2]) const
+  {
+    polynomial.evaluate(xi[0], xi[1], x, dx);
+  }
+
+
+
+  Vec3<Lanes>
+  SlaveMap::normal(const Lanes (&xi)[2]) const
+  {
+    Vec3<Lanes> n;
+    for (unsigned int d = 0; d < 3; ++d)
+      n[d] = vertex_normal[0][d] + xi[0] * vertex_normal[1][d] +
+             xi[1] * (vertex_normal[2][d] + xi[0] * vertex_normal[3][d]);
+    return n;
+  }
+
+
+
+  void
+  SlaveMap::evaluate_extended(const Lanes (&xi)[2],
+                              const Lanes &alpha,
+                              Vec3<Lanes> &x,
+                              Vec3<Lanes> (&dx)[2],
+                              Vec3<Lanes> &n) const
+  {
+    const Lanes zero = broadcast(0.), one = broadcast(1.);
+    const Lanes inside[2] = {minimum(maximum(xi[0], zero), one), minimum(maximum(xi[1], zero), one)};
+    const Lanes outside[2] = {xi[0] - inside[0], xi[1] - inside[1]};
+    polynomial.evaluate(inside[0], inside[1], x, dx);
+    x = x + outside[0] * dx[0] + outside[1] * dx[1];
+    n = normal(inside);
+    const Lanes alpha_1 = outside[0] == 0. ? alpha : zero;
+    const Lanes alpha_2 = outside[1] == 0. ? alpha : zero;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        dx[0][d] += alpha_1 * (vertex_normal[1][d] + inside[1] * vertex_normal[3][d]);
+        dx[1][d] += alpha_2 * (vertex_normal[2][d] + inside[0] * vertex_normal[3][d]);
+      }
+  }
+
+
+
+  unsigned int
+  SlaveMap::pull_back(const Vec3<Lanes> &x,
+                      const bool         has_guess,
+                      Lanes (&xi)[2],
+                      Lanes &alpha) const
+  {
+    Lanes chart_xi[2], height;
+    chart(x, chart_xi, height);
+    if (!has_guess || is_linear)
+      {
+        xi[0] = chart_xi[0];
+        xi[1] = chart_xi[1];
+        alpha = height;
+      }
+    if (is_linear)
+      return 0;
+
+    const Lanes widening = normal_twist * minimum(absolute(height), broadcast(height_limit));
+    const Lanes distance = maximum(maximum(near_lower[0] - chart_xi[0], chart_xi[0] - near_upper[0]),
+                                   maximum(near_lower[1] - chart_xi[1], chart_xi[1] - near_upper[1]));
+    const unsigned int near  = lanes_above(widening, distance);
+    unsigned int       active = near;
+    for (unsigned int iteration = 0; active != 0 && iteration < max_iterations; ++iteration)
+      {
+        Vec3<Lanes> x_s, dx[2], n;
+        evaluate_extended(xi, alpha, x_s, dx, n);
+        Lanes step[3];
+        solve_3x3(dx[0], dx[1], n, x - x_s, step);
+        xi[0] += step[0];
+        xi[1] += step[1];
+        alpha = step[2];
+        // Outside of the square only the side matters, and the second derivatives of the
+        // continuation are left out: a looser tolerance, continuous at the boundary.
+        const Lanes outside = maximum(maximum(-xi[0], xi[0] - 1.), maximum(-xi[1], xi[1] - 1.));
+        const Lanes allowed = step_tolerance + maximum(broadcast(0.), 1e-2 * (outside - 1e-3));
+        const unsigned int moving =
+          lanes_above(maximum(absolute(step[0]), absolute(step[1])), allowed);
+        // alpha enters the first matrix with its guess: a second step makes it quadratic.
+        if (iteration > 0)
+          active &= moving;
+      }
+
+    // Far away, and where the continuation folds, the chart says on which side a point lies.
+    unsigned int failed = 0;
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        const unsigned int bit = 1u << l;
+        const bool beside = chart_xi[0][l] < frame.chart_lower[0] - 0.05 ||
+                            chart_xi[0][l] > frame.chart_upper[0] + 0.05 ||
+                            chart_xi[1][l] < frame.chart_lower[1] - 0.05 ||
+                            chart_xi[1][l] > frame.chart_upper[1] + 0.05;
+        if ((active & bit) != 0 && !beside)
+          failed |= bit;
+        if ((near & bit) == 0 || (active & bit) != 0)
+          {
+            xi[0][l] = chart_xi[0][l];
+            xi[1][l] = chart_xi[1][l];
+            alpha[l] = height[l];
+          }
+      }
+    return failed;
+  }
+
+
+
+  void
+  SlaveMap::pull_back_derivative(const Vec3<Lanes> &dx,
+                                 const Lanes (&xi)[2],
+                                 const Lanes &alpha,
+                                 Lanes (&dxi)[2]) const
+  {
+    if (is_linear)
+      {
+        dxi[0] = dot(dx, center_dual[0]);
+        dxi[1] = dot(dx, center_dual[1]);
+        return;
+      }
+    // x_m' = (dx_s/dxi + alpha dn/dxi) xi' + alpha' n
+    Vec3<Lanes> x_s, dx_s[2], n;
+    evaluate_extended(xi, alpha, x_s, dx_s, n);
+    Lanes rate[3];
+    solve_3x3(dx_s[0], dx_s[1], n, dx, rate);
+    dxi[0] = rate[0];
+    dxi[1] = rate[1];
+  }
+
+
+
+  void
+  MasterMap::reinit(const SurfaceFace &master, const Point<3> &origin)
+  {
+    is_affine   = master.affine;
+    orientation = master.orientation;
+    polynomial.reinit(master, origin);
+    for (unsigned int k = 0; k < 4; ++k)
+      edges[k].reinit(polynomial, k);
+    center = to_vec3(master.frame.center - origin);
+    for (unsigned int i = 0; i < 2; ++i)
+      tangent[i] = to_vec3(master.frame.tangent[i]);
+  }
+
+
+
+  unsigned int
+  MasterMap::project(const Vec3<Lanes> &x,
+                     const Vec3<Lanes> &n,
+                     const bool         has_guess,
+                     Lanes (&eta)[2],
+                     Lanes       &alpha,
+                     Vec3<Lanes> &x_m,
+                     Lanes       &slope) const
+  {
+    const Vec3<Lanes> minus_n = {{-n[0], -n[1], -n[2]}};
+    Lanes             step[3];
+    if (!has_guess || is_affine)
+      {
+        const Vec3<Lanes> t_1 = broadcast(tangent[0]), t_2 = broadcast(tangent[1]);
+        solve_3x3(t_1, t_2, minus_n, x - broadcast(center), step);
+        eta[0] = 0.5 + step[0];
+        eta[1] = 0.5 + step[1];
+        alpha  = step[2];
+        if (is_affine)
+          {
+            x_m   = broadcast(center) + step[0] * t_1 + step[1] * t_2;
+            slope = orientation * dot(n, cross(t_1, t_2));
+            return 0;
+          }
+      }
+
+    unsigned int active = (1u << n_lanes) - 1;
+    for (unsigned int iteration = 0; active != 0 && iteration < max_iterations; ++iteration)
+      {
+        // A partner lies on the face; farther out the polynomial means nothing.
+        for (auto &e : eta)
+          e = minimum(maximum(e, broadcast(-0.5)), broadcast(1.5));
+        Vec3<Lanes> dx[2];
+        polynomial.evaluate(eta[0], eta[1], x_m, dx);
+        solve_3x3(dx[0], dx[1], minus_n, x - x_m, step);
+        eta[0] += step[0];
+        eta[1] += step[1];
+        alpha = step[2];
+        x_m   = x_m + step[0] * dx[0] + step[1] * dx[1];
+        slope = orientation * dot(n, cross(dx[0], dx[1]));
+        active = lanes_above(maximum(absolute(step[0]), absolute(step[1])),
+                             broadcast(step_tolerance));
+      }
+    return active;
+  }
+} // namespace mortise

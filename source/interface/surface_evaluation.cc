@@ -1,0 +1,287 @@
+#include <mortise/interface/surface_evaluation.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/quadrature_lib.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    double
+    binomial(const unsigned int n, const unsigned int k)
+    {
+      double result = 1;
+      for (unsigned int i = 1; i <= k; ++i)
+        result = result * (n - k + i) / i;
+      return result;
+    }
+
+    // Values and derivatives of the Lagrange basis from products from the left and the right:
+    // no division, exact at the nodes.
+    template <unsigned int degree>
+    inline void
+    evaluate_basis(const LagrangeBasis &basis,
+                   const Lanes         &x,
+                   Lanes (&value)[degree + 1],
+                   Lanes (&derivative)[degree + 1])
+    {
+      Lanes left = broadcast(1.), left_derivative = broadcast(0.);
+      for (unsigned int i = 0; i <= degree; ++i)
+        {
+          value[i]           = left * basis.weight[i];
+          derivative[i]      = left_derivative * basis.weight[i];
+          const Lanes factor = x - basis.node[i];
+          left_derivative    = left_derivative * factor + left;
+          left               = left * factor;
+        }
+      Lanes right = broadcast(1.), right_derivative = broadcast(0.);
+      for (unsigned int i = degree + 1; i-- > 0;)
+        {
+          derivative[i]      = derivative[i] * right + value[i] * right_derivative;
+          value[i]           = value[i] * right;
+          const Lanes factor = x - basis.node[i];
+          right_derivative   = right_derivative * factor + right;
+          right              = right * factor;
+        }
+    }
+
+    template <unsigned int degree>
+    void
+    evaluate_face(const FacePolynomial &face,
+                  const Lanes          &xi_1,
+                  const Lanes          &xi_2,
+                  Vec3<Lanes>          &x,
+                  Vec3<Lanes> (&dx)[2])
+    {
+      constexpr unsigned int n = degree + 1;
+      Lanes                  value_1[n], derivative_1[n], value_2[n], derivative_2[n];
+      evaluate_basis<degree>(lagrange_basis(degree), xi_1, value_1, derivative_1);
+      evaluate_basis<degree>(lagrange_basis(degree), xi_2, value_2, derivative_2);
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const double *c = face.coefficients[d];
+          Lanes         sum{}, sum_1{}, sum_2{};
+          for (unsigned int j = 0; j < n; ++j, c += n)
+            {
+              Lanes row = value_1[0] * c[0], row_1 = derivative_1[0] * c[0];
+              for (unsigned int i = 1; i < n; ++i)
+                {
+                  row += value_1[i] * c[i];
+                  row_1 += derivative_1[i] * c[i];
+                }
+              sum += value_2[j] * row;
+              sum_1 += value_2[j] * row_1;
+              sum_2 += derivative_2[j] * row;
+            }
+          x[d]     = sum;
+          dx[0][d] = sum_1;
+          dx[1][d] = sum_2;
+        }
+    }
+
+    template <unsigned int degree>
+    void
+    evaluate_edges_of_degree(const EdgePolynomial (&edges)[4],
+                             const unsigned int (&edge)[n_lanes],
+                             const Lanes &tau,
+                             Vec3<Lanes> &x,
+                             Vec3<Lanes> &dx)
+    {
+      constexpr unsigned int n = degree + 1;
+      Lanes                  value[n], derivative[n];
+      evaluate_basis<degree>(lagrange_basis(degree), tau, value, derivative);
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          Lanes sum{}, sum_1{};
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              Lanes c;
+              for (unsigned int l = 0; l < n_lanes; ++l)
+                c[l] = edges[edge[l]].coefficients[d][i];
+              sum += value[i] * c;
+              sum_1 += derivative[i] * c;
+            }
+          x[d]  = sum;
+          dx[d] = sum_1;
+        }
+    }
+
+    LagrangeBasis
+    make_basis(const unsigned int degree)
+    {
+      LagrangeBasis            basis{};
+      const QGaussLobatto<1>   nodes(degree + 1);
+      basis.degree = degree;
+      for (unsigned int i = 0; i <= degree; ++i)
+        basis.node[i] = nodes.point(i)[0];
+      // Monomial coefficients of each basis function, then c_k = sum_j binom(k,j)/binom(g,j) a_j.
+      for (unsigned int i = 0; i <= degree; ++i)
+        {
+          basis.weight[i]                  = 1.;
+          double       monomial[max_face_nodes] = {1.};
+          unsigned int order                    = 0;
+          for (unsigned int j = 0; j <= degree; ++j)
+            if (j != i)
+              {
+                basis.weight[i] /= basis.node[i] - basis.node[j];
+                ++order;
+                for (unsigned int k = order; k > 0; --k)
+                  monomial[k] = monomial[k - 1] - basis.node[j] * monomial[k];
+                monomial[0] *= -basis.node[j];
+              }
+          for (unsigned int k = 0; k <= degree; ++k)
+            {
+              double sum = 0;
+              for (unsigned int j = 0; j <= k; ++j)
+                sum += binomial(k, j) / binomial(degree, j) * monomial[j];
+              basis.bernstein[k][i] = sum * basis.weight[i];
+            }
+        }
+      return basis;
+    }
+  } // namespace
+
+
+  const LagrangeBasis &
+  lagrange_basis(const unsigned int degree)
+  {
+    static const std::array<LagrangeBasis, max_face_degree> bases = {{make_basis(1),
+                                                                      make_basis(2),
+                                                                      make_basis(3),
+                                                                      make_basis(4),
+                                                                      make_basis(5),
+                                                                      make_basis(6),
+                                                                      make_basis(7),
+                                                                      make_basis(8)}};
+    return bases[degree - 1];
+  }
+
+
+
+  GaussRule::GaussRule(const unsigned int n)
+    : n(n)
+  {
+    const QGauss<1> quadrature(n);
+    for (unsigned int q = 0; q < n; ++q)
+      {
+        point.push_back(quadrature.point(q)[0]);
+        weight.push_back(quadrature.weight(q));
+      }
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          s.push_back(point[i]);
+          t.push_back(point[j]);
+          tensor_weight.push_back(weight[i] * weight[j]);
+        }
+  }
+
+
+
+  const GaussRule &
+  gauss_rule(const unsigned int n)
+  {
+    static const std::vector<GaussRule> rules = [] {
+      std::vector<GaussRule> result;
+      for (unsigned int n = 1; n <= max_gauss_points; ++n)
+        result.emplace_back(n);
+      return result;
+    }();
+    AssertIndexRange(n - 1, rules.size());
+    return rules[n - 1];
+  }
+
+
+
+  void
+  FacePolynomial::reinit(const SurfaceFace &face, const Point<3> &origin)
+  {
+    degree = face.degree;
+    for (unsigned int i = 0; i < face.points.size(); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        coefficients[d][i] = face.points[i][d] - origin[d];
+  }
+
+
+
+  void
+  FacePolynomial::evaluate(const Lanes &xi_1,
+                           const Lanes &xi_2,
+                           Vec3<Lanes> &x,
+                           Vec3<Lanes> (&dx)[2]) const
+  {
+    switch (degree)
+      {
+        case 1:
+          return evaluate_face<1>(*this, xi_1, xi_2, x, dx);
+        case 2:
+          return evaluate_face<2>(*this, xi_1, xi_2, x, dx);
+        case 3:
+          return evaluate_face<3>(*this, xi_1, xi_2, x, dx);
+        case 4:
+          return evaluate_face<4>(*this, xi_1, xi_2, x, dx);
+        case 5:
+          return evaluate_face<5>(*this, xi_1, xi_2, x, dx);
+        case 6:
+          return evaluate_face<6>(*this, xi_1, xi_2, x, dx);
+        case 7:
+          return evaluate_face<7>(*this, xi_1, xi_2, x, dx);
+        case 8:
+          return evaluate_face<8>(*this, xi_1, xi_2, x, dx);
+        default:
+          Assert(false, ExcInternalError());
+      }
+  }
+
+
+
+  void
+  EdgePolynomial::reinit(const FacePolynomial &face, const unsigned int edge)
+  {
+    degree               = face.degree;
+    const unsigned int n = degree + 1;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        const unsigned int index = edge == 0 ? i :
+                                   edge == 1 ? i * n + degree :
+                                   edge == 2 ? degree * n + degree - i :
+                                               (degree - i) * n;
+        for (unsigned int d = 0; d < 3; ++d)
+          coefficients[d][i] = face.coefficients[d][index];
+      }
+  }
+
+
+
+  void
+  evaluate_edges(const EdgePolynomial (&edges)[4],
+                 const unsigned int (&edge)[n_lanes],
+                 const Lanes &tau,
+                 Vec3<Lanes> &x,
+                 Vec3<Lanes> &dx)
+  {
+    switch (edges[0].degree)
+      {
+        case 1:
+          return evaluate_edges_of_degree<1>(edges, edge, tau, x, dx);
+        case 2:
+          return evaluate_edges_of_degree<2>(edges, edge, tau, x, dx);
+        case 3:
+          return evaluate_edges_of_degree<3>(edges, edge, tau, x, dx);
+        case 4:
+          return evaluate_edges_of_degree<4>(edges, edge, tau, x, dx);
+        case 5:
+          return evaluate_edges_of_degree<5>(edges, edge, tau, x, dx);
+        case 6:
+          return evaluate_edges_of_degree<6>(edges, edge, tau, x, dx);
+        case 7:
+          return evaluate_edges_of_degree<7>(edges, edge, tau, x, dx);
+        case 8:
+          return evaluate_edges_of_degree<8>(edges, edge, tau, x, dx);
+        default:
+          Assert(false, ExcInternalError());
+      }
+  }
+} // namespace mortise

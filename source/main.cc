@@ -1,0 +1,64 @@
+// The program: command line, parameters, one run.
+#include <mortise/problem/command_line.h>
+#include <mortise/problem/guard.h>
+#include <mortise/problem/parameter_schema.h>
+#include <mortise/problem/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+namespace
+{
+  void
+  run_command(const mortise::CommandLine &command, const MPI_Comm comm)
+  {
+    using Action     = mortise::CommandLine::Action;
+    const bool prints = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    switch (command.action)
+      {
+        case Action::print_help:
+          if (prints)
+            std::cout << mortise::help_text();
+          return;
+        case Action::print_version:
+          if (prints)
+            std::cout << mortise::version_text();
+          return;
+        case Action::print_parameters:
+          if (prints)
+            std::cout << mortise::parameter_reference();
+          return;
+        default:
+          break;
+      }
+    const mortise::Parameters parameters =
+      mortise::read_parameters(command.file, command.settings, comm);
+    mortise::validate(parameters);
+
+    mortise::RunLog log(std::cout, comm);
+    if (!parameters.title.empty())
+      log.line(parameters.title);
+    mortise::Simulation simulation(parameters, log, comm);
+    if (command.action == Action::validate)
+      {
+        mortise::check_output_directory(parameters, comm);
+        simulation.create_meshes();
+        log.line("The scene is valid.");
+      }
+    else
+      simulation.run();
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  // one thread per rank: parallelism is between ranks
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const std::vector<std::string>           arguments(argv + 1, argv + argc);
+  return mortise::run_guarded(
+    MPI_COMM_WORLD,
+    [&] { run_command(mortise::parse_command_line(arguments), MPI_COMM_WORLD); },
+    std::cerr);
+}

@@ -1,0 +1,265 @@
+#include <mortise/base/error.h>
+#include <mortise/material/exact_solution.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <sstream>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  ExpressionSolution::ExpressionSolution(const VectorExpression           &displacement,
+                                         const std::vector<LinearElastic> &materials)
+    : expression(displacement)
+    , materials(materials)
+  {
+  }
+
+  Tensor<1, 3>
+  ExpressionSolution::displacement(const Point<3> &p, const unsigned int) const
+  {
+    return expression.value(p);
+  }
+
+  Tensor<2, 3>
+  ExpressionSolution::gradient(const Point<3> &p, const unsigned int) const
+  {
+    return expression.gradient(p);
+  }
+
+  SymmetricTensor<2, 3>
+  ExpressionSolution::stress(const Point<3> &p, const unsigned int body) const
+  {
+    AssertIndexRange(body, materials.size());
+    return materials[body].stress(symmetrize(expression.gradient(p)));
+  }
+
+  Tensor<1, 3>
+  ExpressionSolution::body_force(const Point<3> &p, const unsigned int body) const
+  {
+    AssertIndexRange(body, materials.size());
+    return materials[body].body_force(expression.hessian(p));
+  }
+
+  unsigned int
+  ExpressionSolution::n_bodies() const
+  {
+    return materials.size();
+  }
+
+  namespace
+  {
+    using Layer = LameSolution::Layer;
+
+    /// Order of the layers from the inside out; throws if they do not fit together.
+    std::vector<unsigned int>
+    order_of(const std::vector<Layer> &layers)
+    {
+      std::vector<unsigned int> order(layers.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+        return layers[a].inner_radius < layers[b].inner_radius;
+      });
+      std::ostringstream message;
+      if (layers.empty())
+        message << "no body has radii";
+      for (unsigned int i = 0; i < order.size(); ++i)
+        {
+          const Layer &layer = layers[order[i]];
+          if (!(0. < layer.inner_radius && layer.inner_radius < layer.outer_radius))
+            message << "; radii " << layer.inner_radius << ", " << layer.outer_radius
+                    << " of body number " << order[i] + 1 << "; allowed: 0 < inner < outer";
+          else if (i > 0)
+            {
+              const double below = layers[order[i - 1]].outer_radius;
+              if (!(std::fabs(below - layer.inner_radius) <= 1e-8 * below))
+                message << "; one layer ends at radius " << below << " and the next begins at "
+                        << layer.inner_radius << "; allowed: the same radius";
+            }
+        }
+      if (!message.str().empty())
+        throw InputError("Exact solution of concentric layers: " +
+                         message.str().substr(message.str()[0] == ';' ? 2 : 0));
+      return order;
+    }
+
+    /// One layer's response to pressures: u_r = A r + B / r^(d-1) and
+    /// sigma_r = k A - s B / r^d with k = d lambda + 2 mu, s = 2 (d-1) mu.
+    struct Response
+    {
+      Response(const Layer &layer, const unsigned int d)
+        : a(layer.inner_radius)
+        , b(layer.outer_radius)
+        , d(d)
+      {
+        const double E = layer.material.young_modulus, nu = layer.material.poisson_ratio;
+        one_by_k = (d == 3 ? 1. : 1. + nu) * (1. - 2. * nu) / E;
+        one_by_s = (1. + nu) / ((d - 1) * E);
+        ratio    = std::pow(a / b, static_cast<int>(d));
+      }
+
+      /// k A for pressures @p pa inside and @p pb outside.
+      double
+      mean(const double pa, const double pb) const
+      {
+        return (pa * ratio - pb) / (1. - ratio);
+      }
+
+      /// s B / b^d.
+      double
+      shear(const double pa, const double pb) const
+      {
+        return (pa - pb) * ratio / (1. - ratio);
+      }
+
+      /// u_r at radius a or b.
+      double
+      displacement(const double r, const double pa, const double pb) const
+      {
+        return r * (mean(pa, pb) * one_by_k +
+                    shear(pa, pb) * std::pow(b / r, static_cast<int>(d)) * one_by_s);
+      }
+
+      double       a, b;
+      unsigned int d;
+      double       one_by_k, one_by_s, ratio;
+    };
+
+    /// Pressures at all radii, from the inside out. The unknowns are the pressures where layers
+    /// meet, so that contrast in stiffness never enters a difference: the equations (equal
+    /// displacement from both sides) are tridiagonal and diagonally dominant for each sign.
+    std::vector<double>
+    interface_pressures(const std::vector<Response> &responses,
+                        const double                 pressure_inside,
+                        const double                 pressure_outside)
+    {
+      const unsigned int  n = responses.size();
+      std::vector<double> pressures(n + 1, 0.), diagonal(n + 1, 1.), upper(n + 1, 0.);
+      pressures[0] = pressure_inside;
+      pressures[n] = pressure_outside;
+      // Thomas' algorithm; row i: lower p_{i-1} + middle p_i + upper p_{i+1} = 0.
+      for (unsigned int i = 1; i < n; ++i)
+        {
+          const Response &below = responses[i - 1], &above = responses[i];
+          const double    lower = below.displacement(below.b, 1., 0.);
+          const double    middle =
+            below.displacement(below.b, 0., 1.) - above.displacement(above.a, 1., 0.);
+          upper[i]            = -above.displacement(above.a, 0., 1.);
+          const double factor = lower / diagonal[i - 1];
+          diagonal[i]         = middle - (i > 1 ? factor * upper[i - 1] : 0.);
+          pressures[i]        = -factor * pressures[i - 1];
+        }
+      for (unsigned int i = n - 1; i >= 1; --i)
+        pressures[i] = (pressures[i] - upper[i] * pressures[i + 1]) / diagonal[i];
+      return pressures;
+    }
+  } // namespace
+
+  LameSolution::LameSolution(const Geometry            geometry,
+                             const std::vector<Layer> &layers,
+                             const double              pressure_inside,
+                             const double              pressure_outside,
+                             const RigidMotion        &motion)
+    : d(geometry == Geometry::sphere ? 3 : 2)
+    , coefficients(layers.size())
+    , motion(motion)
+  {
+    const std::vector<unsigned int> order = order_of(layers);
+    std::vector<Response>           responses;
+    for (const unsigned int body : order)
+      responses.emplace_back(layers[body], d);
+    const std::vector<double> p = interface_pressures(responses, pressure_inside, pressure_outside);
+    for (unsigned int i = 0; i < order.size(); ++i)
+      {
+        const Response &r      = responses[i];
+        const double    mean   = r.mean(p[i], p[i + 1]);
+        const double    shear  = r.shear(p[i], p[i + 1]) * std::pow(r.b, static_cast<int>(d));
+        coefficients[order[i]] = {mean * r.one_by_k,
+                                  shear * r.one_by_s,
+                                  mean,
+                                  shear,
+                                  layers[order[i]].material.poisson_ratio};
+      }
+  }
+
+  Tensor<1, 3>
+  LameSolution::radius_vector(const Point<3> &p) const
+  {
+    Tensor<1, 3> x = motion.inverse(p);
+    if (d == 2)
+      x[2] = 0.;
+    return x;
+  }
+
+  double
+  LameSolution::radial_displacement(const double radius, const unsigned int body) const
+  {
+    AssertIndexRange(body, coefficients.size());
+    const Coefficients &c = coefficients[body];
+    return c.A * radius + c.B / std::pow(radius, static_cast<int>(d) - 1);
+  }
+
+  double
+  LameSolution::radial_stress(const double radius, const unsigned int body) const
+  {
+    AssertIndexRange(body, coefficients.size());
+    const Coefficients &c = coefficients[body];
+    return c.mean - c.shear / std::pow(radius, static_cast<int>(d));
+  }
+
+  Tensor<1, 3>
+  LameSolution::displacement(const Point<3> &p, const unsigned int body) const
+  {
+    const Tensor<1, 3> x = radius_vector(p);
+    const double       r = x.norm();
+    return motion.rotation * (radial_displacement(r, body) / r * x);
+  }
+
+  Tensor<2, 3>
+  LameSolution::gradient(const Point<3> &p, const unsigned int body) const
+  {
+    AssertIndexRange(body, coefficients.size());
+    const Coefficients &c = coefficients[body];
+    // u = g(r) x with g = A + B / r^d, so grad u = g P + (g' / r) x (x) x, P the identity of the
+    // d directions.
+    const Tensor<1, 3> x     = radius_vector(p);
+    const double       r     = x.norm();
+    const double       B_r_d = c.B / std::pow(r, static_cast<int>(d));
+    Tensor<2, 3>       local = -(d * B_r_d / (r * r)) * outer_product(x, x);
+    for (unsigned int i = 0; i < d; ++i)
+      local[i][i] += c.A + B_r_d;
+    return motion.rotation * local * transpose(motion.rotation);
+  }
+
+  SymmetricTensor<2, 3>
+  LameSolution::stress(const Point<3> &p, const unsigned int body) const
+  {
+    AssertIndexRange(body, coefficients.size());
+    const Coefficients &c = coefficients[body];
+    // sigma_r = mean - shear / r^d; across: mean + shear / ((d-1) r^d); along the axis of a
+    // cylinder in plane strain nu (sigma_r + sigma_t) = 2 nu mean.
+    const Tensor<1, 3> x      = radius_vector(p);
+    const double       r      = x.norm();
+    const double       across = c.shear / ((d - 1) * std::pow(r, static_cast<int>(d)));
+    Tensor<2, 3>       local  = -(d * across / (r * r)) * outer_product(x, x);
+    for (unsigned int i = 0; i < d; ++i)
+      local[i][i] += c.mean + across;
+    if (d == 2)
+      local[2][2] = 2. * c.poisson_ratio * c.mean;
+    return symmetrize(motion.rotation * local * transpose(motion.rotation));
+  }
+
+  Tensor<1, 3>
+  LameSolution::body_force(const Point<3> &, const unsigned int) const
+  {
+    return Tensor<1, 3>();
+  }
+
+  unsigned int
+  LameSolution::n_bodies() const
+  {
+    return coefficients.size();
+  }
+} // namespace mortise

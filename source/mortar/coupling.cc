@@ -1,0 +1,281 @@
+#include <mortise/mortar/coupling.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <algorithm>
+#include <map>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Index = types::global_dof_index;
+
+    /// Rows of a local matrix in one component: expansions of local functions in global ones.
+    struct Expansion
+    {
+      const std::vector<unsigned int> &begin;
+      const std::vector<Index>        &index;
+      const std::vector<double>       &weight;
+      unsigned int                     offset; ///< first row of the component
+    };
+
+    Expansion
+    component(const FaceTrace &trace, const unsigned int c)
+    {
+      return {trace.begin, trace.column, trace.weight, c * trace.n_functions()};
+    }
+
+    Expansion
+    component(const MultiplierSpace::FaceRows &rows, const unsigned int c)
+    {
+      const unsigned int n = (rows.begin.size() - 1) / dim;
+      return {rows.begin, rows.index, rows.weight, c * n};
+    }
+
+    /// Entries sum_ij (row expansion of i) matrix_ij (column expansion of j), gathered row by row.
+    /// In a first pass only their places are recorded.
+    class Assembler
+    {
+    public:
+      Assembler(const IndexSet &rows, const IndexSet &columns)
+        : rows(rows)
+        , columns(columns)
+      {}
+
+      void
+      record(const Expansion &row, const unsigned int n_rows, const Expansion &column, const unsigned int n_columns)
+      {
+        std::vector<Index> places(column.index.begin() + column.begin[column.offset],
+                                  column.index.begin() + column.begin[column.offset + n_columns]);
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        for (unsigned int e = row.begin[row.offset]; e < row.begin[row.offset + n_rows]; ++e)
+          {
+            auto &entries = pattern[row.index[e]];
+            entries.insert(entries.end(), places.begin(), places.end());
+            if (entries.size() > 4 * (compressed[row.index[e]] + 64))
+              compress(row.index[e]);
+          }
+      }
+
+      void
+      create(SparseMatrix &matrix, const MPI_Comm comm)
+      {
+        IndexSet touched = rows;
+        for (const auto &row : pattern)
+          touched.add_index(row.first);
+        touched.compress();
+        DynamicSparsityPattern sparsity(rows.size(), columns.size(), touched);
+        for (auto &row : pattern)
+          {
+            compress(row.first);
+            sparsity.add_entries(row.first, row.second.begin(), row.second.end(), true);
+            row.second = std::vector<Index>();
+          }
+        matrix.reinit(rows, columns, sparsity, comm, true);
+      }
+
+      static void
+      add(const Expansion          &row,
+          const Expansion          &column,
+          const FullMatrix<double> &local,
+          const double              factor,
+          const bool                transposed,
+          SparseMatrix             &matrix)
+      {
+        const unsigned int n_rows    = transposed ? local.n() : local.m();
+        const unsigned int n_columns = transposed ? local.m() : local.n();
+        const unsigned int first     = column.begin[column.offset];
+        const unsigned int last      = column.begin[column.offset + n_columns];
+        std::vector<double> values(last - first);
+        for (unsigned int i = 0; i < n_rows; ++i)
+          {
+            for (unsigned int j = 0; j < n_columns; ++j)
+              for (unsigned int e = column.begin[column.offset + j];
+                   e < column.begin[column.offset + j + 1];
+                   ++e)
+                values[e - first] = column.weight[e] * (transposed ? local(j, i) : local(i, j));
+            for (unsigned int e = row.begin[row.offset + i]; e < row.begin[row.offset + i + 1]; ++e)
+              {
+                std::vector<double> scaled(values);
+                for (double &value : scaled)
+                  value *= factor * row.weight[e];
+                matrix.add(row.index[e], scaled.size(), &column.index[first], scaled.data(), false);
+              }
+          }
+      }
+
+    private:
+      void
+      compress(const Index row)
+      {
+        auto &entries = pattern[row];
+        std::sort(entries.begin(), entries.end());
+        entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+        compressed[row] = entries.size();
+      }
+
+      const IndexSet                      &rows, &columns;
+      std::map<Index, std::vector<Index>>  pattern;
+      std::map<Index, std::size_t>         compressed;
+    };
+
+    /// Move prescribed displacements to the right hand side: g_i -= factor local_ij constant_j.
+    void
+    move_constants(const Expansion          &row,
+                   const FaceTrace          &trace,
+                   const unsigned int        c,
+                   const FullMatrix<double> &local,
+                   const double              factor,
+                   Vector                   &rhs)
+    {
+      for (unsigned int i = 0; i < local.m(); ++i)
+        {
+          double sum = 0.;
+          for (unsigned int j = 0; j < local.n(); ++j)
+            sum += local(i, j) * trace.constant[c * trace.n_functions() + j];
+          if (sum != 0.)
+            for (unsigned int e = row.begin[row.offset + i]; e < row.begin[row.offset + i + 1]; ++e)
+              rhs(row.index[e]) -= factor * row.weight[e] * sum;
+        }
+    }
+
+    /// Calls visit(slave trace, rows, local) for each slave face with a partner.
+    template <typename Visit>
+    void
+    for_each_face(const std::vector<Coupling> &couplings, const Visit &visit)
+    {
+      for (const Coupling &coupling : couplings)
+        for (unsigned int s = 0; s < coupling.local.size(); ++s)
+          if (!coupling.local[s].partners.empty())
+            visit(coupling, s);
+    }
+
+    void
+    assemble_penalty(const std::vector<Coupling> &couplings,
+                     const IndexSet              &owned_displacement,
+                     const MPI_Comm               comm,
+                     SparseMatrix                &penalty)
+    {
+      Assembler  assembler(owned_displacement, owned_displacement);
+      const auto for_each_block = [&](const auto &block) {
+        for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
+          const FaceTrace     &slave = coupling.interface->slave().traces[s];
+          const LocalCoupling &local = coupling.local[s];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              block(component(slave, c), component(slave, c), local.mass, local.penalty, false);
+              for (const auto &partner : local.partners)
+                {
+                  const Expansion master =
+                    component(coupling.interface->master_traces()[partner.master], c);
+                  block(component(slave, c), master, partner.mixed, -local.penalty, false);
+                  block(master, component(slave, c), partner.mixed, -local.penalty, true);
+                  block(master, master, partner.mass, local.penalty, false);
+                }
+            }
+        });
+      };
+      for_each_block([&](const Expansion          &row,
+                         const Expansion          &column,
+                         const FullMatrix<double> &local,
+                         const double,
+                         const bool transposed) {
+        assembler.record(
+          row, transposed ? local.n() : local.m(), column, transposed ? local.m() : local.n());
+      });
+      assembler.create(penalty, comm);
+      for_each_block([&](const Expansion          &row,
+                         const Expansion          &column,
+                         const FullMatrix<double> &local,
+                         const double              factor,
+                         const bool                transposed) {
+        Assembler::add(row, column, local, factor, transposed, penalty);
+      });
+      penalty.compress(VectorOperation::add);
+    }
+
+    void
+    assemble_norm(const std::vector<Coupling> &couplings,
+                  const IndexSet              &owned_multiplier,
+                  const MPI_Comm               comm,
+                  SparseMatrix                &norm)
+    {
+      Assembler assembler(owned_multiplier, owned_multiplier);
+      for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
+        const auto        &rows = coupling.multipliers->rows()[s];
+        const unsigned int n    = coupling.local[s].mass.m();
+        for (unsigned int c = 0; c < dim; ++c)
+          assembler.record(component(rows, c), n, component(rows, c), n);
+      });
+      assembler.create(norm, comm);
+      for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
+        const auto          &rows  = coupling.multipliers->rows()[s];
+        const LocalCoupling &local = coupling.local[s];
+        for (unsigned int c = 0; c < dim; ++c)
+          Assembler::add(
+            component(rows, c), component(rows, c), local.mass, 1. / local.penalty, false, norm);
+      });
+      norm.compress(VectorOperation::add);
+    }
+  } // namespace
+
+  void
+  assemble_constraint(const std::vector<Coupling> &couplings,
+                      const CouplingPartition     &partition,
+                      SparseMatrix                &coupling_matrix,
+                      Vector                      &coupling_rhs)
+  {
+    Assembler assembler(partition.owned_multiplier, partition.owned_displacement);
+    for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
+      const FaceTrace &slave = coupling.interface->slave().traces[s];
+      const auto      &rows  = coupling.multipliers->rows()[s];
+      const unsigned int n   = slave.n_functions();
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          assembler.record(component(rows, c), n, component(slave, c), n);
+          for (const auto &partner : coupling.local[s].partners)
+            {
+              const FaceTrace &master = coupling.interface->master_traces()[partner.master];
+              assembler.record(component(rows, c), n, component(master, c), master.n_functions());
+            }
+        }
+    });
+    assembler.create(coupling_matrix, partition.comm);
+    coupling_rhs.reinit(partition.owned_multiplier, partition.comm);
+
+    for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
+      const FaceTrace     &slave = coupling.interface->slave().traces[s];
+      const auto          &rows  = coupling.multipliers->rows()[s];
+      const LocalCoupling &local = coupling.local[s];
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const Expansion row = component(rows, c);
+          Assembler::add(row, component(slave, c), local.mass, 1., false, coupling_matrix);
+          move_constants(row, slave, c, local.mass, 1., coupling_rhs);
+          for (const auto &partner : local.partners)
+            {
+              const FaceTrace &master = coupling.interface->master_traces()[partner.master];
+              Assembler::add(
+                row, component(master, c), partner.mixed, -1., false, coupling_matrix);
+              move_constants(row, master, c, partner.mixed, -1., coupling_rhs);
+            }
+        }
+    });
+    coupling_matrix.compress(VectorOperation::add);
+    coupling_rhs.compress(VectorOperation::add);
+  }
+
+  void
+  assemble_norms(const std::vector<Coupling> &couplings,
+                 const CouplingPartition     &partition,
+                 SparseMatrix                &jump_penalty,
+                 SparseMatrix                &multiplier_norm)
+  {
+    assemble_penalty(couplings, partition.owned_displacement, partition.comm, jump_penalty);
+    assemble_norm(couplings, partition.owned_multiplier, partition.comm, multiplier_norm);
+  }
+} // namespace mortise

@@ -1,0 +1,162 @@
+#include <mortise/mortar/coupling.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Sum over the functions of a face that are not zero on constants: those of its vertices.
+    double
+    on_constants(const FullMatrix<double> &local, const unsigned int i, const unsigned int degree)
+    {
+      const unsigned int n = degree + 1;
+      return local(i, 0) + local(i, 1) + local(i, n) + local(i, n + 1);
+    }
+
+    /// Calls visit(slave face, function, component, entry, local coupling).
+    template <typename Visit>
+    void
+    for_each_entry(const Coupling &coupling, const Visit &visit)
+    {
+      for (unsigned int s = 0; s < coupling.local.size(); ++s)
+        if (!coupling.local[s].partners.empty())
+          {
+            const auto        &rows = coupling.multipliers->rows()[s];
+            const unsigned int n    = coupling.local[s].mass.m();
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int i = 0; i < n; ++i)
+                for (unsigned int e = rows.begin[c * n + i]; e < rows.begin[c * n + i + 1]; ++e)
+                  visit(s, i, rows.index[e], rows.weight[e]);
+          }
+    }
+
+    double
+    row_difference(const Coupling &coupling, const unsigned int s, const unsigned int i)
+    {
+      const LocalCoupling &local = coupling.local[s];
+      double sum = on_constants(local.mass, i, coupling.interface->slave().traces[s].degree);
+      for (const auto &partner : local.partners)
+        sum -= on_constants(
+          partner.mixed, i, coupling.interface->master_traces()[partner.master].degree);
+      return sum;
+    }
+  } // namespace
+
+  TransferErrors
+  transfer_errors(const Coupling &coupling, const IndexSet &owned_multiplier, const MPI_Comm comm)
+  {
+    // the entries of a multiplier come from all faces around it, on any rank
+    enum
+    {
+      difference,
+      weight,
+      gap_x,
+      gap_y,
+      gap_z,
+      scale,
+      n_sums
+    };
+    IndexSet ghosts = owned_multiplier;
+    for (const auto &rows : coupling.multipliers->rows())
+      ghosts.add_indices(rows.index.begin(), rows.index.end());
+    std::vector<LinearAlgebra::distributed::Vector<double>> sums(n_sums);
+    for (auto &sum : sums)
+      sum.reinit(owned_multiplier, ghosts, comm);
+
+    for_each_entry(coupling, [&](const unsigned int s, const unsigned int i, const auto index, const double w) {
+      const LocalCoupling &local = coupling.local[s];
+      const double         row =
+        on_constants(local.mass, i, coupling.interface->slave().traces[s].degree);
+      sums[difference](index) += w * row_difference(coupling, s, i);
+      sums[weight](index) += w * row;
+      for (unsigned int c = 0; c < dim; ++c)
+        sums[gap_x + c](index) += w * local.gap_moment[i][c];
+      // int |lambda_i| is at most the root of the area times that of int lambda_i^2
+      const double area = std::sqrt(local.mass(i, i)) * coupling.interface->slave().faces[s].size;
+      sums[scale](index) += std::fabs(w) * area * coupling.interface->slave().faces[s].size;
+    });
+    for (auto &sum : sums)
+      sum.compress(VectorOperation::add);
+
+    double worst_difference = 0., largest_weight = 0., worst_gap = 0.;
+    for (unsigned int i = 0; i < sums[weight].locally_owned_size(); ++i)
+      {
+        worst_difference = std::max(worst_difference, std::fabs(sums[difference].local_element(i)));
+        largest_weight   = std::max(largest_weight, std::fabs(sums[weight].local_element(i)));
+        const double gap = std::hypot(sums[gap_x].local_element(i),
+                                      sums[gap_y].local_element(i),
+                                      sums[gap_z].local_element(i));
+        if (sums[scale].local_element(i) > 0.)
+          worst_gap = std::max(worst_gap, gap / sums[scale].local_element(i));
+      }
+    TransferErrors errors;
+    largest_weight             = Utilities::MPI::max(largest_weight, comm);
+    errors.partition_of_unity  = Utilities::MPI::max(worst_difference, comm);
+    errors.linear_completeness = Utilities::MPI::max(worst_gap, comm);
+    if (largest_weight > 0.)
+      errors.partition_of_unity /= largest_weight;
+    return errors;
+  }
+
+  std::vector<std::vector<double>>
+  multiplier_on_faces(const Coupling &coupling, const Vector &multiplier, const MPI_Comm comm)
+  {
+    IndexSet relevant = multiplier.locally_owned_elements();
+    for (const auto &rows : coupling.multipliers->rows())
+      relevant.add_indices(rows.index.begin(), rows.index.end());
+    relevant.compress();
+    Vector ghosted(multiplier.locally_owned_elements(), relevant, comm);
+    ghosted = multiplier;
+
+    std::vector<std::vector<double>> coefficients;
+    for (const auto &rows : coupling.multipliers->rows())
+      {
+        coefficients.emplace_back(rows.begin.size() - 1, 0.);
+        for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+          for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+            coefficients.back()[r] += rows.weight[e] * ghosted(rows.index[e]);
+      }
+    return coefficients;
+  }
+
+  ResultantErrors
+  resultant_errors(const Coupling &coupling, const Vector &multiplier, const MPI_Comm comm)
+  {
+    const auto      coefficients = multiplier_on_faces(coupling, multiplier, comm);
+    Tensor<1, dim>  force, moment;
+    double          squared = 0.;
+    for (unsigned int s = 0; s < coupling.local.size(); ++s)
+      if (!coupling.local[s].partners.empty())
+        {
+          const LocalCoupling &local = coupling.local[s];
+          const unsigned int   n     = local.mass.m();
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              Tensor<1, dim> value;
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  value[c] = coefficients[s][c * n + i];
+                  for (unsigned int j = 0; j < n; ++j)
+                    squared += value[c] * local.mass(i, j) * coefficients[s][c * n + j];
+                }
+              force += row_difference(coupling, s, i) * value;
+              moment += cross_product_3d(local.gap_moment[i], value);
+            }
+        }
+    force                = Utilities::MPI::sum(force, comm);
+    moment               = Utilities::MPI::sum(moment, comm);
+    const double area    = coupling.interface->report().covered_area;
+    const double carried = std::sqrt(std::max(0., Utilities::MPI::sum(squared, comm)) * area);
+    if (!(carried > 0.))
+      return {};
+    return {force.norm() / carried, moment.norm() / (carried * std::sqrt(area))};
+  }
+} // namespace mortise

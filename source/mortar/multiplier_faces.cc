@@ -1,0 +1,163 @@
+#include <mortise/mortar/multiplier_faces.h>
+
+#include <mortise/body/face_topology.h>
+#include <mortise/body/fe_legendre.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <cstdint>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double none_below = 0.1;
+    constexpr double full_above = 0.9;
+
+    /// What only the owner of a cell knows for sure, by face: 12 bits of rims, 2 of coverage.
+    using FaceBits = std::array<std::uint16_t, 6>;
+
+    class BlockedDofs
+    {
+    public:
+      BlockedDofs(const Body &body, const std::vector<bool> &owned)
+        : body(body)
+        , flags(body.dof_handler.locally_owned_dofs(),
+                body.relevant_dofs,
+                body.triangulation.get_communicator())
+      {
+        for (unsigned int i = 0; i < owned.size(); ++i)
+          flags.local_element(i) = owned[i] ? 1. : 0.;
+        flags.update_ghost_values();
+      }
+
+      /// A hanging dof is blocked when all that it hangs on is.
+      bool
+      operator()(const types::global_dof_index dof) const
+      {
+        if (!body.conformity.is_constrained(dof))
+          return flags(dof) > 0.5;
+        for (const auto &entry : *body.conformity.get_constraint_entries(dof))
+          if (flags(entry.first) < 0.5)
+            return false;
+        return true;
+      }
+
+    private:
+      const Body                                &body;
+      LinearAlgebra::distributed::Vector<double> flags;
+    };
+
+    /// Bit of rim [c][a][side].
+    unsigned int
+    rim_bit(const unsigned int c, const unsigned int a, const unsigned int side)
+    {
+      return 4 * c + 2 * a + side;
+    }
+
+    std::uint16_t
+    owner_bits(const MultiplierFace &face, const double coverage, const BlockedDofs &blocked)
+    {
+      const unsigned int n    = face.degree + 1;
+      std::uint16_t      bits = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int a = 0; a < 2; ++a)
+          for (unsigned int side = 0; side < 2; ++side)
+            {
+              bool               rim = true;
+              const unsigned int top = face.edge_degree[1 - a][side];
+              for (unsigned int k = 0; k <= top && rim; ++k)
+                rim = blocked(face.dofs[c][a == 0 ? side + n * k : k + n * side]);
+              if (rim)
+                bits |= 1u << rim_bit(c, a, side);
+            }
+      const auto status = coverage < none_below ? MultiplierFace::Status::none :
+                          coverage < full_above ? MultiplierFace::Status::partial :
+                                                  MultiplierFace::Status::full;
+      return bits | (static_cast<std::uint16_t>(status) << 12);
+    }
+
+    MultiplierFace
+    describe(const Body &body, const Body::CellIterator &cell, const unsigned int f)
+    {
+      MultiplierFace face;
+      face.degree      = body.degree(cell);
+      face.dofs        = face_dofs(body, cell, f);
+      // where degrees meet, one dof carries a mode for all cells around it
+      std::vector<types::global_dof_index> masters;
+      body.degrees->get_master_dofs(cell, masters);
+      const auto on_face = face_dof_indices(face.degree, f);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int k = 0; k < on_face.size(); ++k)
+          {
+            const auto master = masters[cell->get_fe().component_to_system_index(c, on_face[k])];
+            if (master != numbers::invalid_dof_index)
+              face.dofs[c][k] = master;
+          }
+      face.quad_degree = body.degrees->quad_degree(cell, f);
+      for (unsigned int a = 0; a < 2; ++a)
+        for (unsigned int side = 0; side < 2; ++side)
+          face.edge_degree[a][side] =
+            body.degrees->line_degree(cell, face_topology::line(f, a, side));
+      return face;
+    }
+
+    void
+    apply_bits(const std::uint16_t bits, const Body &body, const BlockedDofs &blocked, MultiplierFace &face)
+    {
+      const unsigned int n = face.degree + 1;
+      face.status          = static_cast<MultiplierFace::Status>(bits >> 12);
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          for (unsigned int a = 0; a < 2; ++a)
+            for (unsigned int side = 0; side < 2; ++side)
+              face.rim[c][a][side] = bits & (1u << rim_bit(c, a, side));
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              const auto dof            = face.dofs[c][v % 2 + n * (v / 2)];
+              face.blocked_vertex[c][v] = body.conformity.is_constrained(dof) || blocked(dof);
+            }
+        }
+    }
+  } // namespace
+
+  std::vector<MultiplierFace>
+  collect_multiplier_faces(const Body                &body,
+                           const types::boundary_id   boundary,
+                           const BodySurface         &slave,
+                           const std::vector<double> &coverage,
+                           const std::vector<bool>   &blocked_owned)
+  {
+    const BlockedDofs              blocked(body, blocked_owned);
+    std::map<CellId, FaceBits>     bits;
+    for (unsigned int s = 0; s < slave.faces.size(); ++s)
+      bits[slave.cells[s]->id()][slave.face_numbers[s]] =
+        owner_bits(describe(body, slave.cells[s], slave.face_numbers[s]), coverage[s], blocked);
+
+    const auto pack = [&](const Body::CellIterator &cell) {
+      const auto found = bits.find(cell->id());
+      return found == bits.end() ? FaceBits{} : found->second;
+    };
+    const auto unpack = [&](const Body::CellIterator &cell, const FaceBits &received) {
+      bits[cell->id()] = received;
+    };
+    GridTools::exchange_cell_data_to_ghosts<FaceBits>(body.dof_handler, pack, unpack);
+
+    std::vector<MultiplierFace> faces;
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+            {
+              faces.push_back(describe(body, cell, f));
+              apply_bits(bits[cell->id()][f], body, blocked, faces.back());
+            }
+    return faces;
+  }
+} // namespace mortise

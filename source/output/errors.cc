@@ -1,0 +1,269 @@
+#include <mortise/output/errors.h>
+
+#include <mortise/body/fe_legendre.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/fe_values.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <cmath>
+#include <map>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Coefficients of the three components on one cell, in the order of the scalar element.
+    std::array<std::vector<double>, dim>
+    cell_coefficients(const Body::CellIterator &cell, const BodyVector &displacement)
+    {
+      const auto                          &fe = cell->get_fe();
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      std::array<std::vector<double>, dim> coefficients;
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int i = 0; i < fe.n_dofs_per_cell() / dim; ++i)
+          coefficients[c].push_back(displacement(dofs[fe.component_to_system_index(c, i)]));
+      return coefficients;
+    }
+
+    template <typename Values>
+    Tensor<2, dim>
+    gradient(const Values                               &values,
+             const std::array<std::vector<double>, dim> &coefficients,
+             const unsigned int                          q)
+    {
+      Tensor<2, dim> result;
+      for (unsigned int i = 0; i < coefficients[0].size(); ++i)
+        {
+          const Tensor<1, dim> shape = values.shape_grad(i, q);
+          for (unsigned int c = 0; c < dim; ++c)
+            result[c] += coefficients[c][i] * shape;
+        }
+      return result;
+    }
+
+    template <typename Values>
+    Tensor<1, dim>
+    value(const Values                               &values,
+          const std::array<std::vector<double>, dim> &coefficients,
+          const unsigned int                          q)
+    {
+      Tensor<1, dim> result;
+      for (unsigned int i = 0; i < coefficients[0].size(); ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          result[c] += coefficients[c][i] * values.shape_value(i, q);
+      return result;
+    }
+
+    /// FEValues objects of scalar elements, made when a degree first appears.
+    template <typename Values>
+    class ValuesByDegree
+    {
+    public:
+      ValuesByDegree(const Body &body, const unsigned int extra_points, const UpdateFlags flags)
+        : body(body)
+        , extra_points(extra_points)
+        , flags(flags)
+      {}
+
+      Values &
+      operator()(const unsigned int degree)
+      {
+        auto &values = all[degree];
+        if (!values)
+          values = std::make_unique<Values>(
+            *body.mapping,
+            FE_Legendre(degree),
+            Quadrature<Values::integral_dimension>(
+              QGauss<Values::integral_dimension>(degree + extra_points)),
+            flags);
+        return *values;
+      }
+
+    private:
+      const Body                                     &body;
+      const unsigned int                              extra_points;
+      const UpdateFlags                               flags;
+      std::map<unsigned int, std::unique_ptr<Values>> all;
+    };
+
+    using TriaCell = Triangulation<dim>::cell_iterator;
+  } // namespace
+
+  std::vector<BodyVector>
+  body_displacements(const Bodies                    &bodies,
+                     const DisplacementNumbering     &numbering,
+                     const AffineConstraints<double> &constraints,
+                     const Vector                    &displacement)
+  {
+    const IndexSet &owned = displacement.locally_owned_elements();
+    const MPI_Comm  comm  = bodies.front()->triangulation.get_communicator();
+    Vector          all(displacement), ghosted;
+    constraints.distribute(all);
+    ghosted.reinit(owned, constraints.get_local_lines(), comm);
+    ghosted = all;
+
+    std::vector<BodyVector> result;
+    for (const auto &body : bodies)
+      {
+        BodyVector vector(body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
+        for (const auto dof : body->dof_handler.locally_owned_dofs())
+          vector(dof) = ghosted(numbering(body->index, dof));
+        vector.update_ghost_values();
+        result.push_back(std::move(vector));
+      }
+    return result;
+  }
+
+  DisplacementErrors
+  displacement_errors(const Bodies                  &bodies,
+                      const std::vector<BodyVector> &displacements,
+                      const ExactSolution           &exact)
+  {
+    std::array<double, 4> sums{}; // squares: L2 error, L2 norm, energy error, energy norm
+    for (const auto &body : bodies)
+      {
+        ValuesByDegree<FEValues<dim>> by_degree(*body,
+                                                3,
+                                                update_values | update_gradients |
+                                                  update_quadrature_points | update_JxW_values);
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              auto &values = by_degree(body->degree(cell));
+              values.reinit(TriaCell(cell));
+              const auto coefficients = cell_coefficients(cell, displacements[body->index]);
+              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                {
+                  const Point<dim>    &x      = values.quadrature_point(q);
+                  const Tensor<1, dim> u      = exact.displacement(x, body->index);
+                  const auto           strain = symmetrize(exact.gradient(x, body->index));
+                  const auto strain_error     = symmetrize(gradient(values, coefficients, q)) - strain;
+                  const double weight         = values.JxW(q);
+                  sums[0] += weight * (value(values, coefficients, q) - u).norm_square();
+                  sums[1] += weight * u.norm_square();
+                  sums[2] += weight * (body->material.stress(strain_error) * strain_error);
+                  sums[3] += weight * (body->material.stress(strain) * strain);
+                }
+            }
+      }
+    const MPI_Comm comm = bodies.front()->triangulation.get_communicator();
+    for (double &sum : sums)
+      sum = Utilities::MPI::sum(sum, comm);
+    // an exact solution that is zero has absolute errors
+    const auto relative = [](const double error, const double norm) {
+      return std::sqrt(norm > 0. ? error / norm : error);
+    };
+    return {relative(sums[0], sums[1]), relative(sums[2], sums[3])};
+  }
+
+  double
+  multiplier_error(const Bodies                                        &bodies,
+                   const std::vector<Coupling>                         &couplings,
+                   const std::vector<unsigned int>                     &slave_bodies,
+                   const std::vector<std::vector<std::vector<double>>> &coefficients,
+                   const ExactSolution                                 &exact)
+  {
+    double error = 0., norm = 0.;
+    for (unsigned int n = 0; n < couplings.size(); ++n)
+      {
+        const Body                       &body = *bodies[slave_bodies[n]];
+        ValuesByDegree<FEFaceValues<dim>> by_degree(body,
+                                                    3,
+                                                    update_values | update_normal_vectors |
+                                                      update_quadrature_points | update_JxW_values);
+        const BodySurface &slave = couplings[n].interface->slave();
+        for (unsigned int s = 0; s < slave.faces.size(); ++s)
+          if (!couplings[n].local[s].partners.empty())
+            {
+              const unsigned int degree = slave.traces[s].degree;
+              auto              &values = by_degree(degree);
+              values.reinit(TriaCell(slave.cells[s]), slave.face_numbers[s]);
+              const auto on_face = face_dof_indices(degree, slave.face_numbers[s]);
+              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                {
+                  // lambda acts on the master: it is minus the traction on the slave
+                  const Tensor<1, dim> traction =
+                    exact.stress(values.quadrature_point(q), body.index) * values.normal_vector(q);
+                  Tensor<1, dim> difference = traction;
+                  for (unsigned int c = 0; c < dim; ++c)
+                    for (unsigned int k = 0; k < on_face.size(); ++k)
+                      difference[c] += coefficients[n][s][c * on_face.size() + k] *
+                                       values.shape_value(on_face[k], q);
+                  error += values.JxW(q) * difference.norm_square();
+                  norm += values.JxW(q) * traction.norm_square();
+                }
+            }
+      }
+    const MPI_Comm comm = bodies.front()->triangulation.get_communicator();
+    error               = Utilities::MPI::sum(error, comm);
+    norm                = Utilities::MPI::sum(norm, comm);
+    return std::sqrt(norm > 0. ? error / norm : error);
+  }
+
+  std::optional<Tensor<1, dim>>
+  point_value(const Body &body, const BodyVector &displacement, const Point<dim> &point)
+  {
+    // the owner of the lowest rank that has the point answers
+    const MPI_Comm     comm    = body.triangulation.get_communicator();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const unsigned int me      = Utilities::MPI::this_mpi_process(comm);
+    Tensor<1, dim>     result;
+    bool               found = false;
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      {
+        if (found || !cell->is_locally_owned() ||
+            (cell->center() - point).norm() > 2. * cell->diameter())
+          continue;
+        Point<dim> unit;
+        try
+          {
+            unit = body.mapping->transform_real_to_unit_cell(cell, point);
+          }
+        catch (const Mapping<dim>::ExcTransformationFailed &)
+          {
+            continue;
+          }
+        if (!GeometryInfo<dim>::is_inside_unit_cell(unit, 1e-8))
+          continue;
+        const FE_Legendre element(body.degree(cell));
+        const auto        coefficients = cell_coefficients(cell, displacement);
+        for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            result[c] += coefficients[c][i] * element.shape_value(i, unit);
+        found = true;
+      }
+    const unsigned int answers = Utilities::MPI::min(found ? me : n_ranks, comm);
+    if (answers == n_ranks)
+      return {};
+    return Utilities::MPI::broadcast(comm, result, answers);
+  }
+
+  Tensor<1, dim>
+  resultant(const Body &body, const BodyVector &displacement, const types::boundary_id boundary)
+  {
+    Tensor<1, dim>                    force;
+    ValuesByDegree<FEFaceValues<dim>> by_degree(
+      body, 2, update_gradients | update_normal_vectors | update_JxW_values);
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+            {
+              auto &values = by_degree(body.degree(cell));
+              values.reinit(TriaCell(cell), f);
+              const auto coefficients = cell_coefficients(cell, displacement);
+              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+                force += values.JxW(q) *
+                         (body.material.stress(symmetrize(gradient(values, coefficients, q))) *
+                          values.normal_vector(q));
+            }
+    return Utilities::MPI::sum(force, body.triangulation.get_communicator());
+  }
+} // namespace mortise

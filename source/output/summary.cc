@@ -1,0 +1,193 @@
+#include <mortise/output/summary.h>
+
+#include <mortise/base/error.h>
+
+#include <deal.II/base/config.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#ifndef MORTISE_VERSION
+#  define MORTISE_VERSION "unknown"
+#endif
+
+namespace mortise
+{
+  // Keys keep the order in which they are set. A double is written with the digits that read back
+  // to the same value, and null if it is not finite.
+  using Json = nlohmann::ordered_json;
+
+  ProgramInfo
+  program_info(const unsigned int n_ranks)
+  {
+    ProgramInfo info;
+    info.version = MORTISE_VERSION;
+    info.dealii  = DEAL_II_PACKAGE_VERSION;
+    info.ranks   = n_ranks;
+#ifdef DEBUG
+    info.build_type = "Debug";
+#else
+    info.build_type = "Release";
+#endif
+    return info;
+  }
+
+  namespace
+  {
+    /// Set @p key only if there is a value.
+    template <typename T>
+    void
+    set(Json &object, const std::string &key, const std::optional<T> &value)
+    {
+      if (value)
+        object[key] = *value;
+    }
+
+    Json
+    json_of(const BodySummary &body)
+    {
+      return {{"name", body.name},
+              {"shape", body.shape},
+              {"cells", body.cells},
+              {"degree_min", body.degree_min},
+              {"degree_max", body.degree_max},
+              {"dofs", body.dofs}};
+    }
+
+    Json
+    json_of(const DofSummary &dofs)
+    {
+      Json json = {{"displacement", dofs.displacement}};
+      set(json, "pressure", dofs.pressure);
+      set(json, "multiplier", dofs.multiplier);
+      json["total"] = dofs.total;
+      return json;
+    }
+
+    Json
+    json_of(const InterfaceSummary &interface)
+    {
+      Json json = {{"name", interface.name},
+                   {"slave_faces", interface.slave_faces},
+                   {"master_faces", interface.master_faces},
+                   {"candidate_pairs", interface.candidate_pairs},
+                   {"pairs", interface.pairs},
+                   {"integration_cells", interface.integration_cells},
+                   {"quadrature_points", interface.quadrature_points},
+                   {"slave_area", interface.slave_area},
+                   {"covered_area", interface.covered_area}};
+      set(json, "worst_face_coverage_error", interface.worst_face_coverage_error);
+      set(json, "partition_of_unity_error", interface.partition_of_unity_error);
+      set(json, "force_residual", interface.force_residual);
+      set(json, "moment_residual", interface.moment_residual);
+      set(json, "linear_completeness_error", interface.linear_completeness_error);
+      return json;
+    }
+
+    Json
+    json_of(const SolverSummary &solver)
+    {
+      Json json = {{"method", solver.method}};
+      set(json, "preconditioner", solver.preconditioner);
+      set(json, "iterations", solver.iterations);
+      json["relative_residual"] = solver.relative_residual;
+      return json;
+    }
+
+    Json
+    json_of(const ErrorSummary &errors)
+    {
+      Json json = Json::object();
+      set(json, "displacement_l2", errors.displacement_l2);
+      set(json, "energy", errors.energy);
+      set(json, "multiplier_l2", errors.multiplier_l2);
+      return json;
+    }
+
+    Json
+    json_of(const StepSummary &step)
+    {
+      Json json      = {{"step", step.step}, {"cycle", step.cycle}};
+      json["bodies"] = Json::array();
+      for (const BodySummary &body : step.bodies)
+        json["bodies"].push_back(json_of(body));
+      json["dofs"]       = json_of(step.dofs);
+      json["interfaces"] = Json::array();
+      for (const InterfaceSummary &interface : step.interfaces)
+        json["interfaces"].push_back(json_of(interface));
+      if (step.solver)
+        json["solver"] = json_of(*step.solver);
+      if (step.errors)
+        json["errors"] = json_of(*step.errors);
+      json["quantities"] = Json::object();
+      for (const auto &[name, values] : step.quantities)
+        json["quantities"][name] = values;
+      return json;
+    }
+
+    /// Write @p text to a new file beside @p file, then give it its name; a message if that fails.
+    std::string
+    write_whole(const std::string &text, const std::filesystem::path &file)
+    {
+      const std::string what = "cannot write \"" + file.string() + "\": ";
+      std::error_code   error;
+      if (file.has_parent_path())
+        std::filesystem::create_directories(file.parent_path(), error);
+      if (error)
+        return what + error.message() + "; choose another Output/Directory";
+      std::filesystem::path unfinished = file;
+      unfinished += ".unfinished";
+      errno = 0;
+      std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
+      stream << text;
+      stream.close();
+      if (!stream)
+        {
+          const int reason = errno == 0 ? EIO : errno;
+          std::filesystem::remove(unfinished, error);
+          return what + std::strerror(reason) + "; choose another Output/Directory";
+        }
+      std::filesystem::rename(unfinished, file, error);
+      return error ? what + error.message() : "";
+    }
+  } // namespace
+
+  std::string
+  to_json(const Summary &summary)
+  {
+    Json json;
+    json["program"] = {{"name", summary.program.name},
+                       {"version", summary.program.version},
+                       {"dealii", summary.program.dealii},
+                       {"ranks", summary.program.ranks},
+                       {"build_type", summary.program.build_type}};
+    json["title"]   = summary.title;
+    json["status"]  = summary.status;
+    json["steps"]   = Json::array();
+    for (const StepSummary &step : summary.steps)
+      json["steps"].push_back(json_of(step));
+    json["timings_s"] = Json::object();
+    for (const auto &[name, seconds] : summary.timings)
+      json["timings_s"][name] = seconds;
+    json["memory_mib"] = {{"peak_sum_over_ranks", summary.memory.sum_over_ranks},
+                          {"peak_max_rank", summary.memory.max_rank}};
+    // A title in another encoding than UTF-8 must not end the run.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  }
+
+  void
+  write_summary(const Summary &summary, const std::string &directory, const MPI_Comm comm)
+  {
+    std::string message;
+    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+      message = write_whole(to_json(summary), std::filesystem::path(directory) / "summary.json");
+    throw_if_any(message, comm);
+  }
+} // namespace mortise

@@ -1,0 +1,217 @@
+#include <mortise/problem/scene_data.h>
+
+#include <mortise/base/error.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  std::vector<LinearElastic>
+  materials(const Parameters &parameters)
+  {
+    std::vector<LinearElastic> result;
+    for (const BodyParameters &body : parameters.bodies)
+      result.push_back({body.material.young_modulus, body.material.poisson_ratio});
+    return result;
+  }
+
+  namespace
+  {
+    /// Pressure on boundary @p name of body @p b; zero if there is none.
+    double
+    constant_pressure(const Parameters &parameters, const unsigned int b, const std::string &name)
+    {
+      const auto &boundaries = parameters.bodies[b].boundaries;
+      const auto  found      = boundaries.find(name);
+      if (found == boundaries.end() || !found->second.pressure || *found->second.pressure == "exact")
+        return 0.;
+      const std::string where =
+        parameters.where("Body " + parameters.bodies[b].name + "/Boundary " + name + "/Pressure");
+      const Expression pressure(*found->second.pressure, where);
+      if (!pressure.is_constant())
+        throw InputError(where + ": got \"" + *found->second.pressure +
+                         "\"; the named exact solutions need a constant pressure");
+      return pressure.value(Point<dim>());
+    }
+
+    std::shared_ptr<const ExactSolution>
+    make_lame_solution(const Parameters &parameters, const LameSolution::Geometry geometry)
+    {
+      const bool        sphere = geometry == LameSolution::Geometry::sphere;
+      const std::string source = sphere ? "shell octant" : "cylinder sector";
+      const std::string where  = parameters.where("Exact solution/Displacement");
+      std::vector<LameSolution::Layer> layers;
+      unsigned int                     innermost = 0, outermost = 0;
+      for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
+        {
+          const MeshParameters &mesh = parameters.bodies[b].mesh;
+          if (mesh.source != source || mesh.extent.size() < 2)
+            throw InputError(where + ": the named solution needs bodies of Source = " + source +
+                             "; body '" + parameters.bodies[b].name + "' has Source = " + mesh.source);
+          layers.push_back({mesh.extent[0], mesh.extent[1], materials(parameters)[b]});
+          if (mesh.extent[0] < layers[innermost].inner_radius)
+            innermost = b;
+          if (mesh.extent[1] > layers[outermost].outer_radius)
+            outermost = b;
+        }
+      return std::make_shared<LameSolution>(geometry,
+                                            layers,
+                                            constant_pressure(parameters, innermost, "inside"),
+                                            constant_pressure(parameters, outermost, "outside"),
+                                            rigid_motion(parameters.bodies[innermost].mesh));
+    }
+
+    /// One component of a given vector field: an expression, the exact solution's, or free.
+    struct Component
+    {
+      Component(const std::string &text, const std::string &where)
+        : exact(text == "exact")
+        , free(text == "-")
+        , expression(exact || free ? "0" : text, where)
+      {}
+
+      bool       exact, free;
+      Expression expression;
+    };
+
+    std::vector<Component>
+    components(const Components &texts, const std::string &where)
+    {
+      std::vector<Component> result;
+      for (const std::string &text : texts)
+        result.emplace_back(text, where);
+      return result;
+    }
+
+    bool
+    all_zero(const std::vector<Component> &field)
+    {
+      return std::all_of(field.begin(), field.end(), [](const Component &component) {
+        return !component.exact && component.expression.is_constant() &&
+               component.expression.value(Point<dim>()) == 0.;
+      });
+    }
+
+    /// Values of @p field at x, components that are "exact" from @p exact_value.
+    template <typename ExactValue>
+    Tensor<1, dim>
+    evaluate(const std::vector<Component> &field, const Point<dim> &x, const ExactValue &exact_value)
+    {
+      Tensor<1, dim> value;
+      for (unsigned int c = 0; c < dim; ++c)
+        if (!field[c].exact)
+          value[c] = field[c].expression.value(x);
+      if (field[0].exact || field[1].exact || field[2].exact)
+        {
+          const Tensor<1, dim> exact = exact_value(x);
+          for (unsigned int c = 0; c < dim; ++c)
+            if (field[c].exact)
+              value[c] = exact[c];
+        }
+      return value;
+    }
+  } // namespace
+
+  std::shared_ptr<const ExactSolution>
+  make_exact_solution(const Parameters &parameters)
+  {
+    switch (parameters.exact_solution.kind)
+      {
+        case ExactKind::thick_sphere:
+          return make_lame_solution(parameters, LameSolution::Geometry::sphere);
+        case ExactKind::thick_cylinder:
+          return make_lame_solution(parameters, LameSolution::Geometry::cylinder);
+        case ExactKind::expressions:
+          {
+            const Components &text = parameters.exact_solution.displacement;
+            return std::make_shared<ExpressionSolution>(
+              VectorExpression(text[0] + ";" + text[1] + ";" + text[2],
+                               parameters.where("Exact solution/Displacement")),
+              materials(parameters));
+          }
+        default:
+          return {};
+      }
+  }
+
+  Loads
+  make_loads(const Parameters                           &parameters,
+             const Body                                 &body,
+             const std::shared_ptr<const ExactSolution> &exact)
+  {
+    const BodyParameters &given = parameters.bodies[body.index];
+    const std::string     path  = "Body " + body.name;
+    const unsigned int    b     = body.index;
+    Loads                 loads;
+    if (given.body_force)
+      {
+        const auto field = components(*given.body_force, parameters.where(path + "/Body force"));
+        if (!all_zero(field))
+          loads.body_force = [=](const Point<dim> &x) {
+            return evaluate(field, x, [&](const Point<dim> &p) { return exact->body_force(p, b); });
+          };
+      }
+    else if (parameters.exact_solution.kind == ExactKind::expressions)
+      loads.body_force = [=](const Point<dim> &x) { return exact->body_force(x, b); };
+
+    for (const auto &entry : given.boundaries)
+      {
+        const BoundaryParameters &boundary = entry.second;
+        const std::string         where    = path + "/Boundary " + entry.first;
+        const auto                id       = body.boundary_id(entry.first, parameters.where(where));
+        if (boundary.traction)
+          {
+            const auto field =
+              components(*boundary.traction, parameters.where(where + "/Traction"));
+            if (!all_zero(field))
+              loads.tractions.push_back(
+                {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
+                   return evaluate(field, x, [&](const Point<dim> &p) {
+                     return exact->stress(p, b) * normal;
+                   });
+                 }});
+          }
+        if (boundary.pressure && *boundary.pressure == "exact")
+          loads.tractions.push_back({id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
+                                       return (normal * (exact->stress(x, b) * normal)) * normal;
+                                     }});
+        else if (boundary.pressure)
+          {
+            const Expression pressure(*boundary.pressure, parameters.where(where + "/Pressure"));
+            loads.tractions.push_back({id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
+                                         return -pressure.value(x) * normal;
+                                       }});
+          }
+      }
+    return loads;
+  }
+
+  std::vector<DirichletCondition>
+  make_dirichlet(const Parameters                           &parameters,
+                 const Body                                 &body,
+                 const std::shared_ptr<const ExactSolution> &exact)
+  {
+    const unsigned int              b = body.index;
+    std::vector<DirichletCondition> conditions;
+    for (const auto &entry : parameters.bodies[b].boundaries)
+      if (entry.second.displacement)
+        {
+          const std::string where = "Body " + body.name + "/Boundary " + entry.first;
+          const auto        field = components(*entry.second.displacement,
+                                        parameters.where(where + "/Displacement"));
+          DirichletCondition condition;
+          condition.boundary = body.boundary_id(entry.first, parameters.where(where));
+          for (unsigned int c = 0; c < dim; ++c)
+            condition.fixed[c] = !field[c].free;
+          if (!all_zero(field))
+            condition.value = [=](const Point<dim> &x) {
+              return evaluate(
+                field, x, [&](const Point<dim> &p) { return exact->displacement(p, b); });
+            };
+          conditions.push_back(condition);
+        }
+    return conditions;
+  }
+} // namespace mortise

@@ -1,0 +1,312 @@
+#include <mortise/problem/simulation.h>
+
+#include <mortise/base/error.h>
+#include <mortise/problem/rigid_motions.h>
+#include <mortise/problem/scene_data.h>
+#include <mortise/solvers/solve.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <sstream>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  Simulation::Simulation(const Parameters &parameters, RunLog &log, const MPI_Comm comm)
+    : parameters(parameters)
+    , log(log)
+    , comm(comm)
+  {
+    summary.program = program_info(Utilities::MPI::n_mpi_processes(comm));
+    summary.title   = parameters.title;
+    summary.steps.resize(1);
+    system.communicator = comm;
+  }
+
+  void
+  Simulation::create_meshes()
+  {
+    auto stage = log.stage(timers, "mesh");
+    exact      = make_exact_solution(parameters);
+    std::vector<std::vector<std::string>> boundary_names;
+    std::uint64_t                         n_cells = 0;
+    for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
+      {
+        const BodyParameters &body = parameters.bodies[b];
+        bodies.push_back(std::make_unique<Body>(body.name, b, materials(parameters)[b], comm));
+        bodies[b]->create_mesh(body.mesh, "Body " + body.name + ", Mesh");
+        n_cells += bodies[b]->triangulation.n_global_active_cells();
+        boundary_names.emplace_back();
+        for (const auto &name : bodies[b]->names.boundaries)
+          boundary_names.back().push_back(name.first);
+      }
+    check_boundary_names(parameters, boundary_names);
+    stage.details(std::to_string(bodies.size()) + (bodies.size() == 1 ? " body, " : " bodies, ") +
+                  std::to_string(n_cells) + " cells");
+  }
+
+  void
+  Simulation::create_spaces()
+  {
+    auto stage = log.stage(timers, "spaces");
+
+    std::vector<const DoFHandler<dim> *> handlers;
+    for (const auto &body : bodies)
+      {
+        const BodyParameters &given = parameters.bodies[body->index];
+        body->create_space(given.degree, given.degree_by_region, "Body " + body->name);
+        handlers.push_back(&body->dof_handler);
+        dirichlet.push_back(make_dirichlet(parameters, *body, exact));
+      }
+    std::vector<std::pair<unsigned int, unsigned int>> ties;
+    for (const InterfaceParameters &interface : parameters.interfaces)
+      ties.emplace_back(interface.slave.body, interface.master.body);
+    check_rigid_motions(bodies, dirichlet, ties);
+
+    for (const auto &body : bodies)
+      {
+        body_constraints.emplace_back();
+        body_constraints.back().copy_from(body->conformity);
+        add_dirichlet_constraints(*body, dirichlet[body->index], body_constraints.back());
+        occupied.emplace_back(body->dof_handler.n_locally_owned_dofs(), false);
+      }
+    numbering                 = DisplacementNumbering(handlers, comm);
+    constraints               = scene_constraints(bodies, numbering, body_constraints);
+    system.owned_displacement = numbering.owned();
+
+    StepSummary &step = summary.steps.back();
+    for (const auto &body : bodies)
+      {
+        const auto statistics = body->statistics();
+        step.bodies.push_back({body->name,
+                               parameters.bodies[body->index].mesh.cells,
+                               statistics.cells,
+                               statistics.degree_min,
+                               statistics.degree_max,
+                               body->dof_handler.n_dofs()});
+      }
+    step.dofs.displacement = numbering.size();
+    step.dofs.total        = numbering.size();
+    stage.details(std::to_string(numbering.size()) + " displacement dofs");
+  }
+
+  void
+  Simulation::find_pairs()
+  {
+    auto          stage = log.stage(timers, "interface_search");
+    std::uint64_t faces = 0;
+    for (const InterfaceParameters &given : parameters.interfaces)
+      {
+        const auto surface = [&](const SideParameters &side) {
+          const Body &body = *bodies[side.body];
+          return extract_surface(body,
+                                 body.boundary_id(side.boundary, "Interface " + given.name),
+                                 numbering,
+                                 constraints);
+        };
+        InterfaceOptions options;
+        options.search_fraction      = given.search_distance;
+        options.points_per_direction = given.quadrature_points;
+        couplings.emplace_back();
+        couplings.back().interface = std::make_unique<InterfaceHandler>(
+          given.name, surface(given.slave), surface(given.master), options, comm);
+        faces += Utilities::MPI::sum(couplings.back().interface->slave().faces.size(), comm);
+      }
+    stage.details(std::to_string(faces) + " slave faces");
+  }
+
+  void
+  Simulation::couple()
+  {
+    const auto total = timers.scope("coupling");
+    double     clipping = 0.;
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      {
+        InterfaceHandler &interface = *couplings[i].interface;
+        couplings[i].local =
+          integrate_coupling(interface, parameters.solver.method != SolverMethod::direct);
+        const InterfaceReport &report = interface.report();
+        clipping += report.clipping_seconds;
+        if (report.pairs == 0)
+          {
+            const InterfaceParameters &given = parameters.interfaces[i];
+            throw InputError("Interface " + given.name + ": the surfaces " +
+                             bodies[given.slave.body]->name + ": " + given.slave.boundary + " and " +
+                             bodies[given.master.body]->name + ": " + given.master.boundary +
+                             " do not meet: no pair of faces overlaps within the search distance of " +
+                             RunLog::number(given.search_distance) +
+                             " face sizes. Check positions, names and Search distance");
+          }
+        if (report.failed_pairs > 0)
+          log.warning("interface " + parameters.interfaces[i].name + ": the projection of " +
+                      std::to_string(report.failed_pairs) + " pairs of faces did not converge");
+        if (report.covered_area < 0.999 * report.slave_area)
+          {
+            std::ostringstream text;
+            text << "interface " << parameters.interfaces[i].name << ": only "
+                 << RunLog::number(100. * report.covered_area / report.slave_area)
+                 << " % of the slave surface has a partner; worst is the face at "
+                 << report.worst_face_centre << " (" << RunLog::number(100. * report.worst_face_error)
+                 << " % off)";
+            log.warning(text.str());
+          }
+      }
+    timers.add("interface_clipping", clipping);
+    log.stage_line("interface_clipping", Utilities::MPI::max(clipping, comm));
+  }
+
+  std::vector<bool>
+  Simulation::blocked_dofs(const unsigned int b) const
+  {
+    std::vector<bool> blocked = occupied[b];
+    unsigned int      i       = 0;
+    for (const auto dof : bodies[b]->dof_handler.locally_owned_dofs())
+      {
+        if (body_constraints[b].is_constrained(dof) && !bodies[b]->conformity.is_constrained(dof))
+          blocked[i] = true;
+        ++i;
+      }
+    return blocked;
+  }
+
+  void
+  Simulation::occupy(const unsigned int i)
+  {
+    const SideParameters &slave = parameters.interfaces[i].slave, &master = parameters.interfaces[i].master;
+    const auto mark = [&](const unsigned int b, const types::global_dof_index dof) {
+      const IndexSet &owned = bodies[b]->dof_handler.locally_owned_dofs();
+      if (owned.is_element(dof))
+        occupied[b][owned.index_within_set(dof)] = true;
+    };
+    for (const auto dof : couplings[i].multipliers->slave_dofs())
+      mark(slave.body, dof);
+    const Body &body = *bodies[master.body];
+    IndexSet    on_master;
+    DoFTools::extract_boundary_dofs(body.dof_handler,
+                                    ComponentMask(),
+                                    on_master,
+                                    {body.boundary_id(master.boundary, "")});
+    for (const auto dof : on_master)
+      mark(master.body, dof);
+  }
+
+  void
+  Simulation::number_multipliers()
+  {
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      {
+        const SideParameters &slave = parameters.interfaces[i].slave;
+        const Body           &body  = *bodies[slave.body];
+        Coupling             &coupling = couplings[i];
+        coupling.multipliers =
+          std::make_unique<MultiplierSpace>(body,
+                                            body.boundary_id(slave.boundary, ""),
+                                            coupling.interface->slave(),
+                                            coupling.interface->coverage(),
+                                            blocked_dofs(slave.body));
+        if (i + 1 < couplings.size())
+          occupy(i);
+      }
+    types::global_dof_index mine = 0, first = 0, total = 0;
+    for (const Coupling &coupling : couplings)
+      mine += coupling.multipliers->n_owned();
+    const auto counts = Utilities::MPI::all_gather(comm, mine);
+    for (unsigned int rank = 0; rank < counts.size(); ++rank)
+      {
+        if (rank < Utilities::MPI::this_mpi_process(comm))
+          first += counts[rank];
+        total += counts[rank];
+      }
+    system.owned_multiplier.set_size(total);
+    system.owned_multiplier.add_range(first, first + mine);
+    for (Coupling &coupling : couplings)
+      {
+        coupling.multipliers->number(coupling.interface->slave(), first);
+        first += coupling.multipliers->n_owned();
+      }
+    summary.steps.back().dofs.multiplier = total;
+    summary.steps.back().dofs.total += total;
+  }
+
+  void
+  Simulation::assemble()
+  {
+    if (!couplings.empty())
+      {
+        auto stage = log.stage(timers, "coupling");
+        number_multipliers();
+        const CouplingPartition partition{system.owned_displacement, system.owned_multiplier, comm};
+        assemble_constraint(couplings, partition, system.coupling, system.coupling_rhs);
+        if (parameters.solver.method != SolverMethod::direct)
+          assemble_norms(couplings, partition, system.jump_penalty, system.multiplier_norm);
+        for (unsigned int i = 0; i < couplings.size(); ++i)
+          summarise_interface(i);
+        stage.details(std::to_string(system.owned_multiplier.size()) + " multipliers");
+      }
+    else
+      {
+        system.owned_multiplier.set_size(0);
+      }
+    auto               stage = log.stage(timers, "bulk");
+    std::vector<Loads> loads;
+    for (const auto &body : bodies)
+      loads.push_back(make_loads(parameters, *body, exact));
+    assemble_bodies(bodies, loads, numbering, constraints, system);
+    describe_structure(bodies, numbering, system);
+    stage.details(std::to_string(system.stiffness.n_nonzero_elements()) + " entries");
+  }
+
+  void
+  Simulation::summarise_interface(const unsigned int i)
+  {
+    const InterfaceReport &report = couplings[i].interface->report();
+    const TransferErrors   errors = transfer_errors(couplings[i], system.owned_multiplier, comm);
+    InterfaceSummary       result;
+    result.name                      = couplings[i].interface->name();
+    result.slave_faces               = report.slave_faces;
+    result.master_faces              = report.master_faces;
+    result.candidate_pairs           = report.candidate_pairs;
+    result.pairs                     = report.pairs;
+    result.integration_cells         = report.integration_cells;
+    result.quadrature_points         = report.quadrature_points;
+    result.slave_area                = report.slave_area;
+    result.covered_area              = report.covered_area;
+    result.worst_face_coverage_error = report.worst_face_error;
+    result.partition_of_unity_error  = errors.partition_of_unity;
+    result.linear_completeness_error = errors.linear_completeness;
+    summary.steps.back().interfaces.push_back(result);
+  }
+
+  void
+  Simulation::solve()
+  {
+    SolverOptions options;
+    options.method         = parameters.solver.method;
+    options.tolerance      = parameters.solver.tolerance;
+    options.max_iterations = parameters.solver.max_iterations;
+    if (parameters.solver.print_iterations)
+      options.monitor = [&](const unsigned int iteration, const double residual) {
+        log.line("    iteration " + std::to_string(iteration) + "  residual " +
+                 RunLog::number(residual));
+      };
+    solve_report = mortise::solve(system, options, displacement, multiplier);
+
+    timers.add("solver_setup", solve_report.setup_seconds);
+    timers.add("solve", solve_report.solve_seconds);
+    log.stage_line("solver_setup", solve_report.setup_seconds, solve_report.preconditioner);
+    log.stage_line("solve",
+                   solve_report.solve_seconds,
+                   solve_report.method + ", " + std::to_string(solve_report.iterations) +
+                     " iterations, residual " + RunLog::number(solve_report.relative_residual));
+    SolverSummary result;
+    result.method            = solve_report.method;
+    result.preconditioner    = solve_report.preconditioner;
+    result.iterations        = solve_report.iterations;
+    result.relative_residual = solve_report.relative_residual;
+    summary.steps.back().solver = result;
+    summary.status              = solve_report.converged ? "done" : "not converged";
+  }
+} // namespace mortise

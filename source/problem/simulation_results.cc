@@ -1,0 +1,175 @@
+#include <mortise/output/fields.h>
+#include <mortise/problem/guard.h>
+#include <mortise/problem/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  void
+  Simulation::compute()
+  {
+    create_meshes();
+    create_spaces();
+    if (!parameters.interfaces.empty())
+      {
+        find_pairs();
+        couple();
+      }
+    assemble();
+    solve();
+    postprocess();
+  }
+
+  void
+  Simulation::run()
+  {
+    check_output_directory(parameters, comm);
+    compute();
+    write_results();
+    print_table();
+    if (!solve_report.converged)
+      throw ConvergenceError(
+        "The solver (" + solve_report.method + ") did not converge: relative residual " +
+        RunLog::number(solve_report.relative_residual) + " after " +
+        std::to_string(solve_report.iterations) + " iterations, allowed is " +
+        RunLog::number(parameters.solver.tolerance) +
+        ". Results so far are written. Raise Solver/Max iterations or try another Solver/Method");
+  }
+
+  void
+  Simulation::postprocess()
+  {
+    auto         stage = log.stage(timers, "postprocess");
+    StepSummary &step  = summary.steps.back();
+    displacements      = body_displacements(bodies, numbering, constraints, displacement);
+
+    std::vector<unsigned int> slave_bodies;
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      {
+        tractions.push_back(multiplier_on_faces(couplings[i], multiplier, comm));
+        slave_bodies.push_back(parameters.interfaces[i].slave.body);
+        const ResultantErrors errors    = resultant_errors(couplings[i], multiplier, comm);
+        step.interfaces[i].force_residual  = errors.force;
+        step.interfaces[i].moment_residual = errors.moment;
+      }
+    if (exact)
+      {
+        const DisplacementErrors errors = displacement_errors(bodies, displacements, *exact);
+        ErrorSummary             result;
+        result.displacement_l2 = errors.l2;
+        result.energy          = errors.energy;
+        if (!couplings.empty())
+          result.multiplier_l2 = multiplier_error(bodies, couplings, slave_bodies, tractions, *exact);
+        step.errors = result;
+      }
+    for (const PointQuantity &quantity : parameters.output.points)
+      {
+        const auto value =
+          point_value(*bodies[quantity.body], displacements[quantity.body], quantity.point);
+        if (!value)
+          log.warning("Output/Points: " + quantity.name + " lies outside of body " +
+                      bodies[quantity.body]->name);
+        step.quantities.emplace_back(quantity.name,
+                                     value ? std::vector<double>{(*value)[0], (*value)[1], (*value)[2]} :
+                                             std::vector<double>{});
+      }
+    for (const ResultantQuantity &quantity : parameters.output.resultants)
+      {
+        const Body          &body = *bodies[quantity.body];
+        const Tensor<1, dim> force =
+          resultant(body, displacements[quantity.body], body.boundary_id(quantity.boundary, ""));
+        step.quantities.emplace_back(quantity.name, std::vector<double>{force[0], force[1], force[2]});
+      }
+  }
+
+  void
+  Simulation::write_results()
+  {
+    const std::string &directory = parameters.output.directory;
+    const auto        &fields    = parameters.output.fields;
+    if (!fields.empty())
+      {
+        auto       stage = log.stage(timers, "output");
+        const auto wants = [&](const std::string &name) {
+          return std::find(fields.begin(), fields.end(), name) != fields.end();
+        };
+        const FieldSelection selection{wants("displacement"), wants("stress"), wants("traction")};
+        if (Utilities::MPI::this_mpi_process(comm) == 0)
+          std::filesystem::create_directories(directory);
+        MPI_Barrier(comm);
+        if (selection.displacement || selection.stress)
+          for (const auto &body : bodies)
+            write_body_fields(*body, displacements[body->index], selection, directory);
+        if (selection.traction)
+          for (unsigned int i = 0; i < couplings.size(); ++i)
+            {
+              const unsigned int slave = parameters.interfaces[i].slave.body;
+              write_interface_fields(
+                *bodies[slave], couplings[i], tractions[i], displacements[slave], directory);
+            }
+        stage.details(directory);
+      }
+    summary.timings = timers.walls(comm);
+    summary.memory  = peak_memory_mib(comm);
+    write_summary(summary, directory, comm);
+  }
+
+  void
+  Simulation::print_table()
+  {
+    const StepSummary &step = summary.steps.back();
+    log.line();
+    std::vector<std::vector<std::string>> rows = {{"body", "cells", "degree", "dofs"}};
+    for (const BodySummary &body : step.bodies)
+      rows.push_back({body.name,
+                      std::to_string(body.cells),
+                      body.degree_min == body.degree_max ?
+                        std::to_string(body.degree_min) :
+                        std::to_string(body.degree_min) + ".." + std::to_string(body.degree_max),
+                      std::to_string(body.dofs)});
+    log.table(rows);
+    if (!step.interfaces.empty())
+      {
+        log.line();
+        rows = {{"interface", "pairs", "points", "coverage", "unity", "force", "moment", "linear"}};
+        for (const InterfaceSummary &interface : step.interfaces)
+          rows.push_back({interface.name,
+                          std::to_string(interface.pairs),
+                          std::to_string(interface.quadrature_points),
+                          RunLog::number(interface.covered_area / interface.slave_area),
+                          RunLog::number(*interface.partition_of_unity_error),
+                          RunLog::number(*interface.force_residual),
+                          RunLog::number(*interface.moment_residual),
+                          RunLog::number(*interface.linear_completeness_error)});
+        log.table(rows);
+      }
+    if (step.errors)
+      {
+        log.line();
+        rows = {{"relative error", ""},
+                {"displacement, L2", RunLog::number(*step.errors->displacement_l2)},
+                {"energy", RunLog::number(*step.errors->energy)}};
+        if (step.errors->multiplier_l2)
+          rows.push_back({"multiplier, L2", RunLog::number(*step.errors->multiplier_l2)});
+        log.table(rows);
+      }
+    if (!step.quantities.empty())
+      {
+        log.line();
+        rows = {{"quantity", "x", "y", "z"}};
+        for (const auto &quantity : step.quantities)
+          {
+            rows.push_back({quantity.first});
+            for (const double value : quantity.second)
+              rows.back().push_back(RunLog::number(value));
+          }
+        log.table(rows);
+      }
+  }
+} // namespace mortise

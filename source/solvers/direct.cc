@@ -1,0 +1,272 @@
+// See direct.h.
+#include <mortise/solvers/direct.h>
+#include <mortise/solvers/scaled_residual.h>
+#include <mortise/solvers/sparse_factorization.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/timer.h>
+
+#include <Epetra_Map.h>
+#include <Epetra_Vector.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Index = types::global_dof_index;
+
+    /// One numbering of (u, lambda), rank by rank: what a rank owns of u, then of lambda.
+    class MonolithicNumbering
+    {
+    public:
+      explicit MonolithicNumbering(const BlockSystem &system)
+      {
+        const auto n_u = Utilities::MPI::all_gather(system.communicator,
+                                                    system.owned_displacement.n_elements());
+        const auto n_l = Utilities::MPI::all_gather(system.communicator,
+                                                    system.owned_multiplier.n_elements());
+        u_start.push_back(0);
+        l_start.push_back(0);
+        for (unsigned int r = 0; r < n_u.size(); ++r)
+          {
+            u_start.push_back(u_start.back() + n_u[r]);
+            l_start.push_back(l_start.back() + n_l[r]);
+          }
+      }
+
+      unsigned int
+      u_owner(const Index i) const
+      {
+        return owner(u_start, i);
+      }
+
+      Index
+      u(const Index i) const
+      {
+        return i + l_start[u_owner(i)];
+      }
+
+      Index
+      l(const Index k) const
+      {
+        return k + u_start[owner(l_start, k) + 1];
+      }
+
+      Index
+      size() const
+      {
+        return u_start.back() + l_start.back();
+      }
+
+    private:
+      static unsigned int
+      owner(const std::vector<Index> &start, const Index i)
+      {
+        return std::upper_bound(start.begin(), start.end(), i) - start.begin() - 1;
+      }
+
+      std::vector<Index> u_start, l_start;
+    };
+
+    struct Entry
+    {
+      Index  row;
+      Index  column;
+      double value;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &row &column &value;
+      }
+    };
+
+    /// The rows of B^T that this rank owns, as (displacement, multiplier, value), sorted by row.
+    std::vector<Entry>
+    transposed_coupling(const BlockSystem &system, const MonolithicNumbering &numbering)
+    {
+      std::map<unsigned int, std::vector<Entry>> to_send;
+      for (const auto k : system.owned_multiplier)
+        for (auto e = system.coupling.begin(k); e != system.coupling.end(k); ++e)
+          if (e->value() != 0.)
+            to_send[numbering.u_owner(e->column())].push_back({e->column(), k, e->value()});
+      std::vector<Entry> entries;
+      for (const auto &from : Utilities::MPI::some_to_some(system.communicator, to_send))
+        entries.insert(entries.end(), from.second.begin(), from.second.end());
+      std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
+        return a.row != b.row ? a.row < b.row : a.column < b.column;
+      });
+      return entries;
+    }
+
+    /// Square roots of the inverse diagonals, in the monolithic numbering of this rank: they make the
+    /// matrix free of units, so that pivoting compares like with like.
+    std::vector<double>
+    scaling(const BlockSystem &system)
+    {
+      std::vector<double> scale;
+      const bool          has_interface = system.owned_multiplier.size() > 0;
+      const auto          add           = [&](const double d) {
+        scale.push_back(d > 0. ? 1. / std::sqrt(d) : 1.);
+      };
+      for (const auto i : system.owned_displacement)
+        add(system.stiffness.diag_element(i) +
+            (has_interface ? system.jump_penalty.diag_element(i) : 0.));
+      for (const auto k : system.owned_multiplier)
+        add(system.multiplier_norm.diag_element(k));
+      return scale;
+    }
+
+    /// S [K B^T; B 0] S without the scaling, which is applied by the caller.
+    std::unique_ptr<Epetra_CrsMatrix>
+    monolithic_matrix(const BlockSystem &system, const MonolithicNumbering &numbering)
+    {
+      std::vector<int> my_rows;
+      for (const auto i : system.owned_displacement)
+        my_rows.push_back(numbering.u(i));
+      for (const auto k : system.owned_multiplier)
+        my_rows.push_back(numbering.l(k));
+      const Epetra_Map map(static_cast<int>(numbering.size()),
+                           static_cast<int>(my_rows.size()),
+                           my_rows.data(),
+                           0,
+                           system.stiffness.trilinos_matrix().Comm());
+
+      const auto       transposed = transposed_coupling(system, numbering);
+      std::vector<int> row_lengths;
+      auto             t = transposed.begin();
+      for (const auto i : system.owned_displacement)
+        {
+          unsigned int n = system.stiffness.row_length(i);
+          for (; t != transposed.end() && t->row == i; ++t)
+            ++n;
+          row_lengths.push_back(n);
+        }
+      for (const auto k : system.owned_multiplier)
+        row_lengths.push_back(system.coupling.row_length(k) + 1);
+
+      auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, row_lengths.data(), false);
+      std::vector<int>    columns;
+      std::vector<double> values;
+      const auto          insert = [&](const Index row) {
+        matrix->InsertGlobalValues(static_cast<int>(row),
+                                   static_cast<int>(columns.size()),
+                                   values.data(),
+                                   columns.data());
+        columns.clear();
+        values.clear();
+      };
+      t = transposed.begin();
+      for (const auto i : system.owned_displacement)
+        {
+          for (auto e = system.stiffness.begin(i); e != system.stiffness.end(i); ++e)
+            {
+              columns.push_back(numbering.u(e->column()));
+              values.push_back(e->value());
+            }
+          for (; t != transposed.end() && t->row == i; ++t)
+            {
+              columns.push_back(numbering.l(t->column));
+              values.push_back(t->value);
+            }
+          insert(numbering.u(i));
+        }
+      for (const auto k : system.owned_multiplier)
+        {
+          for (auto e = system.coupling.begin(k); e != system.coupling.end(k); ++e)
+            {
+              columns.push_back(numbering.u(e->column()));
+              values.push_back(e->value());
+            }
+          columns.push_back(numbering.l(k));
+          values.push_back(0.);
+          insert(numbering.l(k));
+        }
+      matrix->FillComplete();
+      return matrix;
+    }
+
+    /// The vector (a, b) in the monolithic numbering of this rank, and back.
+    void
+    join(Epetra_Vector &v, const Vector &a, const Vector &b)
+    {
+      const unsigned int n = a.locally_owned_size();
+      for (int i = 0; i < v.MyLength(); ++i)
+        v[i] = i < static_cast<int>(n) ? a.trilinos_vector()[0][i] : b.trilinos_vector()[0][i - n];
+    }
+
+    void
+    add_parts(Vector &a, Vector &b, const Epetra_Vector &v)
+    {
+      const unsigned int n = a.locally_owned_size();
+      for (int i = 0; i < v.MyLength(); ++i)
+        (i < static_cast<int>(n) ? a.trilinos_vector()[0][i] : b.trilinos_vector()[0][i - n]) += v[i];
+    }
+  } // namespace
+
+  SolveReport
+  solve_direct(const BlockSystem &system, const SolverOptions &options, Vector &u, Vector &lambda)
+  {
+    constexpr unsigned int max_refinements = 4;
+
+    SolveReport report;
+    report.method = "direct";
+    Timer timer;
+
+    const MonolithicNumbering numbering(system);
+    const auto                matrix = monolithic_matrix(system, numbering);
+    Epetra_Vector             scale(matrix->RowMap());
+    const std::vector<double> scale_values = scaling(system);
+    std::copy(scale_values.begin(), scale_values.end(), scale.Values());
+    matrix->LeftScale(scale);
+    matrix->RightScale(scale);
+
+    SparseFactorization factorization;
+    const bool          factorized =
+      factorization.initialize(*matrix, SparseFactorization::Kind::symmetric_indefinite);
+    report.preconditioner = "factorisation (" + factorization.backend() + ")";
+    report.setup_seconds  = timer.wall_time();
+    timer.restart();
+
+    u.reinit(system.owned_displacement, system.communicator);
+    lambda.reinit(system.owned_multiplier, system.communicator);
+    Vector               r_u(u), r_lambda(lambda);
+    const ScaledResidual residual(system);
+    const double         rhs_norm = residual.right_hand_side_norm();
+    report.converged              = rhs_norm == 0.;
+    Epetra_Vector r(matrix->RowMap()), x(matrix->RowMap());
+    double        previous = std::numeric_limits<double>::infinity();
+    for (unsigned int step = 0; factorized && rhs_norm > 0. && step <= max_refinements; ++step)
+      {
+        residual.compute(u, lambda, r_u, r_lambda);
+        join(r, r_u, r_lambda);
+        r.Multiply(1., scale, r, 0.);
+        if (!factorization.solve(x, r))
+          break;
+        x.Multiply(1., scale, x, 0.);
+        add_parts(u, lambda, x);
+        residual.compute(u, lambda, r_u, r_lambda);
+        report.relative_residual = residual.norm(r_u, r_lambda) / rhs_norm;
+        report.history.push_back(report.relative_residual);
+        if (options.monitor)
+          options.monitor(step, report.relative_residual);
+        // Refine until rounding is reached, at least once.
+        if (!(report.relative_residual < 0.5 * previous))
+          break;
+        previous = report.relative_residual;
+        if (step > 0 && report.relative_residual <= 1e-14)
+          break;
+      }
+    if (rhs_norm > 0.)
+      report.converged = factorized && report.relative_residual <= options.tolerance;
+    report.solve_seconds = timer.wall_time();
+    return report;
+  }
+} // namespace mortise

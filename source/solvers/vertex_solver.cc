@@ -1,0 +1,162 @@
+// See vertex_solver.h.
+#include <mortise/solvers/vertex_solver.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_IntVector.h>
+#include <Teuchos_ParameterList.hpp>
+#include <ml_MultiLevelPreconditioner.h>
+
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Up to this many dofs the factorisation is faster than multigrid, setup included.
+    constexpr int max_direct_size = 3000;
+  } // namespace
+
+  VertexSolver::VertexSolver()  = default;
+  VertexSolver::~VertexSolver() = default;
+
+  void
+  VertexSolver::initialize(const BlockSystem &system, const Epetra_CrsMatrix &matrix)
+  {
+    extract(system, matrix);
+    r_c = std::make_unique<Epetra_Vector>(*map);
+    x_c = std::make_unique<Epetra_Vector>(*map);
+    int limit = max_direct_size; if (getenv("DIRECT")) limit = atoi(getenv("DIRECT"));
+    if (coarse->NumGlobalRows() <= limit)
+      {
+        factorization = std::make_unique<SparseFactorization>();
+        factorization->initialize(*coarse, SparseFactorization::Kind::positive_definite);
+        return;
+      }
+    compute_rigid_modes(system);
+    Teuchos::ParameterList parameters;
+    ML_Epetra::SetDefaults("SA", parameters);
+    parameters.set("ML output", 0);
+    parameters.set("PDE equations", dim);
+    parameters.set("null space: type", "pre-computed");
+    parameters.set("null space: dimension", 6);
+    parameters.set("null space: vectors", rigid_modes.data());
+    parameters.set("null space: add default vectors", false);
+    parameters.set("aggregation: type", "Uncoupled");
+    parameters.set("aggregation: threshold", getenv("THR")?atof(getenv("THR")):0.01);
+    parameters.set("smoother: type", getenv("MLS")?getenv("MLS"):"Chebyshev");
+    parameters.set("smoother: sweeps", getenv("MLSW")?atoi(getenv("MLSW")):2);
+    parameters.set("smoother: pre or post", "both");
+    parameters.set("coarse: type", "Amesos-KLU");
+    parameters.set("coarse: max size", 1000);
+    parameters.set("cycle applications", getenv("MLC")?atoi(getenv("MLC")):1);
+    multigrid = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*coarse, parameters, true);
+  }
+
+  void
+  VertexSolver::extract(const BlockSystem &system, const Epetra_CrsMatrix &matrix)
+  {
+    const int n = system.vertex_dofs.size();
+    map         = std::make_unique<Epetra_Map>(-1, n, 0, matrix.Comm());
+    Epetra_IntVector number(matrix.RowMap()), column_number(matrix.ColMap());
+    number.PutValue(-1);
+    for (int i = 0; i < n; ++i)
+      {
+        rows.push_back(matrix.RowMap().LID(static_cast<int>(system.vertex_dofs[i])));
+        number[rows.back()] = map->GID(i);
+      }
+    if (matrix.Importer() != nullptr)
+      column_number.Import(number, *matrix.Importer(), Insert);
+    else
+      std::copy(number.Values(), number.Values() + number.MyLength(), column_number.Values());
+
+    coarse = std::make_unique<Epetra_CrsMatrix>(Copy, *map, 81, false);
+    std::vector<int>    columns;
+    std::vector<double> values;
+    for (int i = 0; i < n; ++i)
+      {
+        int     length;
+        int    *row_columns;
+        double *row_values;
+        matrix.ExtractMyRowView(rows[i], length, row_values, row_columns);
+        columns.clear();
+        values.clear();
+        for (int k = 0; k < length; ++k)
+          if (column_number[row_columns[k]] >= 0)
+            {
+              columns.push_back(column_number[row_columns[k]]);
+              values.push_back(row_values[k]);
+            }
+        coarse->InsertGlobalValues(map->GID(i), columns.size(), values.data(), columns.data());
+      }
+    coarse->FillComplete();
+    coarse->OptimizeStorage();
+  }
+
+  void
+  VertexSolver::compute_rigid_modes(const BlockSystem &system)
+  {
+    Point<dim> center;
+    for (const auto &x : system.vertex_points)
+      center += x;
+    const unsigned int n_points =
+      Utilities::MPI::sum<unsigned int>(system.vertex_points.size(), system.communicator);
+    for (unsigned int d = 0; d < dim; ++d)
+      center[d] = Utilities::MPI::sum(center[d], system.communicator) / n_points;
+    double radius = 0.;
+    for (const auto &x : system.vertex_points)
+      radius = std::max(radius, x.distance(center));
+    radius = Utilities::MPI::max(radius, system.communicator);
+
+    const unsigned int n = rows.size();
+    rigid_modes.assign(std::max(1U, 6 * n), 0.);
+    for (unsigned int v = 0; v < n / 3; ++v)
+      {
+        const Tensor<1, dim> x = (system.vertex_points[v] - center) / radius;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            rigid_modes[d * n + 3 * v + d] = 1.;
+            // rotation about axis d
+            rigid_modes[(3 + d) * n + 3 * v + (d + 1) % 3] = -x[(d + 2) % 3];
+            rigid_modes[(3 + d) * n + 3 * v + (d + 2) % 3] = x[(d + 1) % 3];
+          }
+      }
+    // A constrained dof has nothing but its diagonal: no mode lives there.
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        int     length;
+        int    *columns;
+        double *values;
+        coarse->ExtractMyRowView(i, length, values, columns);
+        bool alone = true;
+        for (int k = 0; k < length; ++k)
+          alone = alone && (columns[k] == static_cast<int>(i) || values[k] == 0.);
+        if (alone)
+          for (unsigned int mode = 0; mode < 6; ++mode)
+            rigid_modes[mode * n + i] = 0.;
+      }
+  }
+
+  void
+  VertexSolver::vmult(Epetra_Vector &x, const Epetra_Vector &r) const
+  {
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      (*r_c)[i] = r[rows[i]];
+    if (factorization)
+      factorization->solve(*x_c, *r_c);
+    else
+      multigrid->ApplyInverse(*r_c, *x_c);
+    x.PutScalar(0.);
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      x[rows[i]] = (*x_c)[i];
+  }
+
+  std::string
+  VertexSolver::description() const
+  {
+    return factorization ? "vertices factorised (" + factorization->backend() + ")" :
+                           "vertices by smoothed aggregation (ML)";
+  }
+} // namespace mortise

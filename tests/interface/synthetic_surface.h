@@ -1,0 +1,161 @@
+// Surfaces for tests of the interface's geometry, built from functions (u,v) -> x without a mesh.
+// It never compares or prints.
+#pragma once
+
+#include <mortise/interface/integration_cells.h>
+#include <mortise/interface/surface_evaluation.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace synthetic
+{
+  using namespace mortise;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  using Surface = std::function<Point<3>(double, double)>;
+
+  struct Grid
+  {
+    unsigned int n_u = 1, n_v = 1, degree = 1;
+    double       u_0 = 0, u_1 = 1, v_0 = 0, v_1 = 1;
+    double       orientation = 1; ///< of x_u x x_v against the outward normal
+    bool         transposed  = false; ///< reference coordinates of the faces swapped
+    double       distortion  = 0; ///< inner vertices move by up to this fraction of a cell
+  };
+
+  /// A number in [-1,1] that depends on i, j and k only.
+  inline double
+  noise(const unsigned int i, const unsigned int j, const unsigned int k)
+  {
+    std::uint64_t x = (i * 1000003u + j) * 1000003u + k + 1u;
+    for (unsigned int round = 0; round < 3; ++round)
+      x = (x ^ (x >> 29)) * 0x9E3779B97F4A7C15u;
+    return (x >> 11) * 0x1p-52 - 1.;
+  }
+
+  /// The surface as faces of a grid in (u,v), vertex normals averaged, finalized.
+  inline std::vector<SurfaceFace>
+  faces(const Surface &surface, const Grid &grid)
+  {
+    const auto vertex = [&](const unsigned int i, const unsigned int j, const unsigned int k) {
+      const bool   free = k == 0 ? i > 0 && i < grid.n_u : j > 0 && j < grid.n_v;
+      const double d    = free ? grid.distortion * noise(i, j, k) : 0.;
+      return k == 0 ? grid.u_0 + (grid.u_1 - grid.u_0) * (i + d) / grid.n_u :
+                      grid.v_0 + (grid.v_1 - grid.v_0) * (j + d) / grid.n_v;
+    };
+    const LagrangeBasis                      &basis = lagrange_basis(grid.degree);
+    std::vector<SurfaceFace>                  result;
+    std::vector<std::array<std::uint64_t, 4>> vertices;
+    for (unsigned int j = 0; j < grid.n_v; ++j)
+      for (unsigned int i = 0; i < grid.n_u; ++i)
+        {
+          SurfaceFace face;
+          face.degree      = grid.degree;
+          face.id          = j * grid.n_u + i;
+          face.orientation = grid.transposed ? -grid.orientation : grid.orientation;
+          for (unsigned int b = 0; b <= grid.degree; ++b)
+            for (unsigned int a = 0; a <= grid.degree; ++a)
+              {
+                const double s = basis.node[grid.transposed ? b : a];
+                const double t = basis.node[grid.transposed ? a : b];
+                double       uv[2];
+                for (unsigned int k = 0; k < 2; ++k)
+                  uv[k] = (1 - t) * ((1 - s) * vertex(i, j, k) + s * vertex(i + 1, j, k)) +
+                          t * ((1 - s) * vertex(i, j + 1, k) + s * vertex(i + 1, j + 1, k));
+                face.points.push_back(surface(uv[0], uv[1]));
+              }
+          const std::uint64_t m = grid.n_u + 1, first = j * m + i;
+          if (grid.transposed)
+            vertices.push_back({{first, first + m, first + 1, first + m + 1}});
+          else
+            vertices.push_back({{first, first + 1, first + m, first + m + 1}});
+          result.push_back(face);
+        }
+    average_vertex_normals(result, vertices);
+    for (auto &face : result)
+      face.finalize();
+    return result;
+  }
+
+  using Visitor = std::function<void(const SurfaceFace &,
+                                     const SurfaceFace &,
+                                     const PairResult &,
+                                     const IntegrationPoints &)>;
+
+  struct Total
+  {
+    Coverage sum;
+    double   worst = 0; ///< largest |covered - area| / area over the slave faces
+  };
+
+  /// Integrate all pairs of two surfaces.
+  inline Total
+  integrate(const std::vector<SurfaceFace> &slaves,
+            const std::vector<SurfaceFace> &masters,
+            const unsigned int              degree,
+            const Visitor                  &visitor      = Visitor(),
+            const unsigned int              n_points     = 0,
+            const double                    search_fraction = default_search_fraction)
+  {
+    FaceTree                  tree(masters, search_fraction);
+    PairIntegrator            integrator(search_fraction);
+    IntegrationPoints         points;
+    std::vector<unsigned int> candidates;
+    Total                     total;
+    integrator.set_points_per_direction(n_points);
+    for (const auto &slave : slaves)
+      {
+        Coverage face;
+        integrator.reinit(slave);
+        face.slave_area = integrator.slave_area();
+        tree.candidates(slave, candidates);
+        for (const unsigned int m : candidates)
+          {
+            const PairResult pair = integrator.integrate(masters[m], degree, degree, points);
+            face.add(pair, points.size());
+            if (visitor && pair.status == PairStatus::accepted)
+              visitor(slave, masters[m], pair, points);
+          }
+        total.worst =
+          std::max(total.worst, std::abs(face.covered_area - face.slave_area) / face.slave_area);
+        total.sum.add(face);
+      }
+    return total;
+  }
+
+  /// A flat rectangle [0,1]^2 turned about its centre by @p degrees, in a tilted plane.
+  inline Surface
+  plane(const double degrees = 0, const double offset = 0)
+  {
+    return [degrees, offset](const double u, const double v) {
+      const double a = degrees * M_PI / 180., x = u - 0.5, y = v - 0.5;
+      const double s = std::cos(a) * x - std::sin(a) * y + offset;
+      const double t = std::sin(a) * x + std::cos(a) * y + 0.3 * offset;
+      // orthonormal axes of a tilted plane
+      return Point<3>(0.48 * s - 0.8 * t + 1.1, 0.6 * s + 0.3, 0.64 * s + 0.6 * t - 0.2);
+    };
+  }
+
+  /// Patch of the unit sphere around (1,1,1) like one of three patches of an octant.
+  inline Surface
+  sphere(const double radius = 1.)
+  {
+    return [radius](const double u, const double v) {
+      const double   a = std::tan((u - 0.5) * 0.25 * M_PI), b = std::tan((v - 0.5) * 0.25 * M_PI);
+      const Point<3> p(1., a, b);
+      return Point<3>(radius / p.norm() * p);
+    };
+  }
+
+  /// Quarter of a cylinder of length 1.
+  inline Surface
+  cylinder(const double radius = 1.)
+  {
+    return [radius](const double u, const double v) {
+      return Point<3>(radius * std::cos(0.5 * M_PI * u), radius * std::sin(0.5 * M_PI * u), v);
+    };
+  }
+} // namespace synthetic

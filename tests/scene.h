@@ -1,0 +1,44 @@
+// Runs scenes inside test programs and prints verdicts. It never blesses numbers.
+#pragma once
+
+#include <mortise/problem/simulation.h>
+
+#include <cmath>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+namespace mortise::testing
+{
+  /// Prints "OK  what" or "FAILED what: got, allowed"; rank 0 of the world only.
+  inline void
+  verdict(const std::string &what, const double got, const double allowed)
+  {
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return;
+    if (got <= allowed)
+      std::cout << "OK  " << what << std::endl;
+    else
+      std::cout << "FAILED  " << what << ": got " << got << ", allowed " << allowed << std::endl;
+  }
+
+  /// Run the scene of a parameter text, silently; nothing is written.
+  inline Summary
+  run_scene(const std::string &text, const Settings &settings, const MPI_Comm comm = MPI_COMM_WORLD)
+  {
+    const Parameters parameters = parse_parameters(text, "test", settings);
+    validate(parameters);
+    std::ostringstream silence;
+    RunLog             log(silence, comm);
+    Simulation         simulation(parameters, log, comm);
+    simulation.compute();
+    return simulation.result();
+  }
+
+  /// log_2 of the ratio of two errors, over log_2 of the ratio of mesh sizes.
+  inline double
+  rate(const double coarse, const double fine, const double refinement = 2.)
+  {
+    return std::log(coarse / fine) / std::log(refinement);
+  }
+} // namespace mortise::testing
