@@ -7,6 +7,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
+#include <array>
 
 namespace mortise
 {
@@ -50,7 +51,6 @@ namespace mortise
     exchange_degrees();
     spread_over_hanging_lines();
     exchange_degrees();
-    exchange_masters();
   }
 
   void
@@ -171,27 +171,6 @@ namespace mortise
     GridTools::exchange_cell_data_to_ghosts<Degrees, DoFHandler<3>>(dof_handler, pack, unpack);
   }
 
-  void
-  EntityDegrees::exchange_masters()
-  {
-    using Masters = std::vector<types::global_dof_index>;
-    if (Utilities::MPI::n_mpi_processes(dof_handler.get_communicator()) == 1)
-      return;
-    Masters    dofs, masters;
-    const auto pack = [&](const CellIterator &cell) -> std_cxx17::optional<Masters> {
-      dofs.resize(cell->get_fe().n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      find_masters(cell, masters);
-      if (masters == dofs)
-        return {};
-      return masters;
-    };
-    const auto unpack = [&](const CellIterator &cell, const Masters &masters) {
-      ghost_masters[cell->active_cell_index()] = masters;
-    };
-    GridTools::exchange_cell_data_to_ghosts<Masters, DoFHandler<3>>(dof_handler, pack, unpack);
-  }
-
   unsigned int
   EntityDegrees::line_degree(const CellIterator &cell, const unsigned int l) const
   {
@@ -209,35 +188,16 @@ namespace mortise
                                  std::vector<types::global_dof_index> &masters) const
   {
     Assert(!cell->is_artificial(), ExcMessage("owned and ghost cells only"));
-    const auto ghost = cell->is_ghost() ? ghost_masters.find(cell->active_cell_index()) :
-                                          ghost_masters.end();
-    if (ghost != ghost_masters.end())
-      masters = ghost->second;
-    else if (uniform || cell->is_ghost())
-      {
-        masters.resize(cell->get_fe().n_dofs_per_cell());
-        cell->get_dof_indices(masters);
-      }
-    else
-      find_masters(cell, masters);
-  }
-
-  void
-  EntityDegrees::find_masters(const CellIterator                   &cell,
-                              std::vector<types::global_dof_index> &masters) const
-  {
-    const FiniteElement<3> &fe           = cell->get_fe();
-    const unsigned int      components   = n_components(fe);
-    const unsigned int      p            = fe.degree;
-    const unsigned int      n            = p - 1;
-    constexpr auto          zero         = numbers::invalid_dof_index;
-    const auto             &fes          = dof_handler.get_fe_collection();
-    const auto              first_on     = [&](const unsigned int structdim, const unsigned int o) {
-      return structdim == 1 ? fe.get_first_line_index() + o * fe.n_dofs_per_line() :
-                              fe.get_first_quad_index(o);
-    };
-    masters.resize(fe.n_dofs_per_cell());
+    masters.resize(cell->get_fe().n_dofs_per_cell());
     cell->get_dof_indices(masters);
+    if (uniform)
+      return;
+
+    const FiniteElement<3> &fe         = cell->get_fe();
+    const auto             &fes        = dof_handler.get_fe_collection();
+    const unsigned int      components = n_components(fe);
+    const unsigned int      n          = fe.degree - 1;
+    constexpr auto          zero       = numbers::invalid_dof_index;
 
     for (unsigned int v = 0; v < 8; ++v)
       for (unsigned int c = 0; c < components; ++c)
@@ -251,7 +211,7 @@ namespace mortise
         const unsigned int m       = fes[element].degree - 1;
         for (unsigned int c = 0; c < components; ++c)
           for (unsigned int i = 0; i < n; ++i)
-            masters[first_on(1, l) + c * n + i] =
+            masters[fe.get_first_line_index() + (l * components + c) * n + i] =
               i + 2 > degree ? zero : cell->line(l)->dof_index(c * m + i, element);
       }
 
@@ -264,7 +224,7 @@ namespace mortise
         for (unsigned int c = 0; c < components; ++c)
           for (unsigned int j = 0; j < n; ++j)
             for (unsigned int i = 0; i < n; ++i)
-              masters[first_on(2, f) + (c * n + j) * n + i] =
+              masters[fe.get_first_quad_index(f) + (c * n + j) * n + i] =
                 std::max(i, j) + 2 > degree ?
                   zero :
                   cell->quad(f)->dof_index((c * m + (standard ? j : i)) * m + (standard ? i : j),

@@ -7,7 +7,6 @@
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 
 namespace mortise
@@ -20,14 +19,19 @@ namespace mortise
     bool
     consistently_ordered(const std::vector<CellData<3>> &cells)
     {
-      std::set<std::pair<unsigned int, unsigned int>> edges;
+      std::vector<std::array<unsigned int, 3>> edges; // smaller vertex, larger vertex, direction
+      edges.reserve(12 * cells.size());
       for (const CellData<3> &cell : cells)
         for (unsigned int line = 0; line < 12; ++line)
-          edges.emplace(cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 0)],
-                        cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 1)]);
-      return std::none_of(edges.begin(), edges.end(), [&](const auto &edge) {
-        return edges.count({edge.second, edge.first}) > 0;
-      });
+          {
+            const unsigned int a = cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 0)];
+            const unsigned int b = cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 1)];
+            edges.push_back({{std::min(a, b), std::max(a, b), a < b}});
+          }
+      std::sort(edges.begin(), edges.end());
+      return std::adjacent_find(edges.begin(), edges.end(), [](const auto &e, const auto &f) {
+               return e[0] == f[0] && e[1] == f[1] && e[2] != f[2];
+             }) == edges.end();
     }
 
     /// Order the cells so that a face between two of them is at most transposed; a mesh that has

@@ -29,6 +29,14 @@ namespace mortise
         x = std::abs(x) <= on_side ? 0. : std::abs(1. - x) <= on_side ? 1. : x;
     }
 
+    // Cubic on [0,1] with values f and slopes d at the ends.
+    inline double
+    cubic(const double f_0, const double f_1, const double d_0, const double d_1, const double t)
+    {
+      const double s = 1. - t;
+      return s * s * (1. + 2. * t) * f_0 + t * t * (1. + 2. * s) * f_1 + s * t * (s * d_0 - t * d_1);
+    }
+
     // The value nearest to zero of the cubic with these ends and slopes at seven inner points,
     // with the sign of the ends (both of one sign).
     double
@@ -37,12 +45,7 @@ namespace mortise
       const double sign   = f_0 + f_1 >= 0 ? 1. : -1.;
       double       result = std::min(sign * f_0, sign * f_1);
       for (unsigned int i = 1; i < 8; ++i)
-        {
-          const double t = i / 8., s = 1. - t;
-          const double f = s * s * (1. + 2. * t) * f_0 + t * t * (1. + 2. * s) * f_1 +
-                           s * s * t * d_0 - t * t * s * d_1;
-          result = std::min(result, sign * f);
-        }
+        result = std::min(result, sign * cubic(f_0, f_1, d_0, d_1, i / 8.));
       return result;
     }
   } // namespace
@@ -62,6 +65,7 @@ namespace mortise
     for (unsigned int edge = 0; edge < 4; ++edge)
       subdivide_edge(edge);
     locate_breakpoints();
+    check_segments();
     for (unsigned int s = 0; s < segments.size(); ++s)
       if (!segments[s].far)
         for (unsigned int side = 0; side < 4; ++side)
@@ -147,7 +151,8 @@ namespace mortise
     const bool simple = bend <= flat_enough && (slave->linear() || length <= short_enough);
     if (far || simple || depth >= max_depth)
       {
-        segments.push_back({static_cast<unsigned int>(breakpoints.size() - 1), far});
+        const unsigned int last = breakpoints.size();
+        segments.push_back({last - 1, last, far, false, 0., {0., 0.}});
         breakpoints.push_back({edge, tau_1, {0., 0.}, {0., 0.}});
         return;
       }
@@ -172,10 +177,11 @@ namespace mortise
 
 
 
+  // Pull back the breakpoints from @p begin on, with their velocities.
   void
-  LoopClipper::locate_breakpoints()
+  LoopClipper::locate(const unsigned int first)
   {
-    for (unsigned int begin = 0; begin < breakpoints.size(); begin += n_lanes)
+    for (unsigned int begin = first; begin < breakpoints.size(); begin += n_lanes)
       {
         const unsigned int count = std::min<unsigned int>(n_lanes, breakpoints.size() - begin);
         unsigned int       edge[n_lanes];
@@ -199,6 +205,14 @@ namespace mortise
               breakpoints[begin + l].dxi[i] = dxi[i][l];
             }
       }
+  }
+
+
+
+  void
+  LoopClipper::locate_breakpoints()
+  {
+    locate(0);
     for (auto &point : breakpoints)
       snap_to_sides(point.xi);
     // The end of an edge is the beginning of the next one.
@@ -212,26 +226,106 @@ namespace mortise
 
 
 
+  // Compare the middle of each segment with the cubic through its ends and slopes, and halve
+  // those that the cubic does not describe, so that the search for crossings can rely on it.
+  void
+  LoopClipper::check_segments()
+  {
+    constexpr unsigned int max_rounds = 8;
+    for (unsigned int round = 0; round < max_rounds; ++round)
+      {
+        const unsigned int begin = breakpoints.size();
+        for (const auto &segment : segments)
+          if (!segment.far && !segment.checked)
+            {
+              const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
+              const unsigned int edge = a.edge;
+              const double       tau  = 0.5 * (a.tau + b.tau);
+              breakpoints.push_back({edge, tau, {0., 0.}, {0., 0.}});
+            }
+        if (begin == breakpoints.size())
+          return;
+        locate(begin);
+        unsigned int middle = begin;
+        new_segments.clear();
+        for (auto &segment : segments)
+          {
+            if (segment.far || segment.checked)
+              new_segments.push_back(segment);
+            else
+              {
+                if (check_segment(segment, breakpoints[middle]) || round + 1 == max_rounds)
+                  new_segments.push_back(segment);
+                else
+                  {
+                    snap_to_sides(breakpoints[middle].xi);
+                    new_segments.push_back({segment.first, middle, false, false, 0., {0., 0.}});
+                    new_segments.push_back({middle, segment.last, false, false, 0., {0., 0.}});
+                  }
+                ++middle;
+              }
+          }
+        segments.swap(new_segments);
+      }
+  }
+
+
+
+  bool
+  LoopClipper::check_segment(Segment &segment, const Breakpoint &middle) const
+  {
+    constexpr double small = 0.03;
+
+    const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
+    const double      length = b.tau - a.tau;
+    segment.deviation        = 0;
+    double expected[2];
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        segment.mid[i] = middle.xi[i];
+        expected[i]    = cubic(a.xi[i], b.xi[i], length * a.dxi[i], length * b.dxi[i], 0.5);
+        segment.deviation =
+          std::max(segment.deviation, std::abs(middle.xi[i] - expected[i]));
+      }
+    segment.checked = segment.deviation <= small;
+    // Not well described, but outside by more than the description may be wrong?
+    for (unsigned int side = 0; side < 4 && !segment.checked; ++side)
+      {
+        const double f_0 = inside_by(a.xi, side), f_1 = inside_by(b.xi, side);
+        const double nearest =
+          std::max({f_0, f_1, inside_by(expected, side), inside_by(segment.mid, side)});
+        segment.checked = nearest < -2. * segment.deviation;
+      }
+    return segment.checked;
+  }
+
+
+
   void
   LoopClipper::find_crossings(const unsigned int segment, const unsigned int side)
   {
     const Breakpoint &a     = breakpoints[segments[segment].first];
-    const Breakpoint &b     = breakpoints[segments[segment].first + 1];
+    const Breakpoint &b     = breakpoints[segments[segment].last];
     const double      f_0   = snapped(inside_by(a.xi, side));
     const double      f_1   = snapped(inside_by(b.xi, side));
     const double      scale = (side % 2 == 0 ? 1. : -1.) * (b.tau - a.tau);
     const double      d_0   = scale * a.dxi[side / 2];
     const double      d_1   = scale * b.dxi[side / 2];
+    const double      slope = std::abs(d_0) + std::abs(d_1);
     // An edge that runs along the side, as on two polynomial pictures of one smooth surface, may
     // cross it several times.
-    const double slope   = std::abs(d_0) + std::abs(d_1);
-    const bool   grazing = std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
-    // Both ends on one side: a bulge can only cross where it heads for the side at both ends.
-    const bool heading = f_0 * d_0 <= 0 && f_1 * d_1 >= 0 && f_0 * f_1 > 0 &&
-                         nearest_of_cubic(f_0, f_1, d_0, d_1) <
-                           0.5 * std::min(std::abs(f_0), std::abs(f_1));
-    const bool leaving = (f_0 == 0. && f_1 * d_0 < 0) || (f_1 == 0. && f_0 * d_1 > 0);
-    if (grazing || heading || leaving)
+    bool doubtful = std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
+    if (f_0 * f_1 > 0)
+      doubtful = doubtful || nearest_of_cubic(f_0, f_1, d_0, d_1) < 3. * segments[segment].deviation;
+    else if (f_0 * f_1 < 0)
+      {
+        // The cubic and its slope at the middle: monotone curves cross once.
+        const double rise = f_1 - f_0, slope_mid = 1.5 * rise - 0.25 * (d_0 + d_1);
+        doubtful = doubtful || d_0 * rise <= 0 || d_1 * rise <= 0 || slope_mid * rise <= 0;
+      }
+    else
+      doubtful = doubtful || (f_0 == 0. && f_1 * d_0 < 0) || (f_1 == 0. && f_0 * d_1 > 0);
+    if (doubtful)
       sample_segment(segment, side);
     else if (f_0 * f_1 < 0)
       crossings.push_back({segment, side, a.tau, b.tau, f_0, f_1, 0., {0., 0.}});
@@ -245,7 +339,7 @@ namespace mortise
   LoopClipper::sample_segment(const unsigned int segment, const unsigned int side)
   {
     const Breakpoint  &a    = breakpoints[segments[segment].first];
-    const Breakpoint  &b    = breakpoints[segments[segment].first + 1];
+    const Breakpoint  &b    = breakpoints[segments[segment].last];
     const double       f_a  = snapped(inside_by(a.xi, side));
     const double       f_b  = snapped(inside_by(b.xi, side));
     const double       sign = f_a + f_b >= 0 ? 1. : -1.;
@@ -337,7 +431,7 @@ namespace mortise
       {
         const Crossing   &crossing = crossings[begin + std::min(l, n - 1)];
         const Breakpoint &a        = breakpoints[segments[crossing.segment].first];
-        const Breakpoint &b        = breakpoints[segments[crossing.segment].first + 1];
+        const Breakpoint &b        = breakpoints[segments[crossing.segment].last];
         const double      weight   = crossing.f_0 / (crossing.f_0 - crossing.f_1);
         const unsigned    fixed    = crossing.side / 2;
         edge[l]                    = a.edge;

@@ -36,9 +36,12 @@ namespace mortise
     for (unsigned int s = 0; s < segments.size(); ++s)
       {
         const Breakpoint &a = breakpoints[segments[s].first];
-        const Breakpoint &b = breakpoints[segments[s].first + 1];
+        const Breakpoint &b = breakpoints[segments[s].last];
         LoopPiece         piece;
-        piece.edge  = a.edge;
+        piece.edge    = a.edge;
+        piece.has_mid = segments[s].checked &&
+                        (next == crossings.size() || crossings[next].segment != s);
+        std::copy(segments[s].mid, segments[s].mid + 2, piece.mid);
         piece.tau_p = a.tau;
         std::copy(a.xi, a.xi + 2, piece.p);
         for (; next < crossings.size() && crossings[next].segment == s; ++next)
@@ -85,7 +88,7 @@ namespace mortise
     unsigned int member[n_lanes], edge[n_lanes], count = 0;
     for (unsigned int i = 0; i < loop.size(); ++i)
       {
-        if (loop[i].edge >= 0)
+        if (loop[i].edge >= 0 && !loop[i].has_mid)
           member[count++] = i;
         if (count == 0 || (count < n_lanes && i + 1 < loop.size()))
           continue;

@@ -239,30 +239,81 @@ namespace mortise
                                                     PairStatus::accepted;
     }
 
-    // Whether the pair can be accepted at all, judged at one point of the overlap, so that hopeless
-    // candidates cost little and are not counted as failures.
-    PairStatus
-    judge_at(Scratch &scratch, const double (&c)[2])
+    struct Judgement
     {
-      const Lanes xi[2] = {broadcast(c[0]), broadcast(c[1])};
+      PairStatus status;
+      double     distortion;
+    };
+
+    double
+    variation(const Lanes &a)
+    {
+      const Lanes  size = absolute(a);
+      const double high = largest(size), low = -largest(-size);
+      return (high - low) / (high + low);
+    }
+
+    // How far the pieces are from straight lines run through evenly. A surface element that varies
+    // by d along a line moves its middle by d/4 of its length.
+    double
+    bending(const std::vector<LoopPiece> &loop)
+    {
+      double result = 0;
+      for (const auto &piece : loop)
+        if (piece.edge >= 0)
+          {
+            double shift = 0, length = 0;
+            for (unsigned int i = 0; i < 2; ++i)
+              {
+                const double d = piece.q[i] - piece.p[i];
+                const double m = piece.mid[i] - piece.p[i] - 0.5 * d;
+                length += d * d;
+                shift += m * m;
+              }
+            if (shift > 0)
+              result = std::max(result, 4. * std::sqrt(shift / std::max(length, shift)));
+          }
+      return result;
+    }
+
+    // Whether the pair can be accepted at all, judged at the middle of the overlap, so that
+    // hopeless candidates cost little and are not counted as failures; and how much the surface
+    // elements of both faces vary between its corners.
+    Judgement
+    judge(const Scratch &scratch)
+    {
+      const LoopClipper &clipper = scratch.clipper;
+      Lanes              xi[2];
+      for (unsigned int i = 0; i < 2; ++i)
+        {
+          xi[i] = broadcast(clipper.centroid[i]);
+          for (unsigned int l = 1; l < n_lanes; ++l)
+            {
+              const double x = clipper.loop[(l - 1) * clipper.loop.size() / (n_lanes - 1)].p[i];
+              xi[i][l]       = std::min(std::max(x, 0.), 1.);
+            }
+        }
       Vec3<Lanes> x_s, dx_s[2], x_m;
       Lanes       eta[2], alpha, slope;
       scratch.slave.evaluate(xi, x_s, dx_s);
-      if (scratch.master.project(x_s, scratch.slave.normal(xi), false, eta, alpha, x_m, slope) != 0)
-        return PairStatus::failed;
-      return slope[0] >= 0                            ? PairStatus::normals_agree :
-             std::abs(alpha[0]) > 2 * scratch.gap_limit ? PairStatus::too_far :
-                                                          PairStatus::accepted;
+      const Vec3<Lanes>  n      = scratch.slave.normal(xi);
+      const unsigned int failed = scratch.master.project(x_s, n, false, eta, alpha, x_m, slope);
+      const PairStatus   status = (failed & 1u) != 0                          ? PairStatus::failed :
+                                  slope[0] >= 0                               ? PairStatus::normals_agree :
+                                  std::abs(alpha[0]) > 2 * scratch.gap_limit ? PairStatus::too_far :
+                                                                                PairStatus::accepted;
+      return {status,
+              std::max({1e-10,
+                        variation(dot(n, cross(dx_s[0], dx_s[1]))),
+                        variation(slope),
+                        bending(clipper.loop)})};
     }
   } // namespace
 
 
 
   PairResult
-  integrate_curved_pair(Scratch           &scratch,
-                        const SurfaceFace &master,
-                        const GaussRule   &rule,
-                        IntegrationPoints &points)
+  integrate_curved_pair(Scratch &scratch, const SurfaceFace &master, IntegrationPoints &points)
   {
     PairResult result;
     scratch.master.reinit(master, scratch.slave.origin());
@@ -274,12 +325,14 @@ namespace mortise
         result.status = clipped ? PairStatus::no_overlap : PairStatus::failed;
         return result;
       }
-    result.status = judge_at(scratch, scratch.clipper.centroid);
+    const Judgement judgement = judge(scratch);
+    result.status             = judgement.status;
     if (result.status == PairStatus::accepted && !clipped)
       result.status = PairStatus::failed;
     if (result.status != PairStatus::accepted)
       return result;
 
+    const GaussRule &rule = scratch.rule(judgement.distortion);
     clear_points(scratch);
     bool placed    = true;
     result.n_cells = 1;

@@ -106,7 +106,6 @@ namespace mortise
   PairResult
   integrate_linear_pair(PairIntegrator::Scratch &scratch,
                         const SurfaceFace       &master,
-                        const GaussRule         &rule,
                         IntegrationPoints       &points)
   {
     PairResult          result;
@@ -173,7 +172,8 @@ namespace mortise
 
     Cell cells[ConvexPolygon::max_corners];
     result.n_cells         = cut_into_cells(polygon, cells);
-    const unsigned int n_q = rule.tensor_weight.size();
+    const GaussRule   &rule = scratch.rule(0.);
+    const unsigned int n_q  = rule.tensor_weight.size();
     points.resize(result.n_cells * n_q);
     for (unsigned int c = 0; c < result.n_cells; ++c)
       fill_cell(cells[c], rule, maps, s_area.norm(), c * n_q, points);

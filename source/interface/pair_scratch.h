@@ -11,12 +11,16 @@ namespace mortise
 {
   struct PairIntegrator::Scratch
   {
+    /// The rule for the present pair.
+    const GaussRule &
+    rule(const double distortion) const;
+
     SlaveMap    slave;
     FaceFrame   slave_frame;
     bool        slave_linear = false;
     double      slave_size = 0, slave_area = 0;
     double      search_fraction = default_search_fraction, gap_limit = 0;
-    unsigned    n_points = 0;
+    unsigned    n_points = 0, degree_slave = 1, degree_master = 1;
     MasterMap   master;
     LoopClipper clipper;
 
@@ -28,13 +32,11 @@ namespace mortise
   PairResult
   integrate_linear_pair(PairIntegrator::Scratch &scratch,
                         const SurfaceFace       &master,
-                        const GaussRule         &rule,
                         IntegrationPoints       &points);
 
   /// All other pairs.
   PairResult
   integrate_curved_pair(PairIntegrator::Scratch &scratch,
                         const SurfaceFace       &master,
-                        const GaussRule         &rule,
                         IntegrationPoints       &points);
 } // namespace mortise

@@ -9,10 +9,10 @@ namespace mortise
 
   namespace
   {
-    double
+    long double
     binomial(const unsigned int n, const unsigned int k)
     {
-      double result = 1;
+      long double result = 1;
       for (unsigned int i = 1; i <= k; ++i)
         result = result * (n - k + i) / i;
       return result;
@@ -116,28 +116,30 @@ namespace mortise
       basis.degree = degree;
       for (unsigned int i = 0; i <= degree; ++i)
         basis.node[i] = nodes.point(i)[0];
-      // Monomial coefficients of each basis function, then c_k = sum_j binom(k,j)/binom(g,j) a_j.
+      // Monomial coefficients a_j of each basis function, then the Bernstein coefficients
+      // c_k = sum_j binom(k,j)/binom(g,j) a_j: sums that cancel, so in extended precision.
       for (unsigned int i = 0; i <= degree; ++i)
         {
-          basis.weight[i]                  = 1.;
-          double       monomial[max_face_nodes] = {1.};
-          unsigned int order                    = 0;
+          long double  weight = 1, monomial[max_face_nodes] = {1};
+          unsigned int order  = 0;
           for (unsigned int j = 0; j <= degree; ++j)
             if (j != i)
               {
-                basis.weight[i] /= basis.node[i] - basis.node[j];
+                const long double node = basis.node[j];
+                weight /= basis.node[i] - node;
                 ++order;
                 for (unsigned int k = order; k > 0; --k)
-                  monomial[k] = monomial[k - 1] - basis.node[j] * monomial[k];
-                monomial[0] *= -basis.node[j];
+                  monomial[k] = monomial[k - 1] - node * monomial[k];
+                monomial[0] *= -node;
               }
           for (unsigned int k = 0; k <= degree; ++k)
             {
-              double sum = 0;
+              long double sum = 0;
               for (unsigned int j = 0; j <= k; ++j)
                 sum += binomial(k, j) / binomial(degree, j) * monomial[j];
-              basis.bernstein[k][i] = sum * basis.weight[i];
+              basis.bernstein[k][i] = sum * weight;
             }
+          basis.weight[i] = weight;
         }
       return basis;
     }

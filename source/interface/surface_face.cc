@@ -12,7 +12,16 @@ namespace mortise
 
   namespace
   {
-    constexpr double flat_tolerance = 1e-12;
+    // What counts as rounding in a face's shape, relative to its size: 1e-12, or what a scene far
+    // from the origin has lost.
+    double
+    flat_tolerance(const SurfaceFace &face)
+    {
+      double farthest = 0;
+      for (const auto &point : face.points)
+        farthest = std::max(farthest, point.norm());
+      return std::max(1e-12, 16. * std::numeric_limits<double>::epsilon() * farthest / face.size);
+    }
 
     struct PointOnFace
     {
@@ -59,14 +68,15 @@ namespace mortise
     bool
     is_parallelogram(const SurfaceFace &face)
     {
-      const LagrangeBasis  &basis = lagrange_basis(face.degree);
-      const unsigned int    n     = face.degree + 1;
+      const LagrangeBasis  &basis     = lagrange_basis(face.degree);
+      const double          tolerance = flat_tolerance(face) * face.size;
+      const unsigned int    n         = face.degree + 1;
       const Tensor<1, 3>    a     = face.points[face.degree] - face.points[0];
       const Tensor<1, 3>    b     = face.points[n * face.degree] - face.points[0];
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
           if ((face.points[j * n + i] - face.points[0] - basis.node[i] * a - basis.node[j] * b)
-                .norm() > flat_tolerance * face.size)
+                .norm() > tolerance)
             return false;
       return true;
     }
@@ -135,7 +145,7 @@ namespace mortise
       }
     linear = affine;
     for (const auto &normal : vertex_normals)
-      linear = linear && (normal - vertex_normals[0]).norm() <= flat_tolerance;
+      linear = linear && (normal - vertex_normals[0]).norm() <= flat_tolerance(*this);
     set_frame(*this);
 
     FacePolynomial polynomial;

@@ -3,7 +3,6 @@
 #include <mortise/body/legendre_basis.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace mortise
 {
@@ -11,26 +10,37 @@ namespace mortise
 
   namespace
   {
-    /// sqrt(w_q) N_i(x_q), one row per point.
+    /// N_i(x_q), one row per point.
     void
-    weighted_values(const unsigned int                        degree,
-                    const std::array<std::vector<double>, 2> &coordinates,
-                    const std::vector<double>                &weights,
-                    FullMatrix<double>                       &values)
+    evaluate(const unsigned int                        degree,
+             const std::array<std::vector<double>, 2> &coordinates,
+             const unsigned int                        n_points,
+             FullMatrix<double>                       &values)
     {
       const unsigned int n = degree + 1;
-      values.reinit(weights.size(), n * n);
+      values.reinit(n_points, n * n, true);
       double x[max_degree + 1], y[max_degree + 1];
-      for (unsigned int q = 0; q < weights.size(); ++q)
+      for (unsigned int q = 0; q < n_points; ++q)
         {
           evaluate_lobatto(degree, coordinates[0][q], x);
           evaluate_lobatto(degree, coordinates[1][q], y);
-          const double root = std::sqrt(weights[q]);
-          double      *row  = &values(q, 0);
+          double *row = &values(q, 0);
           for (unsigned int j = 0; j < n; ++j)
             for (unsigned int i = 0; i < n; ++i)
-              row[i + n * j] = root * x[i] * y[j];
+              row[i + n * j] = x[i] * y[j];
         }
+    }
+
+    /// w_q N_i(x_q). Weights of signed sectors may be negative, so there is no root to take.
+    void
+    scale_rows(const FullMatrix<double>  &values,
+               const std::vector<double> &weights,
+               FullMatrix<double>        &scaled)
+    {
+      scaled = values;
+      for (unsigned int q = 0; q < scaled.m(); ++q)
+        for (unsigned int i = 0; i < scaled.n(); ++i)
+          scaled(q, i) *= weights[q];
     }
 
     double
@@ -44,7 +54,7 @@ namespace mortise
   integrate_coupling(InterfaceHandler &interface, const bool with_master_mass)
   {
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
-    FullMatrix<double>         slave_values, master_values;
+    FullMatrix<double>         slave_values, master_values, weighted;
 
     interface.visit_pairs([&](const unsigned int s, const unsigned int m, const IntegrationPoints &points) {
       LocalCoupling     &local        = couplings[s];
@@ -61,27 +71,28 @@ namespace mortise
         }
       local.penalty = std::min(local.penalty, pair_penalty);
 
-      weighted_values(slave.degree, points.slave_xi, points.weight, slave_values);
-      weighted_values(master.degree, points.master_eta, points.weight, master_values);
-      slave_values.Tmmult(local.mass, slave_values, true);
+      evaluate(slave.degree, points.slave_xi, points.size(), slave_values);
+      evaluate(master.degree, points.master_eta, points.size(), master_values);
+      scale_rows(slave_values, points.weight, weighted);
+      weighted.Tmmult(local.mass, slave_values, true);
 
       LocalCoupling::Partner partner;
       partner.master = m;
       partner.mixed.reinit(n_slave, master.n_functions());
-      slave_values.Tmmult(partner.mixed, master_values);
-      if (with_master_mass)
-        {
-          partner.mass.reinit(master.n_functions(), master.n_functions());
-          master_values.Tmmult(partner.mass, master_values);
-        }
+      weighted.Tmmult(partner.mixed, master_values);
       for (unsigned int q = 0; q < points.size(); ++q)
         {
           Tensor<1, dim> gap;
           for (unsigned int c = 0; c < dim; ++c)
             gap[c] = points.master_x[c][q] - points.slave_x[c][q];
-          gap *= std::sqrt(points.weight[q]);
           for (unsigned int i = 0; i < n_slave; ++i)
-            local.gap_moment[i] += slave_values(q, i) * gap;
+            local.gap_moment[i] += weighted(q, i) * gap;
+        }
+      if (with_master_mass)
+        {
+          scale_rows(master_values, points.weight, weighted);
+          partner.mass.reinit(master.n_functions(), master.n_functions());
+          weighted.Tmmult(partner.mass, master_values);
         }
       local.partners.push_back(std::move(partner));
     });

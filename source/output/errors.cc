@@ -79,7 +79,7 @@ namespace mortise
         if (!values)
           values = std::make_unique<Values>(
             *body.mapping,
-            FE_Legendre(degree),
+            *elements.emplace(degree, std::make_unique<FE_Legendre>(degree)).first->second,
             Quadrature<Values::integral_dimension>(
               QGauss<Values::integral_dimension>(degree + extra_points)),
             flags);
@@ -87,10 +87,11 @@ namespace mortise
       }
 
     private:
-      const Body                                     &body;
-      const unsigned int                              extra_points;
-      const UpdateFlags                               flags;
-      std::map<unsigned int, std::unique_ptr<Values>> all;
+      const Body                                          &body;
+      const unsigned int                                   extra_points;
+      const UpdateFlags                                    flags;
+      std::map<unsigned int, std::unique_ptr<FE_Legendre>> elements; ///< outlive the values
+      std::map<unsigned int, std::unique_ptr<Values>>      all;
     };
 
     using TriaCell = Triangulation<dim>::cell_iterator;

@@ -10,13 +10,14 @@ namespace mortise
   {
     using Action = CommandLine::Action;
 
-    const std::vector<std::string> option_names =
-      {"--set", "--output", "--validate", "--parameters", "--help", "--version"};
+    const std::vector<std::string> option_names = {
+      "--set", "--output", "--validate", "--parameters", "--help", "--version"};
 
     [[noreturn]] void
     fail(const std::string &what)
     {
-      throw InputError("command line: " + what + "\nusage: mortise [OPTION]... FILE.prm (see mortise --help)");
+      throw InputError("command line: " + what +
+                       "\nusage: mortise [OPTION]... FILE.prm (see mortise --help)");
     }
 
     /// The value of "--set VALUE" or "--set=VALUE"; advances @p i over it.
@@ -36,7 +37,8 @@ namespace mortise
     set_action(CommandLine &line, const Action action, const std::string &option)
     {
       if (line.action != Action::run && line.action != action)
-        fail("got " + option + " and another option that asks for something else; allowed is one of "
+        fail("got " + option +
+             " and another option that asks for something else; allowed is one of "
              "--validate, --parameters, --help, --version");
       line.action = action;
     }
@@ -99,26 +101,32 @@ namespace mortise
   {
     return "mortise ties elastic bodies whose meshes do not match, in three dimensions.\n"
            "\n"
-           "  mortise [OPTION]... FILE.prm            run the scene of a parameter file\n"
-           "  mpirun -n 4 mortise [OPTION]... FILE.prm    the same on four ranks\n"
-           "  mortise --validate [OPTION]... FILE.prm     check the file and its meshes, then stop\n"
-           "  mortise --parameters                    every parameter with default, unit, meaning\n"
+           "  mortise [OPTION]... FILE.prm               run the scene of a parameter file\n"
+           "  mpirun -n 4 mortise [OPTION]... FILE.prm   the same on four ranks\n"
+           "  mortise --validate [OPTION]... FILE.prm    check the file and its meshes, then stop\n"
+           "  mortise --parameters                       every parameter: default, unit, meaning\n"
            "  mortise --help | --version\n"
            "\n"
            "Options:\n"
-           "  --set \"SECTION/NAME=VALUE\"   set a parameter after the file is read; repeatable, as in\n"
+           "  --set \"SECTION/NAME=VALUE\"   set a parameter after the file is read; repeatable, "
+           "as in\n"
            "                               --set \"Body inner/Mesh/Subdivisions=8, 4\"\n"
-           "  --output DIR                 write results there (the same as --set Output/Directory=DIR)\n"
+           "  --output DIR                 write results there (the same as --set "
+           "Output/Directory=DIR)\n"
            "\n"
-           "DIR/summary.json holds sizes, solver, errors, requested quantities and times of the run.\n"
-           "Exit codes: 0 done; 1 a defect of the program; 2 the input is wrong (the message says what,\n"
-           "where, what was got, what is allowed); 3 not converged (what was reached is written).\n";
+           "DIR/summary.json holds sizes, solver, errors, requested quantities and times of the "
+           "run.\n"
+           "Exit codes: 0 done; 1 a defect of the program; 2 the input is wrong (the message says "
+           "what,\n"
+           "where, what was got, what is allowed); 3 not converged (what was reached is "
+           "written).\n";
   }
 
   std::string
   version_text()
   {
     const ProgramInfo info = program_info(1);
-    return info.name + " " + info.version + " (deal.II " + info.dealii + ", " + info.build_type + ")\n";
+    return info.name + " " + info.version + " (deal.II " + info.dealii + ", " + info.build_type +
+           ")\n";
   }
 } // namespace mortise

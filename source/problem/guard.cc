@@ -74,7 +74,8 @@ namespace mortise
           MPI_Test(&request, &done, MPI_STATUS_IGNORE);
           if (done)
             return true;
-          if (patience >= 0. && std::chrono::duration<double>(Clock::now() - start).count() > patience)
+          if (patience >= 0. &&
+              std::chrono::duration<double>(Clock::now() - start).count() > patience)
             return false;
           if (round > 1000)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -128,20 +128,22 @@ namespace mortise
       const MeshParameters mesh;
       declare.choice("Source", mesh.source, "Where the mesh comes from.", mesh_source_names());
       declare.choice("Cells", mesh.cells, "Shape of the cells.", {"hexahedra", "tetrahedra"});
-      declare.numbers("Extent",
-                      "",
-                      "Size of a generated body [length]. box and curved block: x0, y0, z0, x1, y1, "
-                      "z1 (of the whole block); shell octant: r_in, r_out; cylinder sector: r_in, "
-                      "r_out, length.",
-                      "2, 3 or 6 numbers, as the generator needs",
-                      6);
-      declare.add("Subdivisions",
-                  "",
-                  "Cells of a generated body. box: nx, ny, nz; shell octant: n, m (three patches of "
-                  "n x n, m radial); cylinder sector: around, radial, axial; curved block: nx, ny, "
-                  "nz, or nx, ny, nz_lower, nz_upper for both halves.",
-                  "2 to 4 integers of 1 or more, as the generator needs",
-                  Patterns::List(Patterns::Integer(1), 0, 4));
+      declare.numbers(
+        "Extent",
+        "",
+        "Size of a generated body [length]. box and curved block: x0, y0, z0, x1, y1, "
+        "z1 (of the whole block); shell octant: r_in, r_out; cylinder sector: r_in, "
+        "r_out, length.",
+        "2, 3 or 6 numbers, as the generator needs",
+        6);
+      declare.add(
+        "Subdivisions",
+        "",
+        "Cells of a generated body. box: nx, ny, nz; shell octant: n, m (three patches of "
+        "n x n, m radial); cylinder sector: around, radial, axial; curved block: nx, ny, "
+        "nz, or nx, ny, nz_lower, nz_upper for both halves.",
+        "2 to 4 integers of 1 or more, as the generator needs",
+        Patterns::List(Patterns::Integer(1), 0, 4));
       declare.integer("Refinements",
                       mesh.refinements,
                       "How often all cells are cut into eight, after Subdivisions or File.",
@@ -151,7 +153,10 @@ namespace mortise
                    "Local refinement after that: cells that reach into a ball are cut the given "
                    "number of times [lengths, in moved coordinates].",
                    "\"x, y, z, radius, times; ...\"");
-      declare.text("File", mesh.file, "Mesh for the source file; from gmsh, say.", "name of a file");
+      declare.text("File",
+                   mesh.file,
+                   "Mesh for the source file; from gmsh, say.",
+                   "name of a file");
       declare.numbers("Rotate",
                       text_of(mesh.rotate),
                       "Rotates the body about the axes x, then y, then z [degrees].",
@@ -178,21 +183,23 @@ namespace mortise
                       "box: the face zmax lies in z = z1 + sx (x - x0) + sy (y - y0) [-].",
                       "2 numbers: sx, sy",
                       2);
-      declare.number("Distort",
-                     mesh.distort,
-                     "box: largest shift of a vertex as a fraction of its cell's edges, the same on "
-                     "every run [-].",
-                     "a number from 0 to 0.3");
+      declare.number(
+        "Distort",
+        mesh.distort,
+        "box: largest shift of a vertex as a fraction of its cell's edges, the same on "
+        "every run [-].",
+        "a number from 0 to 0.3");
       declare.choice("Half",
                      mesh.half,
                      "curved block: which side of the curved surface.",
                      {"lower", "upper", "both"});
-      declare.choice("Surface",
-                     mesh.surface,
-                     "curved block: the surface in which the halves meet, z = z_middle + Amplitude "
-                     "f(s, t) with s, t in [-1, 1] across the block. bump: cos(pi s/2) cos(pi t/2); "
-                     "saddle: (s^2 - t^2 + s/2) / 1.5; wave: sin(pi s/2 + 1/2) cos(pi t/2).",
-                     {"bump", "saddle", "wave"});
+      declare.choice(
+        "Surface",
+        mesh.surface,
+        "curved block: the surface in which the halves meet, z = z_middle + Amplitude "
+        "f(s, t) with s, t in [-1, 1] across the block. bump: cos(pi s/2) cos(pi t/2); "
+        "saddle: (s^2 - t^2 + s/2) / 1.5; wave: sin(pi s/2 + 1/2) cos(pi t/2).",
+        {"bump", "saddle", "wave"});
       declare.number("Amplitude",
                      mesh.amplitude,
                      "curved block: height of that surface [length].",
@@ -214,10 +221,11 @@ namespace mortise
                    "",
                    "Force on the surface, added to Pressure [force per area]. Empty: none.",
                    "three expressions \"tx; ty; tz\"; or exact");
-      declare.text("Displacement",
-                   "",
-                   "Prescribed displacement [length]; - leaves a component free. Empty: all free.",
-                   "three of: an expression, -, or exact, as in \"-, -, 0\"; or exact for all three");
+      declare.text(
+        "Displacement",
+        "",
+        "Prescribed displacement [length]; - leaves a component free. Empty: all free.",
+        "three of: an expression, -, or exact, as in \"-, -, 0\"; or exact for all three");
     }
 
     void
@@ -227,11 +235,8 @@ namespace mortise
     {
       const BodyParameters body;
       Declare              declare(declared, {section});
-      declare.integer("Degree",
-                      body.degree,
-                      "Polynomial degree of the displacement.",
-                      min_degree,
-                      max_degree);
+      declare.integer(
+        "Degree", body.degree, "Polynomial degree of the displacement.", min_degree, max_degree);
       declare.text("Degree by region",
                    "",
                    "Other degrees for cells with the given material ids of the mesh.",
@@ -277,10 +282,11 @@ namespace mortise
                      "Largest gap or penetration that is bridged, as a fraction of the size of the "
                      "larger face [-].",
                      "a positive number");
-      declare.text("Quadrature points",
-                   "auto",
-                   "Points per direction on an integration cell. auto: as many as the degrees need.",
-                   "auto, or an integer of 1 or more");
+      declare.text(
+        "Quadrature points",
+        "auto",
+        "Points per direction on an integration cell. auto: as many as the degrees need.",
+        "auto, or an integer of 1 or more");
     }
 
     void
@@ -315,11 +321,12 @@ namespace mortise
                   "Where summary.json and the files of fields go; made when the first is written. "
                   "Empty: results/NAME for a parameter file NAME.prm.",
                   "name of a directory");
-      output.text("Fields",
-                  "",
-                  "Fields to write for ParaView (.vtu); traction and gap are on the interfaces. "
-                  "Empty: no files of fields.",
-                  "a list of: " + join_names(field_names()));
+      output.text(
+        "Fields",
+        "",
+        "Fields to write for ParaView (.vtu), a file for each body and, with traction (and "
+        "gap), for each interface. Empty: no files of fields.",
+        "a list of: " + join_names(field_names()));
       output.text("Points",
                   "",
                   "Displacements to report in the summary, at points of bodies [length].",
@@ -335,23 +342,23 @@ namespace mortise
   std::vector<ParameterDeclaration>
   declare_parameters(const SceneNames &names)
   {
-      std::vector<ParameterDeclaration> declared;
-      Declare                           declare(declared, {});
-      declare.text("Title", "", "Title of the scene, for people.", "any text");
-      declare.text("Bodies",
-                   "",
-                   "Names of the bodies; each has a subsection \"Body NAME\".",
-                   "names separated by commas");
-      declare.text("Interfaces",
-                   "",
-                   "Names of the interfaces that tie bodies; each has a subsection \"Interface "
-                   "NAME\". Empty: none.",
-                   "names separated by commas");
-      for (unsigned int b = 0; b < names.bodies.size(); ++b)
-        declare_body(declared, "Body " + names.bodies[b], names.boundaries[b]);
-      for (const std::string &name : names.interfaces)
-        declare_interface({declared, {"Interface " + name}});
-      declare_rest(declared);
-      return declared;
-    }
+    std::vector<ParameterDeclaration> declared;
+    Declare                           declare(declared, {});
+    declare.text("Title", "", "Title of the scene, for people.", "any text");
+    declare.text("Bodies",
+                 "",
+                 "Names of the bodies; each has a subsection \"Body NAME\".",
+                 "names separated by commas");
+    declare.text("Interfaces",
+                 "",
+                 "Names of the interfaces that tie bodies; each has a subsection \"Interface "
+                 "NAME\". Empty: none.",
+                 "names separated by commas");
+    for (unsigned int b = 0; b < names.bodies.size(); ++b)
+      declare_body(declared, "Body " + names.bodies[b], names.boundaries[b]);
+    for (const std::string &name : names.interfaces)
+      declare_interface({declared, {"Interface " + name}});
+    declare_rest(declared);
+    return declared;
+  }
 } // namespace mortise

@@ -73,7 +73,7 @@ namespace mortise
       {
         const std::filesystem::path path(file);
         std::vector<std::string>    beside;
-        const auto directory = path.has_parent_path() ? path.parent_path() : ".";
+        const auto                  directory = path.has_parent_path() ? path.parent_path() : ".";
         for (const auto &entry : std::filesystem::directory_iterator(directory, ignored))
           if (entry.path().extension() == ".prm")
             beside.push_back(entry.path().filename().string());
@@ -189,7 +189,8 @@ namespace mortise
       open(const Line &line, const std::string &name)
       {
         if (name.empty())
-          throw InputError(line.origin + ": a subsection needs a name, as in \"subsection Solver\"");
+          throw InputError(line.origin +
+                           ": a subsection needs a name, as in \"subsection Solver\"");
         sections.push_back(name);
         opened_at.push_back(line.origin);
         assignments.push_back({sections, "", "", line.origin});
@@ -205,10 +206,10 @@ namespace mortise
         if (++nesting > deepest)
           throw InputError("parameter file \"" + name + "\"" + from +
                            ": more than 20 files within each other; does one include itself?");
-        const auto      beside = std::filesystem::path(file).parent_path() / name;
-        std::error_code ignored;
-        const bool      found = std::filesystem::exists(beside, ignored);
-        const std::string path = found ? beside.string() : name;
+        const auto        beside = std::filesystem::path(file).parent_path() / name;
+        std::error_code   ignored;
+        const bool        found = std::filesystem::exists(beside, ignored);
+        const std::string path  = found ? beside.string() : name;
         scan(read_text_file(path, from), path);
         --nesting;
       }
@@ -229,8 +230,8 @@ namespace mortise
   Assignment
   scan_setting(const std::string &setting)
   {
-    const std::string origin = "--set \"" + setting + "\"";
-    const std::size_t equals = setting.find('=');
+    const std::string        origin = "--set \"" + setting + "\"";
+    const std::size_t        equals = setting.find('=');
     std::vector<std::string> path;
     std::istringstream       stream(setting.substr(0, equals));
     for (std::string part; std::getline(stream, part, '/');)
@@ -238,8 +239,9 @@ namespace mortise
     const bool empty_part =
       std::any_of(path.begin(), path.end(), [](const std::string &part) { return part.empty(); });
     if (equals == std::string::npos || path.empty() || empty_part)
-      throw InputError(origin + ": cannot understand this; allowed is SECTION/SUBSECTION/NAME=VALUE, "
-                                "for example --set \"Body inner/Mesh/Refinements=1\"");
+      throw InputError(origin +
+                       ": cannot understand this; allowed is SECTION/SUBSECTION/NAME=VALUE, "
+                       "for example --set \"Body inner/Mesh/Refinements=1\"");
     const std::string name = path.back();
     path.pop_back();
     return {path, name, normalised(setting.substr(equals + 1)), origin};

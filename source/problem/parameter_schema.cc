@@ -57,7 +57,8 @@ namespace mortise
             if (parent.size() == 1 && starts_with(parent[0], "Body "))
               {
                 known.push_back("Boundary NAME");
-                near.push_back("Boundary" + section.substr(std::min(section.find(' '), section.size())));
+                near.push_back("Boundary" +
+                               section.substr(std::min(section.find(' '), section.size())));
               }
             std::string why;
             if (parent.empty() && starts_with(section, "Body "))
@@ -87,7 +88,7 @@ namespace mortise
         else if (p.name == assignment.name)
           elsewhere.push_back(path_of(p.sections));
       }
-    std::string hint = did_you_mean(assignment.name, here);
+    std::string              hint   = did_you_mean(assignment.name, here);
     std::vector<std::string> itself = assignment.sections;
     itself.push_back(assignment.name);
     const bool is_section = std::any_of(declared.begin(), declared.end(), [&](const auto &p) {
@@ -157,11 +158,13 @@ namespace mortise
 
     const char *const reference_heading =
       "# Every parameter with its default, unit, meaning and what is allowed. This is a parameter\n"
-      "# file itself. NAME stands for a name that the file chooses: a body, one of its boundaries, or\n"
-      "# an interface. Units are those of the scene: any that fit together, such as m, N, Pa or\n"
-      "# mm, N, MPa. Expressions know x, y, z, pi, + - * / ^, comparisons, if(condition, then, else),\n"
-      "# and sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh, exp, log, sqrt, abs, min, max,\n"
-      "# pow. On the command line: --set \"Body NAME/Mesh/Source=box\".\n";
+      "# file itself. NAME stands for a name that the file chooses: a body, one of its\n"
+      "# boundaries, or an interface. Units are those of the scene: any that fit together, such "
+      "as\n"
+      "# m, N, Pa or mm, N, MPa. Expressions know x, y, z, pi, + - * / ^, comparisons,\n"
+      "# if(condition, then, else), and sin, cos, tan, asin, acos, atan, atan2, sinh, cosh, tanh,\n"
+      "# exp, log, sqrt, abs, min, max, pow. On the command line:\n"
+      "#   mortise --set \"Body NAME/Mesh/Source=box\" FILE.prm\n";
   } // namespace
 
   std::string
@@ -187,7 +190,7 @@ namespace mortise
           }
         const bool names = p.sections.empty() && (p.name == "Bodies" || p.name == "Interfaces");
         const std::string value = names ? "NAME" : p.default_value;
-        text += comment(p.meaning, indent()) + comment("Allowed: " + p.allowed + ".", indent()) +
+        text += "\n" + comment(p.meaning, indent()) + comment("Allowed: " + p.allowed + ".", indent()) +
                 indent() + "set " + p.name + " =" + (value.empty() ? "" : " " + value) + "\n";
       }
     while (!open.empty())

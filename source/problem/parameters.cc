@@ -22,7 +22,8 @@ namespace mortise
   Parameters::where(const std::string &path) const
   {
     std::string readable = path;
-    for (std::size_t slash = 0; (slash = readable.find('/', slash)) != std::string::npos; slash += 3)
+    for (std::size_t slash = 0; (slash = readable.find('/', slash)) != std::string::npos;
+         slash += 3)
       readable.replace(slash, 1, " / ");
     const auto origin = origins.find(path);
     return origin == origins.end() ? readable : readable + " (" + origin->second + ")";
@@ -37,7 +38,7 @@ namespace mortise
   const std::vector<std::string> &
   field_names()
   {
-    static const std::vector<std::string> names = {"displacement", "stress", "traction", "gap"};
+    static const std::vector<std::string> names = {"displacement", "stress", "traction"};
     return names;
   }
 
@@ -93,7 +94,8 @@ namespace mortise
       BoundaryParameters boundary;
       if (!reader.text("Pressure").empty())
         boundary.pressure = reader.text("Pressure");
-      boundary.traction = reader.components("Traction", "three expressions \"tx; ty; tz\", or exact");
+      boundary.traction =
+        reader.components("Traction", "three expressions \"tx; ty; tz\", or exact");
       boundary.displacement =
         reader.components("Displacement",
                           "three of: an expression, -, or exact, as in \"-, -, 0\"; or exact");
@@ -101,20 +103,23 @@ namespace mortise
     }
 
     BodyParameters
-    read_body(const ParameterSchema &schema, const Parameters &parameters, const std::string &name,
-              const Strings &boundaries)
+    read_body(const ParameterSchema &schema,
+              const Parameters      &parameters,
+              const std::string     &name,
+              const Strings         &boundaries)
     {
-      const std::string section = "Body " + name;
-      const ParameterReader      reader(schema, parameters, {section});
-      const ParameterReader      material(schema, parameters, {section, "Material"});
-      BodyParameters    body;
+      const std::string     section = "Body " + name;
+      const ParameterReader reader(schema, parameters, {section});
+      const ParameterReader material(schema, parameters, {section, "Material"});
+      BodyParameters        body;
       body.name             = name;
       body.degree           = reader.integer("Degree");
       body.degree_by_region = read_degrees(reader);
       if (reader.text("Body force") != "auto")
-        body.body_force = reader.components("Body force", "three expressions \"bx; by; bz\", exact, or auto");
-      body.mesh                   = read_mesh(ParameterReader(schema, parameters, {section, "Mesh"}));
-      body.material.law           = material.text("Law");
+        body.body_force =
+          reader.components("Body force", "three expressions \"bx; by; bz\", exact, or auto");
+      body.mesh         = read_mesh(ParameterReader(schema, parameters, {section, "Mesh"}));
+      body.material.law = material.text("Law");
       body.material.young_modulus = material.number("Young modulus");
       body.material.poisson_ratio = material.number("Poisson ratio");
       for (const std::string &boundary : boundaries)
@@ -185,8 +190,8 @@ namespace mortise
         {
           if (std::find(field_names().begin(), field_names().end(), field) == field_names().end())
             throw InputError(reader.where("Fields") + ": got \"" + field + "\"" +
-                             did_you_mean(field, field_names()) +
-                             "; allowed: a list of " + join_names(field_names()));
+                             did_you_mean(field, field_names()) + "; allowed: a list of " +
+                             join_names(field_names()));
           output.fields.push_back(field);
         }
       const std::string point = "\"name: body: x, y, z; ...\"";
@@ -199,8 +204,7 @@ namespace mortise
           output.points.push_back(
             {record[0], reader.body_index("Points", record[1]), {x[0], x[1], x[2]}});
         }
-      for (const Strings &record :
-           reader.records("Resultants", 3, "\"name: body: boundary; ...\""))
+      for (const Strings &record : reader.records("Resultants", 3, "\"name: body: boundary; ...\""))
         output.resultants.push_back(
           {record[0], reader.body_index("Resultants", record[1]), record[2]});
       return output;

@@ -58,11 +58,12 @@ namespace mortise
       if (!(E > 0.) || !std::isfinite(E))
         fail(parameters, section + "/Young modulus", E, "a positive number (force per area)");
       if (nu >= 0.5)
-        fail(parameters,
-             section + "/Poisson ratio",
-             nu,
-             "a number below 0.5; at and above it a displacement form does not exist, and the mixed "
-             "form of displacement and pressure is not available yet");
+        fail(
+          parameters,
+          section + "/Poisson ratio",
+          nu,
+          "a number below 0.5; at and above it a displacement form does not exist, and the mixed "
+          "form of displacement and pressure is not available yet");
       if (!(nu > -1.))
         fail(parameters, section + "/Poisson ratio", nu, "a number above -1 and below 0.5");
     }
@@ -117,6 +118,25 @@ namespace mortise
              "an expression, or give Exact solution / Displacement");
     }
 
+    /// The named exact solutions take the pressures of the scene: they cannot give them.
+    void
+    check_loads_of_named_solution(const Parameters         &parameters,
+                                  const std::string        &section,
+                                  const std::string        &name,
+                                  const BoundaryParameters &boundary)
+    {
+      const ExactKind kind = parameters.exact_solution.kind;
+      if ((kind != ExactKind::thick_sphere && kind != ExactKind::thick_cylinder) ||
+          (name != "inside" && name != "outside"))
+        return;
+      const char *const allowed =
+        "a constant Pressure, from which the named exact solution follows";
+      if (boundary.pressure == "exact")
+        fail(parameters, section + "/Pressure", "\"exact\"", allowed);
+      if (boundary.traction)
+        fail(parameters, section + "/Traction", "\"" + joined(*boundary.traction) + "\"", allowed);
+    }
+
     void
     check_body(const Parameters &parameters, const BodyParameters &body)
     {
@@ -134,7 +154,10 @@ namespace mortise
       if (body.body_force)
         check_components(parameters, section + "/Body force", *body.body_force, false);
       for (const auto &[name, boundary] : body.boundaries)
-        check_boundary(parameters, section + "/Boundary " + name, boundary);
+        {
+          check_boundary(parameters, section + "/Boundary " + name, boundary);
+          check_loads_of_named_solution(parameters, section + "/Boundary " + name, name, boundary);
+        }
     }
 
     std::string
@@ -164,7 +187,10 @@ namespace mortise
       if (interface.multiplier != "standard")
         fail(parameters, section + "/Multiplier", "\"" + interface.multiplier + "\"", "standard");
       if (!(interface.search_distance > 0.) || !std::isfinite(interface.search_distance))
-        fail(parameters, section + "/Search distance", interface.search_distance, "a positive number");
+        fail(parameters,
+             section + "/Search distance",
+             interface.search_distance,
+             "a positive number");
       if (interface.quadrature_points > 100)
         fail(parameters,
              section + "/Quadrature points",
@@ -210,7 +236,7 @@ namespace mortise
     check_output(const OutputParameters &output, const Parameters &parameters)
     {
       std::set<std::string> names;
-      const auto            check_name = [&](const std::string &parameter, const std::string &name) {
+      const auto check_name = [&](const std::string &parameter, const std::string &name) {
         if (!names.insert(name).second)
           fail(parameters,
                "Output/" + parameter,
@@ -281,19 +307,22 @@ namespace mortise
   check_boundary_names(const Parameters                            &parameters,
                        const std::vector<std::vector<std::string>> &names)
   {
-    const auto check = [&](const std::string &path, const unsigned int body, const std::string &name) {
-      const auto &existing = names[body];
-      if (std::find(existing.begin(), existing.end(), name) == existing.end())
-        throw InputError(parameters.where(path) + ": body \"" + parameters.bodies[body].name +
-                         "\" has no boundary \"" + name + "\"" + did_you_mean(name, existing) +
-                         "; its boundaries are: " + join_names(existing));
-    };
+    const auto check =
+      [&](const std::string &path, const unsigned int body, const std::string &name) {
+        const auto &existing = names[body];
+        if (std::find(existing.begin(), existing.end(), name) == existing.end())
+          throw InputError(parameters.where(path) + ": body \"" + parameters.bodies[body].name +
+                           "\" has no boundary \"" + name + "\"" + did_you_mean(name, existing) +
+                           "; its boundaries are: " + join_names(existing));
+      };
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       for (const auto &[name, boundary] : parameters.bodies[b].boundaries)
         check("Body " + parameters.bodies[b].name + "/Boundary " + name, b, name);
     for (const InterfaceParameters &interface : parameters.interfaces)
       {
-        check("Interface " + interface.name + "/Slave", interface.slave.body, interface.slave.boundary);
+        check("Interface " + interface.name + "/Slave",
+              interface.slave.body,
+              interface.slave.boundary);
         check("Interface " + interface.name + "/Master",
               interface.master.body,
               interface.master.boundary);

@@ -7,8 +7,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/dofs/dof_tools.h>
-
 #include <sstream>
 
 namespace mortise
@@ -184,13 +182,14 @@ namespace mortise
     for (const auto dof : couplings[i].multipliers->slave_dofs())
       mark(slave.body, dof);
     const Body &body = *bodies[master.body];
-    IndexSet    on_master;
-    DoFTools::extract_boundary_dofs(body.dof_handler,
-                                    ComponentMask(),
-                                    on_master,
-                                    {body.boundary_id(master.boundary, "")});
-    for (const auto dof : on_master)
-      mark(master.body, dof);
+    const auto id = body.boundary_id(master.boundary, "");
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      if (!cell->is_artificial() && cell->at_boundary())
+        for (const unsigned int f : cell->face_indices())
+          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == id)
+            for (const auto &component : face_dofs(body, cell, f))
+              for (const auto dof : component)
+                mark(master.body, dof);
   }
 
   void

@@ -51,7 +51,14 @@ namespace mortise
         inner_matrix =
           std::make_unique<Epetra_CrsMatrix>(Copy, system.coupling.trilinos_matrix().RowMap(), 0);
         EpetraExt::MatrixMatrix::Multiply(scaled, false, scaled, true, *inner_matrix);
-        inner.initialize(*inner_matrix, SparseFactorization::Kind::positive_definite);
+        valid = inner.initialize(*inner_matrix);
+      }
+
+      /// False when the multipliers are not independent of each other.
+      bool
+      is_valid() const
+      {
+        return valid;
       }
 
       bool
@@ -89,6 +96,7 @@ namespace mortise
     private:
       const BlockSystem                &system;
       types::global_dof_index           n_multipliers;
+      bool                              valid = true;
       Vector                            weight;
       mutable Vector                    jump, multiplier, correction;
       std::unique_ptr<Epetra_CrsMatrix> inner_matrix;
@@ -106,7 +114,7 @@ namespace mortise
     report.method = "condensed";
     Timer                      timer;
     HierarchicalPreconditioner preconditioner;
-    preconditioner.initialize(system);
+    const bool                 bulk_is_valid = preconditioner.initialize(system);
     const ConstraintProjector projector(system);
     const ScaledResidual      residual(system);
     report.preconditioner = preconditioner.description();
@@ -118,8 +126,11 @@ namespace mortise
     const double rhs_norm = residual.right_hand_side_norm();
     const double target   = options.tolerance * rhs_norm;
     Vector       r(u), r_lambda(lambda), z(u), d(u), kd(u);
+    const bool   valid = bulk_is_valid && projector.is_valid();
     double       reached = rhs_norm;
-    for (unsigned int start = 0; start < 3 && reached > target; ++start)
+    for (unsigned int start = 0; start < 3 && valid && reached > target &&
+                                 report.iterations < options.max_iterations;
+         ++start)
       {
         if (!projector.is_identity())
           projector.project(u, &system.coupling_rhs);
@@ -148,7 +159,10 @@ namespace mortise
               d.sadd(rho / rho_old, 1., z);
             rho_old = rho;
             system.stiffness.vmult(kd, d);
-            const double alpha = rho / (d * kd);
+            const double energy = d * kd;
+            if (!(rho > 0. && energy > 0.)) // not positive definite, or not a number
+              break;
+            const double alpha = rho / energy;
             u.add(alpha, d);
             r.add(-alpha, kd);
             ++report.iterations;
@@ -156,7 +170,7 @@ namespace mortise
         residual.compute(u, lambda, r, r_lambda);
         reached = residual.norm(r, r_lambda);
       }
-    report.relative_residual = reached > 0. ? reached / rhs_norm : 0.;
+    report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= target;
     report.solve_seconds     = timer.wall_time();
     return report;

@@ -1,5 +1,6 @@
 // See direct.h.
 #include <mortise/solvers/direct.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/scaled_residual.h>
 #include <mortise/solvers/sparse_factorization.h>
 
@@ -93,10 +94,19 @@ namespace mortise
     transposed_coupling(const BlockSystem &system, const MonolithicNumbering &numbering)
     {
       std::map<unsigned int, std::vector<Entry>> to_send;
+      // Rows by view: deal.II's iterators copy a row at each comparison with end().
+      const auto &coupling = system.coupling.trilinos_matrix();
+      int         local    = 0;
       for (const auto k : system.owned_multiplier)
-        for (auto e = system.coupling.begin(k); e != system.coupling.end(k); ++e)
-          if (e->value() != 0.)
-            to_send[numbering.u_owner(e->column())].push_back({e->column(), k, e->value()});
+        {
+          const EpetraRow row(coupling, local++);
+          for (int e = 0; e < row.length; ++e)
+            if (row.values[e] != 0.)
+              {
+                const Index i = coupling.ColMap().GID(row.columns[e]);
+                to_send[numbering.u_owner(i)].push_back({i, k, row.values[e]});
+              }
+        }
       std::vector<Entry> entries;
       for (const auto &from : Utilities::MPI::some_to_some(system.communicator, to_send))
         entries.insert(entries.end(), from.second.begin(), from.second.end());
@@ -124,7 +134,7 @@ namespace mortise
       return scale;
     }
 
-    /// S [K B^T; B 0] S without the scaling, which is applied by the caller.
+    /// [K B^T; B 0], not scaled.
     std::unique_ptr<Epetra_CrsMatrix>
     monolithic_matrix(const BlockSystem &system, const MonolithicNumbering &numbering)
     {
@@ -139,23 +149,20 @@ namespace mortise
                            0,
                            system.stiffness.trilinos_matrix().Comm());
 
-      const auto       transposed = transposed_coupling(system, numbering);
-      std::vector<int> row_lengths;
-      auto             t = transposed.begin();
-      for (const auto i : system.owned_displacement)
-        {
-          unsigned int n = system.stiffness.row_length(i);
-          for (; t != transposed.end() && t->row == i; ++t)
-            ++n;
-          row_lengths.push_back(n);
-        }
-      for (const auto k : system.owned_multiplier)
-        row_lengths.push_back(system.coupling.row_length(k) + 1);
+      const auto transposed = transposed_coupling(system, numbering);
+      auto       matrix     = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
 
-      auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, row_lengths.data(), false);
       std::vector<int>    columns;
       std::vector<double> values;
-      const auto          insert = [&](const Index row) {
+      const auto          add_row = [&](const Epetra_CrsMatrix &part, const int local) {
+        const EpetraRow row(part, local);
+        for (int e = 0; e < row.length; ++e)
+          {
+            columns.push_back(static_cast<int>(numbering.u(part.ColMap().GID(row.columns[e]))));
+            values.push_back(row.values[e]);
+          }
+      };
+      const auto insert = [&](const Index row) {
         matrix->InsertGlobalValues(static_cast<int>(row),
                                    static_cast<int>(columns.size()),
                                    values.data(),
@@ -163,29 +170,23 @@ namespace mortise
         columns.clear();
         values.clear();
       };
-      t = transposed.begin();
+      auto t     = transposed.begin();
+      int  local = 0;
       for (const auto i : system.owned_displacement)
         {
-          for (auto e = system.stiffness.begin(i); e != system.stiffness.end(i); ++e)
-            {
-              columns.push_back(numbering.u(e->column()));
-              values.push_back(e->value());
-            }
+          add_row(system.stiffness.trilinos_matrix(), local++);
           for (; t != transposed.end() && t->row == i; ++t)
             {
-              columns.push_back(numbering.l(t->column));
+              columns.push_back(static_cast<int>(numbering.l(t->column)));
               values.push_back(t->value);
             }
           insert(numbering.u(i));
         }
+      local = 0;
       for (const auto k : system.owned_multiplier)
         {
-          for (auto e = system.coupling.begin(k); e != system.coupling.end(k); ++e)
-            {
-              columns.push_back(numbering.u(e->column()));
-              values.push_back(e->value());
-            }
-          columns.push_back(numbering.l(k));
+          add_row(system.coupling.trilinos_matrix(), local++);
+          columns.push_back(static_cast<int>(numbering.l(k)));
           values.push_back(0.);
           insert(numbering.l(k));
         }
@@ -229,8 +230,7 @@ namespace mortise
     matrix->RightScale(scale);
 
     SparseFactorization factorization;
-    const bool          factorized =
-      factorization.initialize(*matrix, SparseFactorization::Kind::symmetric_indefinite);
+    const bool          factorized = factorization.initialize(*matrix);
     report.preconditioner = "factorisation (" + factorization.backend() + ")";
     report.setup_seconds  = timer.wall_time();
     timer.restart();

@@ -1,15 +1,42 @@
 // See hierarchical_preconditioner.h.
 #include <mortise/solvers/block_smoother.h>
+#include <mortise/solvers/entity_graph.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/interior_condensation.h>
 #include <mortise/solvers/vertex_solver.h>
 
+#include <deal.II/base/mpi.h>
+
 namespace mortise
 {
+  using namespace dealii;
+
+  namespace
+  {
+    /// The patches of the graph as rows of the Schur complement.
+    std::vector<std::vector<int>>
+    rows_of_patches(const BlockSystem          &system,
+                    const EntityGraph          &graph,
+                    const InteriorCondensation &condensation)
+    {
+      const auto                    first = first_displacement(system);
+      std::vector<std::vector<int>> rows;
+      for (const auto &patch : graph.patches())
+        {
+          rows.emplace_back();
+          for (const unsigned int block : patch)
+            for (const auto i : system.entity_blocks[block])
+              rows.back().push_back(condensation.row_of_dof()[i - first]);
+        }
+      return rows;
+    }
+  } // namespace
+
   struct HierarchicalPreconditioner::Implementation
   {
-    explicit Implementation(const BlockSystem &system)
-      : condensation(system)
+    Implementation(const BlockSystem &system, const EntityGraph &graph)
+      : condensation(system, graph)
       , r(condensation.schur_complement().RowMap())
       , t(r)
       , x(r)
@@ -17,41 +44,42 @@ namespace mortise
       , has_high_modes(system.max_degree > 1)
     {
       const auto &schur = condensation.schur_complement();
-      coarse.initialize(system, schur);
-      if (getenv("EXACT")) exact.initialize(schur, SparseFactorization::Kind::positive_definite);
-      else if (has_high_modes)
-        smoother.initialize(schur, condensation.remaining_blocks());
+      valid             = coarse.initialize(system, schur) && condensation.is_valid();
+      if (has_high_modes && condensation.is_valid())
+        valid = smoother.initialize(schur, rows_of_patches(system, graph, condensation)) && valid;
+      valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
     }
 
     InteriorCondensation  condensation;
     BlockSmoother         smoother;
-    SparseFactorization exact;
     VertexSolver          coarse;
-    mutable Epetra_Vector r, t, x, y;
+    mutable Epetra_Vector r, t, x, y; ///< on the rows of the Schur complement
     bool                  has_high_modes;
+    bool                  valid = true;
   };
 
   HierarchicalPreconditioner::HierarchicalPreconditioner()  = default;
   HierarchicalPreconditioner::~HierarchicalPreconditioner() = default;
 
-  void
+  bool
   HierarchicalPreconditioner::initialize(const BlockSystem &system)
   {
-    implementation = std::make_unique<Implementation>(system);
+    implementation = std::make_unique<Implementation>(system, EntityGraph(system));
+    return implementation->valid;
   }
 
   void
   HierarchicalPreconditioner::vmult(Vector &dst, const Vector &src) const
   {
-    auto         &data  = *implementation;
+    const auto   &data  = *implementation;
     const auto   &schur = data.condensation.schur_complement();
     const double *r     = src.trilinos_vector()[0];
 
     // On S: Q + (I - Q S) M (I - S Q), positive definite for any positive definite M and any
-    // positive semi-definite Q (Tang, Nabben, Vuik, Erlangga 2009: BNN).
+    // positive semi-definite Q, exact or not (Tang, Nabben, Vuik and Erlangga 2009, "BNN").
     data.condensation.restrict_residual(data.r, r);
-    if (getenv("EXACT")) data.exact.solve(data.x, data.r); else data.coarse.vmult(data.x, data.r);
-    if (!getenv("EXACT") && data.has_high_modes)
+    data.coarse.vmult(data.x, data.r);
+    if (data.has_high_modes)
       {
         schur.Multiply(false, data.x, data.t);
         data.r.Update(-1., data.t, 1.);
@@ -67,6 +95,9 @@ namespace mortise
   std::string
   HierarchicalPreconditioner::description() const
   {
-    return "hierarchical (" + implementation->coarse.description() + ")";
+    return (implementation->has_high_modes ? "interiors condensed, vertex stars, " : "") +
+           implementation->coarse.description();
   }
 } // namespace mortise
+
+#include "entity_graph.cc" // to be named in CMakeLists.txt instead

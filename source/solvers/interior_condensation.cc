@@ -1,10 +1,11 @@
 // See interior_condensation.h.
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/interior_condensation.h>
 
-#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_IntVector.h>
+#include <Epetra_Import.h>
+#include <Epetra_Map.h>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
 
@@ -15,375 +16,235 @@ namespace mortise
 {
   using namespace dealii;
 
-  namespace
+  InteriorCondensation::InteriorCondensation(const BlockSystem &system, const EntityGraph &graph)
   {
-    struct Row
-    {
-      int     length  = 0;
-      int    *columns = nullptr;
-      double *values  = nullptr;
-
-      Row(const Epetra_CrsMatrix &matrix, const int row)
-      {
-        matrix.ExtractMyRowView(row, length, values, columns);
-      }
-    };
-
-    /// One integer per owned row, also on the columns of the matrix.
-    std::vector<int>
-    on_columns(const Epetra_CrsMatrix &matrix, const std::vector<int> &owned)
-    {
-      Epetra_IntVector source(matrix.DomainMap()), target(matrix.ColMap());
-      std::copy(owned.begin(), owned.end(), source.Values());
-      if (matrix.Importer() != nullptr)
-        target.Import(source, *matrix.Importer(), Insert);
-      else
-        std::copy(owned.begin(), owned.end(), target.Values());
-      return std::vector<int>(target.Values(), target.Values() + target.MyLength());
-    }
-
-    /// The matrices whose sum is A.
-    std::vector<const Epetra_CrsMatrix *>
-    summands(const BlockSystem &system)
-    {
-      std::vector<const Epetra_CrsMatrix *> result{&system.stiffness.trilinos_matrix()};
-      if (system.owned_multiplier.size() > 0)
-        result.push_back(&system.jump_penalty.trilinos_matrix());
-      return result;
-    }
-
-    /// Block (a number of the whole scene) of each owned dof.
-    std::vector<int>
-    block_of_dofs(const BlockSystem &system, const int first_block)
-    {
-      const auto       first = *system.owned_displacement.begin();
-      std::vector<int> block(system.owned_displacement.n_elements(), -1);
-      for (unsigned int b = 0; b < system.entity_blocks.size(); ++b)
+    const auto first = first_displacement(system);
+    position.assign(system.owned_displacement.n_elements(), 0);
+    for (unsigned int b = 0; b < system.entity_blocks.size(); ++b)
+      if (graph.is_interior(b))
         for (const auto i : system.entity_blocks[b])
-          block[i - first] = first_block + b;
-      return block;
-    }
-  } // namespace
-
-  InteriorCondensation::InteriorCondensation(const BlockSystem &system)
-  {
-    find_interiors(system);
+          position[i - first] = -1;
+    for (unsigned int i = 0; i < position.size(); ++i)
+      if (position[i] == 0)
+        {
+          position[i] = static_cast<int>(remaining_dofs.size());
+          remaining_dofs.push_back(i);
+        }
     build_base(system);
-    eliminate(system);
-  }
-
-  void
-  InteriorCondensation::find_interiors(const BlockSystem &system)
-  {
-    const auto         counts = Utilities::MPI::all_gather(system.communicator,
-                                                   static_cast<int>(system.entity_blocks.size()));
-    const unsigned int rank   = Utilities::MPI::this_mpi_process(system.communicator);
-    const int          first_block = std::accumulate(counts.begin(), counts.begin() + rank, 0);
-    const auto first = system.owned_displacement.n_elements() > 0 ? *system.owned_displacement.begin() :
-                                                                    0;
-    const std::vector<int> owned_block =
-      system.owned_displacement.n_elements() > 0 ? block_of_dofs(system, first_block) :
-                                                   std::vector<int>();
-
-    // The graph of the blocks.
-    const int                     n_blocks = system.entity_blocks.size();
-    std::vector<std::vector<int>> neighbors(n_blocks);
-    for (const auto *matrix : summands(system))
-      {
-        const std::vector<int> column_block = on_columns(*matrix, owned_block);
-        std::vector<int>       last_seen; // per block: found for which block of ours
-        std::map<int, int>     seen;
-        for (int b = 0; b < n_blocks; ++b)
-          {
-            auto &list = neighbors[b];
-            for (const auto i : system.entity_blocks[b])
-              {
-                const Row row(*matrix, static_cast<int>(i - first));
-                int       previous = -1;
-                for (int k = 0; k < row.length; ++k)
-                  if (const int other = column_block[row.columns[k]]; other != previous)
-                    {
-                      list.push_back(other);
-                      previous = other;
-                    }
-              }
-            std::sort(list.begin(), list.end());
-            list.erase(std::unique(list.begin(), list.end()), list.end());
-          }
-      }
-
-    if (getenv("STAR")) stars.assign(n_blocks, {});
-    for (int b = 0; b < n_blocks && getenv("STAR"); ++b)
-      for (const int o : neighbors[b])
-        if (o >= first_block && o < first_block + n_blocks &&
-            std::includes(neighbors[b].begin(), neighbors[b].end(), neighbors[o - first_block].begin(), neighbors[o - first_block].end()))
-          stars[b].push_back(o - first_block);
-    // Blocks whose neighbours are a clique; of neighbours among them, the larger.
-    std::vector<bool> is_vertex(n_blocks, false);
-    for (const auto i : system.vertex_dofs)
-      is_vertex[owned_block[i - first] - first_block] = true;
-    std::vector<int> candidate(owned_block.size(), 0);
-    block_is_interior.assign(n_blocks, false);
-    for (int b = 0; b < n_blocks; ++b)
-      {
-        bool clique = !is_vertex[b];
-        for (const int other : neighbors[b])
-          {
-            const int local = other - first_block;
-            if (!clique)
-              break;
-            if (local >= 0 && local < n_blocks && local != b)
-              clique = std::includes(neighbors[local].begin(),
-                                     neighbors[local].end(),
-                                     neighbors[b].begin(),
-                                     neighbors[b].end());
-          }
-        block_is_interior[b] = clique;
-        if (clique)
-          for (const auto i : system.entity_blocks[b])
-            candidate[i - first] = system.entity_blocks[b].size();
-      }
-    const std::vector<bool> is_candidate = block_is_interior;
-    for (const auto *matrix : summands(system))
-      {
-        const std::vector<int> column_block     = on_columns(*matrix, owned_block);
-        const std::vector<int> column_candidate = on_columns(*matrix, candidate);
-        for (int b = 0; b < n_blocks; ++b)
-          if (is_candidate[b])
-            for (const auto i : system.entity_blocks[b])
-              {
-                const Row row(*matrix, static_cast<int>(i - first));
-                const int size = system.entity_blocks[b].size();
-                for (int k = 0; k < row.length; ++k)
-                  {
-                    const int other = column_block[row.columns[k]];
-                    const int other_size = column_candidate[row.columns[k]];
-                    if (other != first_block + b &&
-                        (other_size > size || (other_size == size && other < first_block + b)))
-                      block_is_interior[b] = false;
-                  }
-              }
-      }
+    eliminate(system, graph);
   }
 
   void
   InteriorCondensation::build_base(const BlockSystem &system)
   {
-    const auto &k_matrix = system.stiffness.trilinos_matrix();
-    const int   n        = k_matrix.NumMyRows();
-    const auto  first    = n > 0 ? *system.owned_displacement.begin() : 0;
-
-    std::vector<int> remains(n, 1);
-    for (unsigned int b = 0; b < system.entity_blocks.size(); ++b)
-      if (block_is_interior[b])
-        for (const auto i : system.entity_blocks[b])
-          remains[i - first] = 0;
-    std::vector<int> position(n, -1), global;
-    for (int i = 0; i < n; ++i)
-      if (remains[i] == 1)
-        {
-          position[i] = remaining_dofs.size();
-          remaining_dofs.push_back(i);
-          global.push_back(static_cast<int>(first) + i);
-        }
-    for (unsigned int b = 0; b < system.entity_blocks.size(); ++b)
-      if (!block_is_interior[b])
-        {
-          blocks_of_schur.emplace_back();
-          for (const auto i : system.entity_blocks[b])
-            blocks_of_schur.back().push_back(position[i - first]);
-        }
-
-    if (!stars.empty())
-      {
-        const int mode = atoi(getenv("STAR"));
-        std::vector<bool> is_vertex(stars.size(), false);
-        std::vector<int> own(n);
-        for (unsigned int b = 0; b < system.entity_blocks.size(); ++b) for (auto i : system.entity_blocks[b]) own[i - first] = b;
-        for (auto i : system.vertex_dofs) is_vertex[own[i - first]] = true;
-        blocks_of_schur.clear();
-        for (unsigned int b = 0; b < stars.size(); ++b)
-          {
-            if (block_is_interior[b]) continue;
-            std::vector<int> rows;
-            if (mode == 2 && !is_vertex[b]) continue;
-            if (mode == 1 && is_vertex[b]) { for (auto i : system.entity_blocks[b]) rows.push_back(position[i - first]); }
-            else for (int o : stars[b]) if (!block_is_interior[o]) for (auto i : system.entity_blocks[o]) rows.push_back(position[i - first]);
-            blocks_of_schur.push_back(rows);
-          }
-        if (mode == 1) { // drop blocks contained in the star of another
-          std::vector<bool> covered(stars.size(), false);
-          for (unsigned int b = 0; b < stars.size(); ++b) if (!is_vertex[b]&&!block_is_interior[b]) for (int o : stars[b]) if (o != (int)b && !(std::find(stars[o].begin(),stars[o].end(),(int)b)!=stars[o].end() && o > (int)b)) covered[o] = true;
-          std::vector<std::vector<int>> keep; unsigned k = 0;
-          for (unsigned int b = 0; b < stars.size(); ++b) if (!block_is_interior[b]) { if (!covered[b]) keep.push_back(blocks_of_schur[k]); ++k; }
-          blocks_of_schur = keep; }
-        size_t mx = 0; double sq = 0; for (auto &b : blocks_of_schur) { mx = std::max(mx, b.size()); sq += 1. * b.size() * b.size(); }
-        printf("stars %zu, largest %zu, dense entries %.3g\n", blocks_of_schur.size(), mx, sq);
-      }
+    const auto       first = static_cast<int>(first_displacement(system));
+    std::vector<int> global;
+    for (const int i : remaining_dofs)
+      global.push_back(first + i);
+    const auto      &k_matrix = system.stiffness.trilinos_matrix();
     const Epetra_Map map(-1, static_cast<int>(global.size()), global.data(), 0, k_matrix.Comm());
-    std::vector<std::vector<int>> column_remains;
-    for (const auto *matrix : summands(system))
-      column_remains.push_back(on_columns(*matrix, remains));
-    // Row by row K + J without the interiors.
-    std::vector<int> lengths(global.size(), 0);
-    const auto       visit = [&](auto &&action) {
-      for (unsigned int row = 0; row < global.size(); ++row)
+
+    const auto                    matrices = summands_of_bulk(system);
+    std::vector<std::vector<int>> column_position;
+    for (const auto *matrix : matrices)
+      column_position.push_back(on_columns(*matrix, position));
+
+    // Row by row of K + J, without the interiors.
+    std::vector<std::pair<int, double>> entries;
+    const auto                          collect = [&](const int dof) {
+      entries.clear();
+      for (unsigned int m = 0; m < matrices.size(); ++m)
         {
-          std::map<int, double>                  dummy;
-          std::vector<std::pair<int, double>>    entries;
-          unsigned int                           m = 0;
-          for (const auto *matrix : summands(system))
-            {
-              const Row r(*matrix, remaining_dofs[row]);
-              for (int k = 0; k < r.length; ++k)
-                if (column_remains[m][r.columns[k]] == 1)
-                  entries.emplace_back(matrix->ColMap().GID(r.columns[k]), r.values[k]);
-              ++m;
-            }
-          std::sort(entries.begin(), entries.end());
-          unsigned int end = 0;
-          for (unsigned int k = 0; k < entries.size(); ++k)
-            if (end > 0 && entries[end - 1].first == entries[k].first)
-              entries[end - 1].second += entries[k].second;
-            else
-              entries[end++] = entries[k];
-          entries.resize(end);
-          action(row, entries);
+          const EpetraRow row(*matrices[m], dof);
+          for (int k = 0; k < row.length; ++k)
+            if (column_position[m][row.columns[k]] >= 0)
+              entries.emplace_back(matrices[m]->ColMap().GID(row.columns[k]), row.values[k]);
         }
+      std::sort(entries.begin(), entries.end(), [](const auto &a, const auto &b) {
+        return a.first < b.first;
+      });
+      unsigned int end = 0;
+      for (unsigned int k = 0; k < entries.size(); ++k)
+        if (end > 0 && entries[end - 1].first == entries[k].first)
+          entries[end - 1].second += entries[k].second;
+        else
+          entries[end++] = entries[k];
+      entries.resize(end);
     };
-    visit([&](const unsigned int row, const auto &entries) { lengths[row] = entries.size(); });
+    std::vector<int> lengths;
+    for (const int dof : remaining_dofs)
+      {
+        collect(dof);
+        lengths.push_back(static_cast<int>(entries.size()));
+      }
     schur = std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
     std::vector<int>    columns;
     std::vector<double> values;
-    visit([&](const unsigned int row, const auto &entries) {
-      columns.clear();
-      values.clear();
-      for (const auto &e : entries)
-        {
-          columns.push_back(e.first);
-          values.push_back(e.second);
-        }
-      schur->InsertGlobalValues(global[row], columns.size(), values.data(), columns.data());
-    });
+    for (unsigned int row = 0; row < global.size(); ++row)
+      {
+        collect(remaining_dofs[row]);
+        columns.clear();
+        values.clear();
+        for (const auto &entry : entries)
+          {
+            columns.push_back(entry.first);
+            values.push_back(entry.second);
+          }
+        schur->InsertGlobalValues(global[row],
+                                  static_cast<int>(columns.size()),
+                                  values.data(),
+                                  columns.data());
+      }
     schur->FillComplete();
     schur->OptimizeStorage();
     ghosted = std::make_unique<Epetra_Vector>(schur->ColMap());
   }
 
-  void
-  InteriorCondensation::eliminate(const BlockSystem &system)
+  InteriorCondensation::Interior
+  InteriorCondensation::extract_interior(const BlockSystem &system, const unsigned int block) const
   {
-    const auto &k_matrix = system.stiffness.trilinos_matrix();
-    const auto  first = k_matrix.NumMyRows() > 0 ? *system.owned_displacement.begin() : 0;
-    const auto &s_columns = schur->ColMap();
-    const int   n_owned   = schur->NumMyRows();
-    Teuchos::LAPACK<int, double> lapack;
-    Teuchos::BLAS<int, double>   blas;
+    const auto      &k_matrix = system.stiffness.trilinos_matrix();
+    const auto       first    = first_displacement(system);
+    Interior         interior;
+    std::map<int, int> own;
+    for (const auto i : system.entity_blocks[block])
+      {
+        own[static_cast<int>(i - first)] = static_cast<int>(interior.dofs.size());
+        interior.dofs.push_back(static_cast<int>(i - first));
+      }
+    const int n = static_cast<int>(interior.dofs.size());
+    interior.cholesky.assign(n * n, 0.);
 
-    std::map<unsigned int, std::vector<std::pair<std::vector<int>, std::vector<double>>>> to_send;
-    const auto add_row = [&](const int row, const std::vector<int> &columns, const double *values) {
-      const Row   r(*schur, row);
-      int         k = 0;
-      for (unsigned int j = 0; j < columns.size(); ++j)
-        {
-          while (k < r.length && r.columns[k] < columns[j])
-            ++k;
-          Assert(k < r.length && r.columns[k] == columns[j], ExcInternalError());
-          if (k<r.length && r.columns[k]==columns[j]) r.values[k] += values[j];
-        }
-    };
+    std::map<int, int> column_of; // column of K -> column of S
+    for (int i = 0; i < n; ++i)
+      {
+        const EpetraRow row(k_matrix, interior.dofs[i]);
+        for (int k = 0; k < row.length; ++k)
+          if (const auto it = own.find(row.columns[k]); it != own.end())
+            interior.cholesky[i + it->second * n] = row.values[k];
+          else if (row.values[k] != 0. && column_of.count(row.columns[k]) == 0)
+            {
+              const int column = schur->ColMap().LID(k_matrix.ColMap().GID(row.columns[k]));
+              column_of[row.columns[k]] = column;
+              interior.neighbors.push_back(column);
+            }
+      }
+    std::sort(interior.neighbors.begin(), interior.neighbors.end());
+    for (auto &entry : column_of)
+      entry.second = static_cast<int>(std::lower_bound(interior.neighbors.begin(),
+                                                       interior.neighbors.end(),
+                                                       entry.second) -
+                                      interior.neighbors.begin());
+    interior.coupling.assign(n * interior.neighbors.size(), 0.);
+    for (int i = 0; i < n; ++i)
+      {
+        const EpetraRow row(k_matrix, interior.dofs[i]);
+        for (int k = 0; k < row.length; ++k)
+          if (const auto it = column_of.find(row.columns[k]); it != column_of.end())
+            interior.coupling[i + n * it->second] = row.values[k];
+      }
+    return interior;
+  }
 
-    std::vector<double> a_ib, update;
+  void
+  InteriorCondensation::add_to_row(const int row, const std::vector<int> &columns, const double *values)
+  {
+    const EpetraRow r(*schur, row);
+    int             k = 0;
+    for (unsigned int j = 0; j < columns.size(); ++j)
+      {
+        while (k < r.length && r.columns[k] < columns[j])
+          ++k;
+        Assert(k < r.length && r.columns[k] == columns[j], ExcInternalError());
+        if (k < r.length && r.columns[k] == columns[j])
+          r.values[k] += values[j];
+      }
+  }
+
+  void
+  InteriorCondensation::eliminate(const BlockSystem &system, const EntityGraph &graph)
+  {
+    Teuchos::LAPACK<int, double>                   lapack;
+    Teuchos::BLAS<int, double>                     blas;
+    std::map<unsigned int, std::vector<RemoteRow>> to_send;
+    std::vector<int>                               owner(schur->NumMyCols());
+    {
+      const auto rank = static_cast<int>(Utilities::MPI::this_mpi_process(system.communicator));
+      owner = on_columns(*schur, std::vector<int>(schur->NumMyRows(), rank));
+    }
+    std::vector<double> update;
     for (unsigned int b = 0; b < system.entity_blocks.size(); ++b)
-      if (block_is_interior[b])
+      if (graph.is_interior(b))
         {
-          Interior interior;
-          for (const auto i : system.entity_blocks[b])
-            interior.dofs.push_back(static_cast<int>(i - first));
-          const int n = interior.dofs.size();
-          // Columns: own block, and the remaining neighbours sorted by their position in S.
-          std::map<int, int> own;
-          for (int i = 0; i < n; ++i)
-            own[interior.dofs[i]] = i;
-          std::vector<std::vector<std::pair<int, double>>> rows(n);
-          std::vector<int> &                               nb = interior.neighbors;
-          interior.cholesky.assign(n * n, 0.);
-          for (int i = 0; i < n; ++i)
-            {
-              const Row row(k_matrix, interior.dofs[i]);
-              for (int k = 0; k < row.length; ++k)
-                {
-                  const auto it = own.find(row.columns[k]);
-                  if (it != own.end())
-                    interior.cholesky[i + it->second * n] = row.values[k];
-                  else if (row.values[k] != 0.)
-                    rows[i].emplace_back(s_columns.LID(k_matrix.ColMap().GID(row.columns[k])),
-                                         row.values[k]);
-                }
-              for (const auto &e : rows[i])
-                nb.push_back(e.first);
-              std::sort(nb.begin(), nb.end());
-              nb.erase(std::unique(nb.begin(), nb.end()), nb.end());
-            }
-          const int m = nb.size();
-          a_ib.assign(n * m, 0.); // column major, n x m
-          for (int i = 0; i < n; ++i)
-            for (const auto &e : rows[i])
-              a_ib[i + n * (std::lower_bound(nb.begin(), nb.end(), e.first) - nb.begin())] = e.second;
-          interior.extension = a_ib;
-          int info           = 0;
+          Interior  interior = extract_interior(system, b);
+          const int n        = static_cast<int>(interior.dofs.size());
+          const int m        = static_cast<int>(interior.neighbors.size());
+          int       info     = 0;
           lapack.POTRF('L', n, interior.cholesky.data(), n, &info);
-          AssertThrow(info == 0, ExcMessage("interior not positive definite"));
-          if (m > 0)
+          valid = valid && info == 0;
+          if (info == 0 && m > 0)
             {
-              lapack.POTRS('L', n, m, interior.cholesky.data(), n, interior.extension.data(), n, &info);
+              auto &x = interior.extension;
+              x       = interior.coupling;
+              lapack.POTRS('L', n, m, interior.cholesky.data(), n, x.data(), n, &info);
               update.resize(m * m);
-              blas.GEMM(Teuchos::TRANS,
-                        Teuchos::NO_TRANS,
-                        m,
-                        m,
-                        n,
-                        -1.,
-                        a_ib.data(),
-                        n,
-                        interior.extension.data(),
-                        n,
-                        0.,
-                        update.data(),
-                        m);
+              // S_bb -= A_bi X
+              blas.GEMM(Teuchos::TRANS, Teuchos::NO_TRANS, m, m, n, -1.,
+                        interior.coupling.data(), n, x.data(), n, 0., update.data(), m);
             }
-          for (int j = 0; j < m; ++j)
-            if (nb[j] < n_owned)
-              add_row(nb[j], nb, update.data() + j * m);
+          for (int j = 0; info == 0 && j < m; ++j)
+            if (interior.neighbors[j] < schur->NumMyRows())
+              add_to_row(interior.neighbors[j], interior.neighbors, update.data() + j * m);
             else
               {
-                std::vector<int> ids{s_columns.GID(nb[j])};
-                for (const int c : nb)
-                  ids.push_back(s_columns.GID(c));
-                to_send[system.stiffness.trilinos_matrix().Comm().NumProc()]; // placeholder
-                (void)ids;
+                RemoteRow row;
+                row.columns.push_back(schur->ColMap().GID(interior.neighbors[j]));
+                for (const int column : interior.neighbors)
+                  row.columns.push_back(schur->ColMap().GID(column));
+                row.values.assign(update.data() + j * m, update.data() + (j + 1) * m);
+                to_send[owner[interior.neighbors[j]]].push_back(std::move(row));
               }
-          interiors.push_back(std::move(interior));
+          std::vector<double>().swap(interior.coupling);
+          if (info == 0)
+            interiors.push_back(std::move(interior));
         }
-    // TODO exchange
+    for (const auto &from : Utilities::MPI::some_to_some(system.communicator, to_send))
+      for (const auto &row : from.second)
+        {
+          std::vector<std::pair<int, double>> entries;
+          for (unsigned int j = 0; j < row.values.size(); ++j)
+            entries.emplace_back(schur->ColMap().LID(row.columns[j + 1]), row.values[j]);
+          std::sort(entries.begin(), entries.end());
+          std::vector<int>    columns;
+          std::vector<double> values;
+          for (const auto &entry : entries)
+            {
+              columns.push_back(entry.first);
+              values.push_back(entry.second);
+            }
+          add_to_row(schur->RowMap().LID(row.columns[0]), columns, values.data());
+        }
+    valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
   }
 
   void
   InteriorCondensation::restrict_residual(Epetra_Vector &r_b, const double *r) const
   {
     Teuchos::BLAS<int, double> blas;
+    std::vector<double>        r_i, y;
     ghosted->PutScalar(0.);
-    std::vector<double> r_i, y;
     for (const auto &interior : interiors)
       {
-        const int n = interior.dofs.size(), m = interior.neighbors.size();
+        const int n = static_cast<int>(interior.dofs.size());
+        const int m = static_cast<int>(interior.neighbors.size());
         if (m == 0)
           continue;
         r_i.resize(n);
         y.resize(m);
         for (int i = 0; i < n; ++i)
           r_i[i] = r[interior.dofs[i]];
-        blas.GEMV(Teuchos::TRANS, n, m, -1., interior.extension.data(), n, r_i.data(), 1, 0., y.data(), 1);
+        blas.GEMV(
+          Teuchos::TRANS, n, m, -1., interior.extension.data(), n, r_i.data(), 1, 0., y.data(), 1);
         for (int j = 0; j < m; ++j)
           (*ghosted)[interior.neighbors[j]] += y[j];
       }
@@ -403,14 +264,15 @@ namespace mortise
   {
     Teuchos::BLAS<int, double>   blas;
     Teuchos::LAPACK<int, double> lapack;
+    std::vector<double>          x_i, y;
     if (schur->Importer() != nullptr)
       ghosted->Import(x_b, *schur->Importer(), Insert);
     else
       std::copy(x_b.Values(), x_b.Values() + x_b.MyLength(), ghosted->Values());
-    std::vector<double> x_i, y;
     for (const auto &interior : interiors)
       {
-        const int n = interior.dofs.size(), m = interior.neighbors.size();
+        const int n    = static_cast<int>(interior.dofs.size());
+        const int m    = static_cast<int>(interior.neighbors.size());
         int       info = 0;
         x_i.resize(n);
         y.resize(m);

@@ -48,9 +48,8 @@ namespace mortise
     public:
       explicit BlockDiagonalPreconditioner(const BlockSystem &system)
       {
-        bulk.initialize(system);
-        multiplier.initialize(system.multiplier_norm.trilinos_matrix(),
-                              SparseFactorization::Kind::positive_definite);
+        valid = bulk.initialize(system);
+        valid = multiplier.initialize(system.multiplier_norm.trilinos_matrix()) && valid;
       }
 
       void
@@ -67,7 +66,14 @@ namespace mortise
                multiplier.backend() + ")";
       }
 
+      bool
+      is_valid() const
+      {
+        return valid;
+      }
+
     private:
+      bool                       valid = true;
       HierarchicalPreconditioner bulk;
       SparseFactorization        multiplier;
     };
@@ -187,7 +193,9 @@ namespace mortise
     Pair         x{u, lambda}, r{u, lambda};
     double       reached = residual.right_hand_side_norm();
     // The carried residual drifts from the true one by rounding: start again from what was reached.
-    for (unsigned int start = 0; start < 3 && reached > target; ++start)
+    for (unsigned int start = 0; start < 3 && preconditioner.is_valid() && reached > target &&
+                                 report.iterations < options.max_iterations;
+         ++start)
       {
         minres.run(x, 0.9 * target, report);
         residual.compute(x.u, x.l, r.u, r.l);
@@ -195,7 +203,7 @@ namespace mortise
       }
     u                        = x.u;
     lambda                   = x.l;
-    report.relative_residual = reached > 0. ? reached / residual.right_hand_side_norm() : 0.;
+    report.relative_residual = reached == 0. ? 0. : reached / residual.right_hand_side_norm();
     report.converged         = reached <= target;
     report.solve_seconds     = timer.wall_time();
     return report;

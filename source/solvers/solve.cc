@@ -1,3 +1,4 @@
+// See solve.h.
 #include <mortise/base/error.h>
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/direct.h>
@@ -6,6 +7,12 @@
 
 namespace mortise
 {
+  namespace
+  {
+    /// Entries of K up to which a factorisation is taken by default.
+    constexpr double max_direct_entries = 1e6;
+  } // namespace
+
   std::vector<std::string>
   solver_method_names()
   {
@@ -31,8 +38,15 @@ namespace mortise
           return solve_direct(system, options, u, lambda);
         case SolverMethod::saddle_point:
           return solve_saddle_point(system, options, u, lambda);
-        default:
+        case SolverMethod::condensed:
           return solve_condensed(system, options, u, lambda);
+        case SolverMethod::automatic:
+          break;
       }
+    const bool  small = system.stiffness.n_nonzero_elements() <= max_direct_entries;
+    SolveReport report =
+      small ? solve_direct(system, options, u, lambda) : solve_condensed(system, options, u, lambda);
+    report.preconditioner += small ? "; auto: small" : "; auto: large";
+    return report;
   }
 } // namespace mortise

@@ -3,15 +3,38 @@
 
 #include <Amesos.h>
 #include <Amesos_BaseSolver.h>
+#include <Amesos_config.h>
 #include <Teuchos_ParameterList.hpp>
+#ifdef HAVE_AMESOS_MUMPS
+#  include <Amesos_Mumps.h>
+#endif
 
 namespace mortise
 {
+  namespace
+  {
+#ifdef HAVE_AMESOS_MUMPS
+    void
+    set_mumps_controls(Amesos_BaseSolver &solver)
+    {
+      if (auto *mumps = dynamic_cast<Amesos_Mumps *>(&solver))
+        {
+          mumps->SetICNTL(6, 0);   // no column permutation: it would spoil the symmetric structure
+          mumps->SetICNTL(14, 60); // per cent of workspace beyond the estimate, for pivoting
+        }
+    }
+#else
+    void
+    set_mumps_controls(Amesos_BaseSolver &)
+    {}
+#endif
+  } // namespace
+
   SparseFactorization::SparseFactorization()  = default;
   SparseFactorization::~SparseFactorization() = default;
 
   bool
-  SparseFactorization::initialize(const Epetra_CrsMatrix &matrix, const Kind kind)
+  SparseFactorization::initialize(const Epetra_CrsMatrix &matrix)
   {
     Amesos factory;
     solver.reset();
@@ -24,11 +47,9 @@ namespace mortise
     Teuchos::ParameterList parameters;
     parameters.set("PrintTiming", false);
     parameters.set("PrintStatus", false);
-    parameters.set("MaxProcs", -3);
-    if (const char *e = getenv("MUMPS_PROP"))
-      parameters.set("MatrixProperty", std::string(e));
-    (void)kind;
+    parameters.set("MaxProcs", -3); // all ranks
     solver->SetParameters(parameters);
+    set_mumps_controls(*solver);
     return solver->SymbolicFactorization() == 0 && solver->NumericFactorization() == 0;
   }
 

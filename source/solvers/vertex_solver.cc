@@ -22,7 +22,7 @@ namespace mortise
   VertexSolver::VertexSolver()  = default;
   VertexSolver::~VertexSolver() = default;
 
-  void
+  bool
   VertexSolver::initialize(const BlockSystem &system, const Epetra_CrsMatrix &matrix)
   {
     extract(system, matrix);
@@ -32,8 +32,7 @@ namespace mortise
     if (coarse->NumGlobalRows() <= limit)
       {
         factorization = std::make_unique<SparseFactorization>();
-        factorization->initialize(*coarse, SparseFactorization::Kind::positive_definite);
-        return;
+        return factorization->initialize(*coarse);
       }
     compute_rigid_modes(system);
     Teuchos::ParameterList parameters;
@@ -53,6 +52,7 @@ namespace mortise
     parameters.set("coarse: max size", 1000);
     parameters.set("cycle applications", getenv("MLC")?atoi(getenv("MLC")):1);
     multigrid = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*coarse, parameters, true);
+    return true;
   }
 
   void

@@ -99,7 +99,8 @@ namespace
     const std::string early = out.str();
     verdict(std::count(early.begin(), early.end(), '\n') == (prints ? 1 : 0),
             "a stage that was ended early prints once");
-    verdict(timers.seconds("fails") > 0. && timers.seconds("early") > 0., "stages enter the timers");
+    verdict(timers.seconds("fails") > 0. && timers.seconds("early") > 0.,
+            "stages enter the timers");
     verdict(RunLog::number(0.000123456) == "0.0001235" && RunLog::number(96.) == "96",
             "numbers for people");
   }

@@ -66,7 +66,8 @@ apply_by_values(const Mapping<3>                &mapping,
                 DistributedVector               &y,
                 const DistributedVector         &x)
 {
-  hp::FEValues<3> hp_values(hp::MappingCollection<3>(mapping),
+  const hp::MappingCollection<3> mappings(mapping);
+  hp::FEValues<3> hp_values(mappings,
                             dof_handler.get_fe_collection(),
                             quadrature,
                             update_values | update_gradients | update_JxW_values);

@@ -180,6 +180,7 @@ namespace
   void
   check_orders(const Body &body, const double away)
   {
+    const unsigned int  step = away > 0. ? 7 : 1; // far away degrees 1 and 8 are enough
     std::vector<double> distance[max_degree + 1], area[max_degree + 1], volume[max_degree + 1];
     for (unsigned int refinements = 1; refinements < 4; ++refinements)
       {
@@ -187,7 +188,7 @@ namespace
         q.refinements    = refinements;
         HexTriangulation tria(MPI_COMM_WORLD);
         const MeshNames  names = create_mesh(q, tria);
-        for (unsigned int p = 1; p <= max_degree; ++p)
+        for (unsigned int p = 1; p <= max_degree; p += step)
           {
             const Errors e = errors(tria, names, body, p);
             distance[p].push_back(e.distance);
@@ -198,7 +199,7 @@ namespace
     // Rounding of coordinates for the distance, of sums over points for the others.
     const double floor_distance = 1e-13 + 4e-14 * away, floor_sum = 2e-12 + 4e-14 * away;
     double       least[3] = {1e3, 1e3, 1e3};
-    for (unsigned int p = 1; p <= max_degree; ++p)
+    for (unsigned int p = 1; p <= max_degree; p += step)
       {
         least[0] = std::min(least[0], order(distance[p], floor_distance) - (p + 1.));
         least[1] = std::min(least[1], order(area[p], floor_sum) - (p + 1.));

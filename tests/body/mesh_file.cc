@@ -158,8 +158,11 @@ $EndElements
   }
 
   MeshParameters
-  file(const std::string &name, const std::string &content)
+  file(const std::string &file_name, const std::string &content)
   {
+    const std::string name =
+      std::to_string(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) + "_ranks_" + file_name;
+    MPI_Barrier(MPI_COMM_WORLD); // the file may have been in use
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::ofstream(name) << content;
     MPI_Barrier(MPI_COMM_WORLD);

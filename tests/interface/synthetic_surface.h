@@ -1,5 +1,5 @@
 // Surfaces for tests of the interface's geometry, built from functions (u,v) -> x without a mesh.
-// It never compares or prints.
+// Apart from verdict() it never compares or prints.
 #pragma once
 
 #include <mortise/interface/integration_cells.h>
@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <functional>
+#include <iostream>
+#include <string>
 #include <vector>
 
 namespace synthetic
@@ -14,6 +16,15 @@ namespace synthetic
   using namespace mortise;
   using dealii::Point;
   using dealii::Tensor;
+
+  inline void
+  verdict(const std::string &what, const double got, const double allowed)
+  {
+    if (got <= allowed)
+      std::cout << "OK  " << what << ": " << allowed << std::endl;
+    else
+      std::cout << "FAILED  " << what << ": got " << got << ", allowed " << allowed << std::endl;
+  }
 
   using Surface = std::function<Point<3>(double, double)>;
 

@@ -94,10 +94,13 @@ namespace
               interface["moment_residual"].get<double>() == 1. / 3. &&
               interface["worst_face_coverage_error"].get<double>() == 1e-300,
             "numbers read back to the last bit");
-    verdict(interface["partition_of_unity_error"].is_null() && interface["force_residual"].is_null(),
+    verdict(interface["partition_of_unity_error"].is_null() &&
+              interface["force_residual"].is_null(),
             "a number that is not finite is null");
-    verdict(step["bodies"][0]["dofs"].get<std::uint64_t>() == 3000000000ull, "counts beyond 32 bits");
-    verdict(json["title"].get<std::string>() == full_summary().title, "text with quotes and accents");
+    verdict(step["bodies"][0]["dofs"].get<std::uint64_t>() == 3000000000ull,
+            "counts beyond 32 bits");
+    verdict(json["title"].get<std::string>() == full_summary().title,
+            "text with quotes and accents");
   }
 
   void
@@ -108,18 +111,23 @@ namespace
     summary.steps.resize(1);
     summary.steps[0].interfaces.resize(1);
     const Json json = Json::parse(to_json(summary));
-    check_keys("a step that failed before the solver", json["steps"][0], "step cycle bodies dofs interfaces quantities");
+    check_keys("a step that failed before the solver",
+               json["steps"][0],
+               "step cycle bodies dofs interfaces quantities");
     check_keys("dofs without interface", json["steps"][0]["dofs"], "displacement total");
-    verdict(!json["steps"][0]["interfaces"][0].contains("force_residual"), "what has no value is absent");
-    verdict(json["timings_s"].is_object() && json["timings_s"].empty(), "no timings: an empty object");
+    verdict(!json["steps"][0]["interfaces"][0].contains("force_residual"),
+            "what has no value is absent");
+    verdict(json["timings_s"].is_object() && json["timings_s"].empty(),
+            "no timings: an empty object");
   }
 
   void
   test_file()
   {
-    namespace fs        = std::filesystem;
-    const fs::path root = fs::temp_directory_path() / ("mortise_summary_" + std::to_string(getpid()));
-    const auto     text = [&] {
+    namespace fs = std::filesystem;
+    const fs::path root =
+      fs::temp_directory_path() / ("mortise_summary_" + std::to_string(getpid()));
+    const auto text = [&] {
       std::ostringstream all;
       all << std::ifstream(root / "a/b/summary.json").rdbuf();
       return all.str();
@@ -130,7 +138,8 @@ namespace
     summary.status = "not converged";
     write_summary(summary, (root / "a/b").string(), MPI_COMM_WORLD);
     verdict(text() == to_json(summary), "a file from before is replaced");
-    verdict(std::distance(fs::directory_iterator(root / "a/b"), {}) == 1, "nothing else is left there");
+    verdict(std::distance(fs::directory_iterator(root / "a/b"), {}) == 1,
+            "nothing else is left there");
     try
       {
         write_summary(summary, (root / "a/b/summary.json").string(), MPI_COMM_WORLD);
@@ -138,7 +147,9 @@ namespace
       }
     catch (const InputError &e)
       {
-        verdict(std::string(e.what()).find("cannot write") == 0, "a directory that is a file", e.what());
+        verdict(std::string(e.what()).find("cannot write") == 0,
+                "a directory that is a file",
+                e.what());
       }
     fs::remove_all(root);
   }

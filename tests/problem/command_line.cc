@@ -26,7 +26,9 @@ namespace
              const Settings                 &settings)
   {
     const CommandLine line = parse_command_line(arguments);
-    verdict(line.action == action && line.file == file && line.settings == settings, what, line.file);
+    verdict(line.action == action && line.file == file && line.settings == settings,
+            what,
+            line.file);
   }
 
   void
@@ -71,14 +73,19 @@ main()
   check_error("nothing", {}, {"a parameter file is needed", "usage: mortise"});
   check_error("validate nothing", {"--validate"}, {"a parameter file is needed"});
   check_error("two files", {"a.prm", "b.prm"}, {"\"a.prm\"", "\"b.prm\"", "allowed is one"});
-  check_error("an unknown option", {"--ouput", "x", "a.prm"}, {"\"--ouput\"", "did you mean \"--output\"", "--set"});
-  check_error("an unknown option with a value", {"--sett=x", "a.prm"}, {"--sett", "did you mean \"--set\""});
+  check_error("an unknown option",
+              {"--ouput", "x", "a.prm"},
+              {"\"--ouput\"", "did you mean \"--output\"", "--set"});
+  check_error("an unknown option with a value",
+              {"--sett=x", "a.prm"},
+              {"--sett", "did you mean \"--set\""});
   check_error("a set without value", {"a.prm", "--set"}, {"--set needs a value"});
   check_error("a set without =", {"--set", "Title", "a.prm"}, {"--set \"Title\"", "NAME=VALUE"});
   check_error("an empty directory", {"--output", "", "a.prm"}, {"--output", "got \"\""});
   check_error("two actions", {"--help", "--version"}, {"--version", "allowed is one of"});
   bool all = true;
-  for (const std::string option : {"--set", "--output", "--validate", "--parameters", "--help", "--version"})
+  for (const std::string option :
+       {"--set", "--output", "--validate", "--parameters", "--help", "--version"})
     all = all && help_text().find(option) != std::string::npos;
   verdict(all, "the help names every option");
   verdict(version_text().find("deal.II") != std::string::npos, "the version names deal.II");

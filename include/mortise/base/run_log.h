@@ -37,12 +37,12 @@ namespace mortise
       done();
 
     private:
-      RunLog       &log;
+      RunLog                      &log;
       std::optional<Timers::Scope> scope; ///< ended by done()
-      std::string   name;
-      std::string   text;
-      int           exceptions; ///< in flight at construction
-      bool          open = true;
+      std::string                  name;
+      std::string                  text;
+      int                          exceptions; ///< in flight at construction
+      bool                         open = true;
     };
 
     /// @p out is written by rank 0 of @p comm only; it must outlive the log.

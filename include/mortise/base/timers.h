@@ -64,9 +64,9 @@ namespace mortise
     walls(MPI_Comm comm) const;
 
   private:
-    Clock::time_point                            start;
-    std::vector<std::pair<std::string, double>>  times; ///< in order of first use
-    std::map<std::string, std::size_t>           index;
+    Clock::time_point                           start;
+    std::vector<std::pair<std::string, double>> times; ///< in order of first use
+    std::map<std::string, std::size_t>          index;
   };
 
   /// Peak resident memory of the processes, MiB.

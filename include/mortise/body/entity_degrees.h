@@ -5,7 +5,6 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
-#include <map>
 #include <vector>
 
 namespace mortise
@@ -48,8 +47,9 @@ namespace mortise
     /// For each local degree of freedom of @p cell the global index of the one that carries its
     /// mode in the minimum-rule space: itself, that of a neighbour of another degree, or
     /// numbers::invalid_dof_index if the mode is above the degree of its edge or face (zero).
-    /// Those of hanging edges and faces are not resolved to the coarse side here.
-    /// @p masters is resized to the cell's n_dofs_per_cell().
+    /// Those of hanging edges and faces are not resolved to the coarse side here, and where a
+    /// ghost cell is away from owned cells the result may be one that its owner ties to another:
+    /// complete_constraints() makes that known. @p masters is resized to n_dofs_per_cell().
     void
     get_master_dofs(const CellIterator                           &cell,
                     std::vector<dealii::types::global_dof_index> &masters) const;
@@ -67,18 +67,11 @@ namespace mortise
     void
     exchange_degrees();
     void
-    exchange_masters();
-    void
-    find_masters(const CellIterator                           &cell,
-                 std::vector<dealii::types::global_dof_index> &masters) const;
-    void
     lower(unsigned char &element, unsigned int candidate) const;
 
     const dealii::DoFHandler<3> &dof_handler;
     bool                         uniform;
     Entity                       line_degrees, quad_degrees;                ///< by index
     Entity                       vertex_element, line_element, quad_element; ///< by index
-    /// Of those ghost cells where they are not the cell's own, as their owners see them.
-    std::map<unsigned int, std::vector<dealii::types::global_dof_index>> ghost_masters;
   };
 } // namespace mortise

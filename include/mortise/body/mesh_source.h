@@ -59,7 +59,7 @@ namespace mortise
     /// with z_middle = z0 + Middle (z1 - z0).
     std::string half      = "both";
     std::string surface   = "bump";
-    double      amplitude = 0.; ///< length, smaller in magnitude than the height of each half
+    double      amplitude = 0.; ///< length, below 0.9 times the height of the thinner half
     double      middle    = 0.5;
   };
 

@@ -17,6 +17,7 @@ namespace mortise
     double tau_p = 0;       ///< parameters of the ends on that edge
     double tau_q = 0;
     double mid[2] = {0, 0}; ///< the curve's point at the mean of both parameters
+    bool   has_mid = false;
   };
 
   /// Clips the four curved edges of a master face, pulled back to the slave's reference
@@ -59,8 +60,11 @@ namespace mortise
 
     struct Segment
     {
-      unsigned int first; ///< breakpoints first and first + 1
-      bool         far;   ///< outside on one side
+      unsigned int first, last;   ///< breakpoints
+      bool         far;           ///< outside on one side
+      bool         checked = false;
+      double       deviation = 0; ///< of the curve from its cubic through ends and slopes
+      double       mid[2];        ///< the curve's point at the mean parameter
     };
 
     struct Crossing
@@ -76,7 +80,13 @@ namespace mortise
     void
     subdivide(const unsigned int edge, const double tau_0, const double tau_1, unsigned int depth);
     void
+    locate(const unsigned int begin);
+    void
     locate_breakpoints();
+    void
+    check_segments();
+    bool
+    check_segment(Segment &segment, const Breakpoint &middle) const;
     void
     find_crossings(const unsigned int segment, const unsigned int side);
     void
@@ -107,7 +117,7 @@ namespace mortise
     bool             failed = false;
 
     std::vector<Breakpoint> breakpoints;
-    std::vector<Segment>    segments;
+    std::vector<Segment>    segments, new_segments;
     std::vector<Crossing>   crossings;
     std::vector<LoopPiece>  scratch;
     std::vector<double>     control; ///< stack of control polygons of the subdivision

@@ -52,13 +52,14 @@ namespace mortise
   };
 
   /// Points per direction in each integration cell, for products of two shape functions of
-  /// the given degrees. @p linear: both faces are parallelograms with one common normal, all
-  /// cells have straight edges and all maps are linear. The choice and its measured errors stand
+  /// the given degrees. @p distortion is 0 where both faces are parallelograms with one normal
+  /// and all maps are linear; else the variation (max - min) / (max + min) over the overlap of
+  /// the surface elements of both faces, less than 1. The choice and its measured errors stand
   /// with the definition.
   unsigned int
   quadrature_points(const unsigned int degree_slave,
                     const unsigned int degree_master,
-                    const bool         linear);
+                    const double       distortion);
 
   /// Integrates over one slave face after the other against any number of masters. Owns all
   /// scratch memory: one object per thread.

@@ -57,8 +57,8 @@ namespace mortise
     std::vector<char> payload;
 
     // Derived by finalize():
-    bool             affine = false; ///< a parallelogram, to 1e-12 of its size
-    bool             linear = false; ///< affine, and all vertex normals equal to 1e-12
+    bool             affine = false; ///< a parallelogram, to rounding (1e-12 of its size)
+    bool             linear = false; ///< affine, and all vertex normals equal to rounding
     dealii::Point<3> lower;          ///< box that contains the whole curved face
     dealii::Point<3> upper;
     double           size = 0; ///< longest diagonal of the corners

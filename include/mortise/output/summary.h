@@ -48,14 +48,14 @@ namespace mortise
   struct InterfaceSummary
   {
     std::string           name;
-    std::uint64_t         slave_faces        = 0;
-    std::uint64_t         master_faces       = 0;
-    std::uint64_t         candidate_pairs    = 0;
-    std::uint64_t         pairs              = 0;
-    std::uint64_t         integration_cells  = 0;
-    std::uint64_t         quadrature_points  = 0;
-    double                slave_area         = 0.;
-    double                covered_area       = 0.;
+    std::uint64_t         slave_faces       = 0;
+    std::uint64_t         master_faces      = 0;
+    std::uint64_t         candidate_pairs   = 0;
+    std::uint64_t         pairs             = 0;
+    std::uint64_t         integration_cells = 0;
+    std::uint64_t         quadrature_points = 0;
+    double                slave_area        = 0.;
+    double                covered_area      = 0.;
     std::optional<double> worst_face_coverage_error;
     std::optional<double> partition_of_unity_error;
     std::optional<double> force_residual;

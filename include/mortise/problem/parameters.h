@@ -67,12 +67,13 @@ namespace mortise
   struct InterfaceParameters
   {
     std::string    name;
-    SideParameters slave;  ///< carries the multiplier
+    SideParameters slave; ///< carries the multiplier
     SideParameters master;
     std::string    law             = "tie";
     std::string    multiplier      = "standard";
     double         search_distance = 0.5; ///< largest gap or overlap that is bridged, in face sizes
-    unsigned int   quadrature_points = 0;  ///< per direction and integration cell; 0 ("auto"): by the degrees
+    unsigned int   quadrature_points =
+      0; ///< per direction and integration cell; 0 ("auto"): by the degrees
   };
 
   enum class ExactKind
@@ -130,8 +131,9 @@ namespace mortise
     SolverParameters                 solver;
     OutputParameters                 output;
 
-    std::string                        file;    ///< the parameter file, as it was given
-    std::map<std::string, std::string> origins; ///< "Body inner/Degree" -> "line 7 of FILE", "--set"
+    std::string file; ///< the parameter file, as it was given
+    std::map<std::string, std::string>
+      origins; ///< "Body inner/Degree" -> "line 7 of FILE", "--set"
 
     /// "Body inner / Degree (line 7 of scene.prm)"; without the parentheses for a default.
     std::string

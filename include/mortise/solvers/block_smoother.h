@@ -1,5 +1,5 @@
-// Symmetric block Gauss-Seidel on the mesh entities of one rank, additive between ranks. It never
-// communicates after it is built.
+// Symmetric block Gauss-Seidel on overlapping blocks of rows of one rank, additive between ranks.
+// It never communicates after it is built.
 #pragma once
 
 #include <Epetra_CrsMatrix.h>
@@ -12,13 +12,18 @@ namespace mortise
   class BlockSmoother
   {
   public:
-    /// @p blocks: owned rows (local positions), each in exactly one block. The matrix must stay alive.
-    void
+    /// @p blocks: owned rows (local positions), each in at least one block. The matrix must stay
+    /// alive. False when a block is not positive definite; not collective.
+    bool
     initialize(const Epetra_CrsMatrix &matrix, const std::vector<std::vector<int>> &blocks);
 
     /// x = M^{-1} r: one sweep forward, one back, from x = 0.
     void
     vmult(double *x, const double *r) const;
+
+    /// Rows of the largest block.
+    unsigned int
+    largest_block() const;
 
   private:
     struct Block
@@ -29,7 +34,8 @@ namespace mortise
     void
     relax(const Block &block, double *x, const double *r) const;
 
-    std::vector<Block>      blocks;
-    const Epetra_CrsMatrix *matrix = nullptr;
+    std::vector<Block>          blocks;
+    const Epetra_CrsMatrix     *matrix = nullptr;
+    mutable std::vector<double> workspace;
   };
 } // namespace mortise

@@ -17,8 +17,9 @@ namespace mortise
     HierarchicalPreconditioner();
     ~HierarchicalPreconditioner();
 
-    /// Build for A = K + J of @p system (A = K without an interface). Collective.
-    void
+    /// Build for A = K + J of @p system (A = K without an interface). Collective. False, on every
+    /// rank, when A turned out not to be positive definite; vmult() must not be called then.
+    bool
     initialize(const BlockSystem &system);
 
     /// dst = A^{-1} src, approximately; dst and src are distinct.

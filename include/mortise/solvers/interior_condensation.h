@@ -3,10 +3,9 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/entity_graph.h>
 
 #include <Epetra_CrsMatrix.h>
-#include <Epetra_Import.h>
-#include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 
 #include <memory>
@@ -18,14 +17,11 @@ namespace mortise
   ///
   ///     A^{-1} = [ I  -X ] [ A_ii^{-1}      ] [  I    0 ]      X = A_ii^{-1} A_ib
   ///              [ 0   I ] [         S^{-1} ] [ -X^T  I ]      S = A_bb - A_bi X.
-  ///
-  /// A block of dofs is interior when all its neighbours are neighbours of each other, so that
-  /// eliminating it fills in nothing; this is found in the graph of the matrix.
   class InteriorCondensation
   {
   public:
     /// Collective.
-    explicit InteriorCondensation(const BlockSystem &system);
+    InteriorCondensation(const BlockSystem &system, const EntityGraph &graph);
 
     /// S, on the map of the dofs that remain (their numbers are those of the system).
     const Epetra_CrsMatrix &
@@ -34,24 +30,18 @@ namespace mortise
       return *schur;
     }
 
-    /// Positions in the owned range of the system of the dofs that remain, in the order of S.
+    /// Row of S of each owned dof, by position; -1 for interior dofs.
     const std::vector<int> &
-    remaining() const
+    row_of_dof() const
     {
-      return remaining_dofs;
+      return position;
     }
 
-    /// Blocks of owned rows of S (positions in S), one for each mesh entity that remains.
-    const std::vector<std::vector<int>> &
-    remaining_blocks() const
+    /// False when an interior block was not positive definite on any rank: nothing can be solved.
+    bool
+    is_valid() const
     {
-      return blocks_of_schur;
-    }
-
-    std::size_t
-    n_eliminated_blocks() const
-    {
-      return interiors.size();
+      return valid;
     }
 
     /// r_b := (r - X^T r_i)_b. @p r has the owned range of the system. Collective.
@@ -66,24 +56,40 @@ namespace mortise
     struct Interior
     {
       std::vector<int>    dofs;      ///< positions in the owned range
-      std::vector<int>    neighbors; ///< positions in the ghosted vector of remaining dofs
+      std::vector<int>    neighbors; ///< columns of S, sorted
       std::vector<double> cholesky;  ///< of A_ii, column major
-      std::vector<double> extension; ///< X, one row of the neighbours' length per dof
+      std::vector<double> coupling;  ///< A_ib, column major; only during the elimination
+      std::vector<double> extension; ///< X, column major
+    };
+
+    /// A row of a correction of S for the rank that owns it: columns[0] is the row.
+    struct RemoteRow
+    {
+      std::vector<int>    columns;
+      std::vector<double> values;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &columns &values;
+      }
     };
 
     void
-    find_interiors(const BlockSystem &system);
-    void
     build_base(const BlockSystem &system);
     void
-    eliminate(const BlockSystem &system);
+    eliminate(const BlockSystem &system, const EntityGraph &graph);
+    Interior
+    extract_interior(const BlockSystem &system, const unsigned int block) const;
+    void
+    add_to_row(const int row, const std::vector<int> &columns, const double *values);
 
-    std::vector<bool>                 block_is_interior;
-    std::vector<std::vector<int>> stars;
-    std::vector<int>                  remaining_dofs;
-    std::vector<std::vector<int>>     blocks_of_schur;
+    std::vector<int>                  position;       ///< see row_of_dof()
+    std::vector<int>                  remaining_dofs; ///< position of each row of S
     std::vector<Interior>             interiors;
     std::unique_ptr<Epetra_CrsMatrix> schur;
     std::unique_ptr<Epetra_Vector>    ghosted; ///< on the column map of S
+    bool                              valid = true;
   };
 } // namespace mortise

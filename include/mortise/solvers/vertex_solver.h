@@ -28,8 +28,8 @@ namespace mortise
     ~VertexSolver();
 
     /// @p matrix: a matrix whose rows include the vertex dofs of @p system under their own numbers.
-    /// Collective.
-    void
+    /// Collective. False when the factorisation broke down.
+    bool
     initialize(const BlockSystem &system, const Epetra_CrsMatrix &matrix);
 
     /// x = P A_c^{-1} P^T r, both on the rows of the matrix given; x is overwritten. Collective.

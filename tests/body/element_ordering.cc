@@ -1,0 +1,62 @@
+// Proves that is_consistently_ordered() sees meshes whose cells are not ordered consistently, that
+// a Moebius strip cannot be ordered, and that after one uniform refinement, made into a coarse mesh
+// of its own, it can.
+
+#include "element_meshes.h"
+
+#include <mortise/body/hp_constraints.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+
+#include <iostream>
+
+using namespace dealii;
+using namespace element_test;
+
+void
+verdict(const std::string &what, const bool ok)
+{
+  std::cout << (ok ? "OK  " : "FAILED  ") << what << std::endl;
+}
+
+/// Whether the mesh is ordered consistently after an attempt to do so.
+bool
+can_be_ordered(const Triangulation<3> &triangulation)
+{
+  auto [vertices, cells, faces] = GridTools::get_coarse_mesh_description(triangulation);
+  GridTools::consistently_order_cells(cells);
+  Triangulation<3> ordered;
+  ordered.create_triangulation(vertices, cells, SubCellData());
+  return mortise::is_consistently_ordered(ordered);
+}
+
+int
+main()
+{
+  for (const std::string &shape : shapes)
+    {
+      Triangulation<3> triangulation;
+      create_shape(shape, 3, triangulation);
+      verdict(shape + ": ordered after turning its cells", mortise::is_consistently_ordered(triangulation));
+    }
+
+  Triangulation<3> cube, turned;
+  GridGenerator::subdivided_hyper_cube(cube, 2);
+  verdict("a cube is ordered", mortise::is_consistently_ordered(cube));
+  auto [vertices, cells, faces] = GridTools::get_coarse_mesh_description(cube);
+  std::mt19937 random(1);
+  turn_cells(cells, random);
+  turned.create_triangulation(vertices, cells, SubCellData());
+  verdict("a cube with turned cells is not", !mortise::is_consistently_ordered(turned));
+
+  // A quarter turn of the cross section before the ends are joined.
+  Triangulation<3> strip;
+  GridGenerator::moebius(strip, 8, 1, 1., 0.2);
+  verdict("a Moebius strip is not ordered", !mortise::is_consistently_ordered(strip));
+  verdict("and cannot be", !can_be_ordered(strip));
+  strip.refine_global(1);
+  Triangulation<3> flat;
+  GridGenerator::flatten_triangulation(strip, flat);
+  verdict("after one refinement it can", can_be_ordered(flat));
+}
