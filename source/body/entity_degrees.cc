@@ -39,7 +39,7 @@ namespace mortise
           largest  = std::max<unsigned int>(largest, cell->active_fe_index());
         }
     const MPI_Comm comm = dof_handler.get_communicator();
-    uniform = Utilities::MPI::min(smallest, comm) >= Utilities::MPI::max(largest, comm);
+    uniform             = Utilities::MPI::min(smallest, comm) >= Utilities::MPI::max(largest, comm);
     if (uniform)
       return;
 
@@ -116,10 +116,8 @@ namespace mortise
                 edge                = std::min(edge, degree);
               }
             // The four lines inside the face.
-            for (const auto &[c, l] : {std::pair<unsigned int, unsigned int>{0, 1},
-                                       {0, 3},
-                                       {3, 0},
-                                       {3, 2}})
+            for (const auto &[c, l] :
+                 {std::pair<unsigned int, unsigned int>{0, 1}, {0, 3}, {3, 0}, {3, 2}})
               line_degrees[face->child(c)->line(l)->index()] = degree;
           }
   }

@@ -6,6 +6,9 @@
 
 #include <deal.II/fe/fe_tools.h>
 
+#include <algorithm>
+#include <array>
+
 namespace mortise
 {
   using namespace dealii;
@@ -91,8 +94,8 @@ namespace mortise
           for (unsigned int flags = 0; flags < 8; ++flags)
             {
               // deal.II numbers the flags 4*orientation + 2*flip + rotation.
-              const bool standard          = flags >= 4;
-              const int  here              = i + n * j;
+              const bool standard     = flags >= 4;
+              const int  here         = i + n * j;
               table(i + n * j, flags) = (standard ? here : static_cast<int>(j + n * i)) - here;
             }
   }
@@ -148,12 +151,12 @@ namespace mortise
     const unsigned int source_degree = as_legendre(source).degree;
     AssertDimension(matrix.m(), this->n_dofs_per_cell());
     AssertDimension(matrix.n(), source.n_dofs_per_cell());
-    matrix                  = 0.;
-    const auto own          = cell_dof_indices(this->degree);
-    const auto other        = cell_dof_indices(source_degree);
-    const unsigned int n    = this->degree + 1;
-    const unsigned int m    = source_degree + 1;
-    const unsigned int both = std::min(n, m);
+    matrix                   = 0.;
+    const auto         own   = cell_dof_indices(this->degree);
+    const auto         other = cell_dof_indices(source_degree);
+    const unsigned int n     = this->degree + 1;
+    const unsigned int m     = source_degree + 1;
+    const unsigned int both  = std::min(n, m);
     for (unsigned int k = 0; k < both; ++k)
       for (unsigned int j = 0; j < both; ++j)
         for (unsigned int i = 0; i < both; ++i)
@@ -218,8 +221,8 @@ namespace mortise
     AssertThrow(refinement_case == RefinementCase<3>::isotropic_refinement, ExcNotImplemented());
     AssertIndexRange(child, 8);
     const std::lock_guard<std::mutex> lock(mutex);
-    FullMatrix<double> &matrix = const_cast<FE_Legendre *>(this)
-                                   ->prolongation[refinement_case - 1][child];
+    FullMatrix<double>               &matrix =
+      const_cast<FE_Legendre *>(this)->prolongation[refinement_case - 1][child];
     if (matrix.m() == 0)
       {
         const unsigned int n = this->n_dofs_per_cell();
@@ -234,32 +237,6 @@ namespace mortise
     return matrix;
   }
 
-  namespace
-  {
-    /// 1D restriction from a child: the contribution of child function N_j to N_i of the parent,
-    /// i = 0, 1: value at the parent's end, if it is one of this child;
-    /// i >= 2: int N_i'(x) N_j'(y) dx over the child = (R^T)(i,j) with R the embedding of bubbles.
-    FullMatrix<double>
-    parent_from_child(const unsigned int child)
-    {
-      constexpr unsigned int    n = max_lobatto_degree + 1;
-      FullMatrix<double>        matrix(n, n);
-      const FullMatrix<double> &embedding = lobatto_restriction(child);
-      matrix(child, child)                = 1.;
-      // N_i'(x) dx with x = (child+y)/2 is d/dy N_i(x(y)) dy; the derivative on the parent of a
-      // child function is 2 d/dy.
-      for (unsigned int i = 2; i < n; ++i)
-        {
-          const double rise = embedding(1, i) - embedding(0, i);
-          matrix(i, 0)      = -2. * rise;
-          matrix(i, 1)      = 2. * rise;
-          for (unsigned int j = 2; j <= i; ++j)
-            matrix(i, j) = 2. * embedding(j, i);
-        }
-      return matrix;
-    }
-  } // namespace
-
   const FullMatrix<double> &
   FE_Legendre::get_restriction_matrix(const unsigned int       child,
                                       const RefinementCase<3> &refinement_case) const
@@ -267,23 +244,21 @@ namespace mortise
     AssertThrow(refinement_case == RefinementCase<3>::isotropic_refinement, ExcNotImplemented());
     AssertIndexRange(child, 8);
     const std::lock_guard<std::mutex> lock(mutex);
-    FullMatrix<double>               &matrix = const_cast<FE_Legendre *>(this)
-                                   ->restriction[refinement_case - 1][child];
+    FullMatrix<double>               &matrix =
+      const_cast<FE_Legendre *>(this)->restriction[refinement_case - 1][child];
     if (matrix.m() == 0)
       {
-        static const std::array<FullMatrix<double>, 2> from_child = {
-          {parent_from_child(0), parent_from_child(1)}};
         const unsigned int n = this->n_dofs_per_cell();
         matrix.reinit(n, n);
-        fill_kronecker<3>(
-          {{&from_child[child % 2], &from_child[child / 2 % 2], &from_child[child / 4]}},
-          this->degree,
-          this->degree,
-          matrix);
+        fill_kronecker<3>({{&lobatto_coarsening(child % 2),
+                            &lobatto_coarsening(child / 2 % 2),
+                            &lobatto_coarsening(child / 4)}},
+                          this->degree,
+                          this->degree,
+                          matrix);
       }
     return matrix;
   }
-
   bool
   FE_Legendre::hp_constraints_are_implemented() const
   {
@@ -334,9 +309,8 @@ namespace mortise
       return FiniteElementDomination::no_requirements;
     if (this->degree < legendre->degree)
       return FiniteElementDomination::this_element_dominates;
-    return this->degree == legendre->degree ?
-             FiniteElementDomination::either_element_can_dominate :
-             FiniteElementDomination::other_element_dominates;
+    return this->degree == legendre->degree ? FiniteElementDomination::either_element_can_dominate :
+                                              FiniteElementDomination::other_element_dominates;
   }
 
   std::pair<Table<2, bool>, std::vector<unsigned int>>
@@ -381,7 +355,7 @@ namespace mortise
   std::vector<unsigned int>
   cell_dof_indices(const unsigned int degree)
   {
-    const unsigned int        n = degree + 1;
+    const unsigned int        n       = degree + 1;
     const auto                indices = tensor_indices<3>(degree);
     std::vector<unsigned int> dofs(indices.size());
     for (unsigned int dof = 0; dof < indices.size(); ++dof)
@@ -393,15 +367,15 @@ namespace mortise
   face_dof_indices(const unsigned int degree, const unsigned int face_no)
   {
     AssertIndexRange(face_no, 6);
-    const unsigned int              n    = degree + 1;
-    const unsigned int              d    = face_no / 2;
-    const std::vector<unsigned int> cell = cell_dof_indices(degree);
+    const unsigned int              n          = degree + 1;
+    const unsigned int              d          = face_no / 2;
+    const std::vector<unsigned int> cell       = cell_dof_indices(degree);
     const unsigned int              strides[3] = {1, n, n * n};
     std::vector<unsigned int>       dofs(n * n);
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int i = 0; i < n; ++i)
-        dofs[i + n * j] = cell[(face_no % 2) * strides[d] + i * strides[(d + 1) % 3] +
-                               j * strides[(d + 2) % 3]];
+        dofs[i + n * j] =
+          cell[(face_no % 2) * strides[d] + i * strides[(d + 1) % 3] + j * strides[(d + 2) % 3]];
     return dofs;
   }
 } // namespace mortise

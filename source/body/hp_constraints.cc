@@ -40,7 +40,10 @@ namespace mortise
       }
 
       unsigned int
-      on_face(const unsigned int f, const unsigned int i, const unsigned int j, unsigned int c) const
+      on_face(const unsigned int f,
+              const unsigned int i,
+              const unsigned int j,
+              unsigned int       c) const
       {
         return fe.component_to_system_index(c, faces[f][i + n * j]);
       }
@@ -49,17 +52,17 @@ namespace mortise
       on_line(const unsigned int l, const unsigned int i, const unsigned int c) const
       {
         // A line's ends are its vertices, its bubbles its own.
-        const unsigned int scalar = i < 2 ? GeometryInfo<3>::line_to_cell_vertices(l, i) :
-                                            8 + l * (n - 2) + i - 2;
+        const unsigned int scalar =
+          i < 2 ? GeometryInfo<3>::line_to_cell_vertices(l, i) : 8 + l * (n - 2) + i - 2;
         return fe.component_to_system_index(c, scalar);
       }
 
       const unsigned int n; ///< functions per direction
 
     private:
-      const FiniteElement<3>    &fe;
-      std::vector<unsigned int>  cell;
-      std::vector<unsigned int>  faces[6];
+      const FiniteElement<3>   &fe;
+      std::vector<unsigned int> cell;
+      std::vector<unsigned int> faces[6];
     };
 
     /// Makes the lines of all constraints of this rank's cells.
@@ -87,17 +90,16 @@ namespace mortise
 
       const DoFHandler<3>        &dof_handler;
       const EntityDegrees        &degrees;
-      std::vector<LocalNumbering> numbering;   ///< by element
-      IndexSet                    owned;       ///< of this rank
-      std::vector<bool>           owned_done;  ///< constrained, by place in owned
+      std::vector<LocalNumbering> numbering;  ///< by element
+      IndexSet                    owned;      ///< of this rank
+      std::vector<bool>           owned_done; ///< constrained, by place in owned
       std::unordered_map<types::global_dof_index, bool> other_done;
       /// Refined lines of active cells: line index -> such a cell and its number there.
       std::unordered_map<unsigned int, std::pair<CellIterator, unsigned int>> coarse_lines;
       Dofs                                                                    own, masters;
     };
 
-    ConformityLines::ConformityLines(const DoFHandler<3> &dof_handler,
-                                     const EntityDegrees &degrees)
+    ConformityLines::ConformityLines(const DoFHandler<3> &dof_handler, const EntityDegrees &degrees)
       : dof_handler(dof_handler)
       , degrees(degrees)
       , owned(dof_handler.locally_owned_dofs())
@@ -183,10 +185,10 @@ namespace mortise
       if (coarse == coarse_lines.end())
         return;
 
-      const auto           &[neighbor, line] = coarse->second;
-      const LocalNumbering &fine_dofs        = numbering[cell->active_fe_index()];
-      const LocalNumbering &coarse_dofs      = numbering[neighbor->active_fe_index()];
-      const FullMatrix<double> &restriction  = lobatto_restriction(half);
+      const auto &[neighbor, line]          = coarse->second;
+      const LocalNumbering     &fine_dofs   = numbering[cell->active_fe_index()];
+      const LocalNumbering     &coarse_dofs = numbering[neighbor->active_fe_index()];
+      const FullMatrix<double> &restriction = lobatto_restriction(half);
       degrees.get_master_dofs(neighbor, masters);
       for (unsigned int c = 0; c < cell->get_fe().n_components(); ++c)
         for (unsigned int i = 0; i < fine_dofs.n; ++i)
@@ -203,13 +205,13 @@ namespace mortise
     void
     ConformityLines::constrain_hanging_face(const CellIterator &cell, const unsigned int f)
     {
-      const auto         parent     = cell->parent();
-      const auto         neighbor   = cell->neighbor(f);
-      const unsigned int face       = cell->neighbor_of_coarser_neighbor(f).first;
-      const bool         transposed = parent->face_orientation(f) != neighbor->face_orientation(face);
-      const unsigned int child      = child_number(cell);
-      const unsigned int half[2]    = {(child >> ((f / 2 + 1) % 3)) & 1,
-                                       (child >> ((f / 2 + 2) % 3)) & 1};
+      const auto         parent   = cell->parent();
+      const auto         neighbor = cell->neighbor(f);
+      const unsigned int face     = cell->neighbor_of_coarser_neighbor(f).first;
+      const bool transposed       = parent->face_orientation(f) != neighbor->face_orientation(face);
+      const unsigned int        child       = child_number(cell);
+      const unsigned int        half[2]     = {(child >> ((f / 2 + 1) % 3)) & 1,
+                                               (child >> ((f / 2 + 2) % 3)) & 1};
       const FullMatrix<double> &along_i     = lobatto_restriction(half[0]);
       const FullMatrix<double> &along_j     = lobatto_restriction(half[1]);
       const LocalNumbering     &fine_dofs   = numbering[cell->active_fe_index()];
@@ -265,7 +267,8 @@ namespace mortise
   } // namespace
 
   void
-  make_conformity_constraints(const DoFHandler<3> &dof_handler, AffineConstraints<double> &constraints)
+  make_conformity_constraints(const DoFHandler<3>       &dof_handler,
+                              AffineConstraints<double> &constraints)
   {
     make_conformity_constraints(dof_handler, EntityDegrees(dof_handler), constraints);
   }

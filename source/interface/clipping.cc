@@ -29,6 +29,16 @@ namespace mortise
         x = std::abs(x) <= on_side ? 0. : std::abs(1. - x) <= on_side ? 1. : x;
     }
 
+    // Both points are outside on one of the sides of the other coordinate: a crossing between
+    // them is of no interest.
+    inline bool
+    both_beside(const double (&a)[2], const double (&b)[2], const unsigned int side)
+    {
+      const unsigned int other = 1 - side / 2;
+      return (a[other] < -on_side && b[other] < -on_side) ||
+             (a[other] > 1. + on_side && b[other] > 1. + on_side);
+    }
+
     // Cubic on [0,1] with values f and slopes d at the ends.
     inline double
     cubic(const double f_0, const double f_1, const double d_0, const double d_1, const double t)
@@ -89,21 +99,12 @@ namespace mortise
     const LagrangeBasis  &basis      = lagrange_basis(polynomial.degree);
     const unsigned int    n          = polynomial.degree + 1;
     double                nodal[3][max_face_nodes];
-    for (unsigned int begin = 0; begin < n; begin += n_lanes)
+    for (unsigned int i = 0; i < n; ++i)
       {
-        Vec3<Lanes>        x;
-        const unsigned int count = std::min(n_lanes, n - begin);
-        for (unsigned int l = 0; l < n_lanes; ++l)
-          for (unsigned int d = 0; d < 3; ++d)
-            x[d][l] = polynomial.coefficients[d][begin + std::min(l, count - 1)];
-        Lanes xi[2], height;
-        slave->chart(x, xi, height);
-        for (unsigned int l = 0; l < count; ++l)
-          {
-            nodal[0][begin + l] = xi[0][l];
-            nodal[1][begin + l] = xi[1][l];
-            nodal[2][begin + l] = height[l];
-          }
+        const auto &c     = polynomial.coefficients;
+        const auto  chart = slave->chart({{c[0][i], c[1][i], c[2][i]}});
+        for (unsigned int d = 0; d < 3; ++d)
+          nodal[d][i] = chart[d];
       }
     control.assign(3 * n, 0.);
     for (unsigned int d = 0; d < 3; ++d)
@@ -177,25 +178,26 @@ namespace mortise
 
 
 
-  // Pull back the breakpoints from @p begin on, with their velocities.
+  // Pull back the breakpoints from @p first on, with their velocities; their xi may be a guess.
   void
-  LoopClipper::locate(const unsigned int first)
+  LoopClipper::locate(const unsigned int first, const bool has_guess)
   {
     for (unsigned int begin = first; begin < breakpoints.size(); begin += n_lanes)
       {
         const unsigned int count = std::min<unsigned int>(n_lanes, breakpoints.size() - begin);
         unsigned int       edge[n_lanes];
-        Lanes              tau;
+        Lanes              tau, xi[2], dxi[2], alpha{};
         for (unsigned int l = 0; l < n_lanes; ++l)
           {
             const Breakpoint &point = breakpoints[begin + std::min(l, count - 1)];
             edge[l]                 = point.edge;
             tau[l]                  = point.tau;
+            xi[0][l]                = point.xi[0];
+            xi[1][l]                = point.xi[1];
           }
         Vec3<Lanes> x, dx;
         evaluate_edges(master->edges, edge, tau, x, dx);
-        Lanes xi[2], dxi[2], alpha;
-        if (slave->pull_back(x, false, xi, alpha) != 0)
+        if (slave->pull_back(x, has_guess, xi, alpha) != 0)
           failed = true;
         slave->pull_back_derivative(dx, xi, alpha, dxi);
         for (unsigned int l = 0; l < count; ++l)
@@ -212,7 +214,7 @@ namespace mortise
   void
   LoopClipper::locate_breakpoints()
   {
-    locate(0);
+    locate(0, false);
     for (auto &point : breakpoints)
       snap_to_sides(point.xi);
     // The end of an edge is the beginning of the next one.
@@ -239,13 +241,14 @@ namespace mortise
           if (!segment.far && !segment.checked)
             {
               const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
-              const unsigned int edge = a.edge;
-              const double       tau  = 0.5 * (a.tau + b.tau);
-              breakpoints.push_back({edge, tau, {0., 0.}, {0., 0.}});
+              breakpoints.push_back({a.edge,
+                                     0.5 * (a.tau + b.tau),
+                                     {on_cubic(a, b, 0, 0.5), on_cubic(a, b, 1, 0.5)},
+                                     {0., 0.}});
             }
         if (begin == breakpoints.size())
           return;
-        locate(begin);
+        locate(begin, true);
         unsigned int middle = begin;
         new_segments.clear();
         for (auto &segment : segments)
@@ -271,21 +274,30 @@ namespace mortise
 
 
 
+  double
+  LoopClipper::on_cubic(const Breakpoint  &a,
+                        const Breakpoint  &b,
+                        const unsigned int i,
+                        const double       t)
+  {
+    const double length = b.tau - a.tau;
+    return cubic(a.xi[i], b.xi[i], length * a.dxi[i], length * b.dxi[i], t);
+  }
+
+
+
   bool
   LoopClipper::check_segment(Segment &segment, const Breakpoint &middle) const
   {
     constexpr double small = 0.03;
 
     const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
-    const double      length = b.tau - a.tau;
-    segment.deviation        = 0;
-    double expected[2];
+    const double      expected[2] = {on_cubic(a, b, 0, 0.5), on_cubic(a, b, 1, 0.5)};
+    segment.deviation             = 0;
     for (unsigned int i = 0; i < 2; ++i)
       {
-        segment.mid[i] = middle.xi[i];
-        expected[i]    = cubic(a.xi[i], b.xi[i], length * a.dxi[i], length * b.dxi[i], 0.5);
-        segment.deviation =
-          std::max(segment.deviation, std::abs(middle.xi[i] - expected[i]));
+        segment.mid[i]    = middle.xi[i];
+        segment.deviation = std::max(segment.deviation, std::abs(middle.xi[i] - expected[i]));
       }
     segment.checked = segment.deviation <= small;
     // Not well described, but outside by more than the description may be wrong?
@@ -312,21 +324,22 @@ namespace mortise
     const double      d_0   = scale * a.dxi[side / 2];
     const double      d_1   = scale * b.dxi[side / 2];
     const double      slope = std::abs(d_0) + std::abs(d_1);
-    // An edge that runs along the side, as on two polynomial pictures of one smooth surface, may
-    // cross it several times.
-    bool doubtful = std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
+    bool              doubtful;
     if (f_0 * f_1 > 0)
-      doubtful = doubtful || nearest_of_cubic(f_0, f_1, d_0, d_1) < 3. * segments[segment].deviation;
+      doubtful = nearest_of_cubic(f_0, f_1, d_0, d_1) < 3. * segments[segment].deviation;
     else if (f_0 * f_1 < 0)
       {
         // The cubic and its slope at the middle: monotone curves cross once.
         const double rise = f_1 - f_0, slope_mid = 1.5 * rise - 0.25 * (d_0 + d_1);
-        doubtful = doubtful || d_0 * rise <= 0 || d_1 * rise <= 0 || slope_mid * rise <= 0;
+        doubtful = d_0 * rise <= 0 || d_1 * rise <= 0 || slope_mid * rise <= 0;
       }
     else
-      doubtful = doubtful || (f_0 == 0. && f_1 * d_0 < 0) || (f_1 == 0. && f_0 * d_1 > 0);
-    if (doubtful)
-      sample_segment(segment, side);
+      doubtful = (f_0 == 0. && f_1 * d_0 < 0) || (f_1 == 0. && f_0 * d_1 > 0);
+    // An edge that runs along the side, as on two polynomial pictures of one smooth surface, may
+    // cross it several times.
+    const bool along = std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
+    if (doubtful || along)
+      sample_segment(segment, side, doubtful ? 5 : 1);
     else if (f_0 * f_1 < 0)
       crossings.push_back({segment, side, a.tau, b.tau, f_0, f_1, 0., {0., 0.}});
   }
@@ -336,7 +349,9 @@ namespace mortise
   // Look for changes of sign inside of a segment, ever finer around the point where the curve
   // comes closest to changing its side.
   void
-  LoopClipper::sample_segment(const unsigned int segment, const unsigned int side)
+  LoopClipper::sample_segment(const unsigned int segment,
+                              const unsigned int side,
+                              const unsigned int rounds)
   {
     const Breakpoint  &a    = breakpoints[segments[segment].first];
     const Breakpoint  &b    = breakpoints[segments[segment].last];
@@ -344,14 +359,14 @@ namespace mortise
     const double       f_b  = snapped(inside_by(b.xi, side));
     const double       sign = f_a + f_b >= 0 ? 1. : -1.;
     double             low = a.tau, high = b.tau;
-    constexpr unsigned rounds = 5;
     for (unsigned int round = 0; round < rounds; ++round)
       {
         Lanes tau, xi[2];
         for (unsigned int l = 0; l < n_lanes; ++l)
           tau[l] = low + (high - low) * (l + 1.) / (n_lanes + 1.);
-        pull_back_edge(a.edge, tau, xi, n_lanes);
+        pull_back_segment(segments[segment], tau, xi);
         double       previous_tau = a.tau, previous = f_a, least = 1e300;
+        double       previous_xi[2] = {a.xi[0], a.xi[1]};
         unsigned int n_found = 0, best = 0;
         for (unsigned int l = 0; l <= n_lanes; ++l)
           {
@@ -361,9 +376,10 @@ namespace mortise
             const double here      = last ? b.tau : tau[l];
             if (f * previous < 0)
               {
-                crossings.push_back(
-                  {segment, side, previous_tau, here, previous, f, 0., {0., 0.}});
                 ++n_found;
+                if (!both_beside(previous_xi, x, side))
+                  crossings.push_back(
+                    {segment, side, previous_tau, here, previous, f, 0., {0., 0.}});
               }
             if (!last && sign * f < least)
               {
@@ -374,6 +390,7 @@ namespace mortise
               {
                 previous     = f;
                 previous_tau = here;
+                std::copy(x, x + 2, previous_xi);
               }
           }
         if (n_found > 0 || (f_a == 0. && f_b == 0.))
@@ -387,17 +404,21 @@ namespace mortise
 
 
   void
-  LoopClipper::pull_back_edge(const unsigned int edge,
-                              const Lanes       &tau,
-                              Lanes (&xi)[2],
-                              const unsigned int n)
+  LoopClipper::pull_back_segment(const Segment &segment, const Lanes &tau, Lanes (&xi)[2])
   {
-    unsigned int edge_of_lane[n_lanes];
-    std::fill(edge_of_lane, edge_of_lane + n_lanes, edge);
+    const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
+    unsigned int      edge_of_lane[n_lanes];
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        const double t  = (tau[l] - a.tau) / (b.tau - a.tau);
+        edge_of_lane[l] = a.edge;
+        xi[0][l]        = on_cubic(a, b, 0, t);
+        xi[1][l]        = on_cubic(a, b, 1, t);
+      }
     Vec3<Lanes> x, dx;
     evaluate_edges(master->edges, edge_of_lane, tau, x, dx);
-    Lanes alpha;
-    if ((slave->pull_back(x, false, xi, alpha) & ((1u << n) - 1)) != 0)
+    Lanes alpha{};
+    if (slave->pull_back(x, true, xi, alpha) != 0)
       failed = true;
   }
 
@@ -484,25 +505,37 @@ namespace mortise
   void
   LoopClipper::solve_by_sections(Crossing &crossing)
   {
-    const unsigned int edge = breakpoints[segments[crossing.segment].first].edge;
     double low = crossing.tau_0, high = crossing.tau_1;
+    double ends[2][2];
+    bool   known[2] = {false, false};
     for (unsigned int round = 0; round < 17; ++round)
       {
         Lanes tau, xi[2];
         for (unsigned int l = 0; l < n_lanes; ++l)
           tau[l] = low + (high - low) * (l + 1.) / (n_lanes + 1.);
-        pull_back_edge(edge, tau, xi, n_lanes);
-        unsigned int l = 0;
-        for (; l < n_lanes; ++l)
+        pull_back_segment(segments[crossing.segment], tau, xi);
+        for (unsigned int l = 0; l < n_lanes; ++l)
           {
-            crossing.xi[0] = xi[0][l];
-            crossing.xi[1] = xi[1][l];
-            if (inside_by(crossing.xi, crossing.side) * crossing.f_0 <= 0)
+            const double here[2] = {xi[0][l], xi[1][l]};
+            const double f       = inside_by(here, crossing.side);
+            const bool   beyond  = f * crossing.f_0 <= 0;
+            (beyond ? high : low) = tau[l];
+            known[beyond]         = true;
+            std::copy(here, here + 2, ends[beyond]);
+            if (std::abs(f) <= on_side)
+              {
+                std::copy(here, here + 2, crossing.xi);
+                crossing.tau = tau[l];
+                return;
+              }
+            if (beyond)
               break;
           }
-        high = l < n_lanes ? tau[l] : high;
-        low  = l > 0 ? tau[l - 1] : low;
+        if (known[0] && known[1] && both_beside(ends[0], ends[1], crossing.side))
+          break;
       }
+    // Of no interest, or a jump of the continuation far away: its place does not matter.
+    std::copy(ends[known[1]], ends[known[1]] + 2, crossing.xi);
     crossing.tau = 0.5 * (low + high);
   }
 } // namespace mortise

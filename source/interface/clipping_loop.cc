@@ -92,16 +92,18 @@ namespace mortise
           member[count++] = i;
         if (count == 0 || (count < n_lanes && i + 1 < loop.size()))
           continue;
-        Lanes tau, xi[2], alpha;
+        Lanes tau, xi[2], alpha{};
         for (unsigned int l = 0; l < n_lanes; ++l)
           {
             const LoopPiece &piece = loop[member[std::min(l, count - 1)]];
             edge[l]                = piece.edge;
             tau[l]                 = 0.5 * (piece.tau_p + piece.tau_q);
+            for (unsigned int i = 0; i < 2; ++i)
+              xi[i][l] = 0.5 * (piece.p[i] + piece.q[i]);
           }
         Vec3<Lanes> x, dx;
         evaluate_edges(master->edges, edge, tau, x, dx);
-        if (slave->pull_back(x, false, xi, alpha) != 0)
+        if (slave->pull_back(x, true, xi, alpha) != 0)
           failed = true;
         for (unsigned int l = 0; l < count; ++l)
           {

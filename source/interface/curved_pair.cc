@@ -1,6 +1,8 @@
 #include "pair_scratch.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 namespace mortise
 {
@@ -186,6 +188,29 @@ namespace mortise
       return n_cells;
     }
 
+    inline void
+    store(const Lanes &values, const unsigned int count, double *target)
+    {
+      if (count == n_lanes)
+        std::memcpy(target, &values, sizeof(Lanes));
+      else
+        for (unsigned int l = 0; l < count; ++l)
+          target[l] = values[l];
+    }
+
+    // Lanes beyond @p count repeat the last value.
+    inline Lanes
+    load(const double *source, const unsigned int count)
+    {
+      Lanes result{};
+      if (count == n_lanes)
+        std::memcpy(&result, source, sizeof(Lanes));
+      else
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          result[l] = source[std::min(l, count - 1)];
+      return result;
+    }
+
     // Map the placed points to both faces. The status says whether the pair is accepted.
     PairStatus
     map_points(Scratch &scratch, PairResult &result, IntegrationPoints &points)
@@ -197,14 +222,9 @@ namespace mortise
       for (unsigned int begin = 0; begin < n; begin += n_lanes)
         {
           const unsigned int count = std::min(n_lanes, n - begin);
-          Lanes              xi[2], weight, eta[2], alpha, slope;
-          for (unsigned int l = 0; l < n_lanes; ++l)
-            {
-              const unsigned int q = begin + std::min(l, count - 1);
-              xi[0][l]             = scratch.xi[0][q];
-              xi[1][l]             = scratch.xi[1][q];
-              weight[l]            = scratch.reference_weight[q];
-            }
+          Lanes              eta[2], alpha, slope;
+          Lanes              weight = load(&scratch.reference_weight[begin], count);
+          Lanes xi[2] = {load(&scratch.xi[0][begin], count), load(&scratch.xi[1][begin], count)};
           for (auto &x : xi)
             x = minimum(maximum(x, broadcast(0.)), broadcast(1.));
           Vec3<Lanes> x_s, dx_s[2], x_m;
@@ -217,21 +237,18 @@ namespace mortise
           normals_agree  = normals_agree || !(largest(slope) < 0);
           result.max_gap = std::max(result.max_gap, largest(absolute(alpha)));
           for (unsigned int l = 0; l < count; ++l)
+            result.area += weight[l];
+          store(weight, count, &points.weight[begin]);
+          store(alpha, count, &points.gap[begin]);
+          for (unsigned int i = 0; i < 2; ++i)
             {
-              const unsigned int q = begin + l;
-              points.weight[q]     = weight[l];
-              points.gap[q]        = alpha[l];
-              result.area += weight[l];
-              for (unsigned int i = 0; i < 2; ++i)
-                {
-                  points.slave_xi[i][q]   = xi[i][l];
-                  points.master_eta[i][q] = eta[i][l];
-                }
-              for (unsigned int d = 0; d < 3; ++d)
-                {
-                  points.slave_x[d][q]  = origin[d] + x_s[d][l];
-                  points.master_x[d][q] = origin[d] + x_m[d][l];
-                }
+              store(xi[i], count, &points.slave_xi[i][begin]);
+              store(eta[i], count, &points.master_eta[i][begin]);
+            }
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              store(origin[d] + x_s[d], count, &points.slave_x[d][begin]);
+              store(origin[d] + x_m[d], count, &points.master_x[d][begin]);
             }
         }
       return normals_agree                        ? PairStatus::normals_agree :

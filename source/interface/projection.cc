@@ -14,6 +14,10 @@ namespace mortise
     // error is its square.
     constexpr double       step_tolerance = 3e-8;
     constexpr unsigned int max_iterations = 25;
+
+    // The face's own polynomial continues it this far beyond the reference square, so that edges
+    // along its sides stay smooth at the corners; farther out its tangents do.
+    constexpr double margin = 0.125;
   } // namespace
 
 
@@ -93,8 +97,8 @@ namespace mortise
                               Vec3<Lanes> (&dx)[2],
                               Vec3<Lanes> &n) const
   {
-    const Lanes zero = broadcast(0.), one = broadcast(1.);
-    const Lanes inside[2] = {minimum(maximum(xi[0], zero), one), minimum(maximum(xi[1], zero), one)};
+    const Lanes zero = broadcast(0.), low = broadcast(-margin), high = broadcast(1. + margin);
+    const Lanes inside[2] = {minimum(maximum(xi[0], low), high), minimum(maximum(xi[1], low), high)};
     const Lanes outside[2] = {xi[0] - inside[0], xi[1] - inside[1]};
     polynomial.evaluate(inside[0], inside[1], x, dx);
     x = x + outside[0] * dx[0] + outside[1] * dx[1];
@@ -142,9 +146,9 @@ namespace mortise
         xi[1] += step[1];
         alpha = step[2];
         // Outside of the square only the side matters, and the second derivatives of the
-        // continuation are left out: a looser tolerance, continuous at the boundary.
+        // continuation are left out: a looser tolerance, continuous at its boundary.
         const Lanes outside = maximum(maximum(-xi[0], xi[0] - 1.), maximum(-xi[1], xi[1] - 1.));
-        const Lanes allowed = step_tolerance + maximum(broadcast(0.), 1e-2 * (outside - 1e-3));
+        const Lanes allowed = step_tolerance + maximum(broadcast(0.), 1e-2 * (outside - margin));
         const unsigned int moving =
           lanes_above(maximum(absolute(step[0]), absolute(step[1])), allowed);
         // alpha enters the first matrix with its guess: a second step makes it quadratic.
@@ -153,6 +157,9 @@ namespace mortise
       }
 
     // Far away, and where the continuation folds, the chart says on which side a point lies.
+    const unsigned int all = (1u << n_lanes) - 1;
+    if (near == all && active == 0)
+      return 0;
     unsigned int failed = 0;
     for (unsigned int l = 0; l < n_lanes; ++l)
       {

@@ -110,14 +110,15 @@ namespace mortise
     ghosted.reinit(owned, constraints.get_local_lines(), comm);
     ghosted = all;
 
-    std::vector<BodyVector> result;
+    // filled in place: a copy would lose the ghost values
+    std::vector<BodyVector> result(bodies.size());
     for (const auto &body : bodies)
       {
-        BodyVector vector(body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
+        BodyVector &vector = result[body->index];
+        vector.reinit(body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
         for (const auto dof : body->dof_handler.locally_owned_dofs())
           vector(dof) = ghosted(numbering(body->index, dof));
         vector.update_ghost_values();
-        result.push_back(std::move(vector));
       }
     return result;
   }

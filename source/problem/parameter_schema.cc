@@ -190,8 +190,9 @@ namespace mortise
           }
         const bool names = p.sections.empty() && (p.name == "Bodies" || p.name == "Interfaces");
         const std::string value = names ? "NAME" : p.default_value;
-        text += "\n" + comment(p.meaning, indent()) + comment("Allowed: " + p.allowed + ".", indent()) +
-                indent() + "set " + p.name + " =" + (value.empty() ? "" : " " + value) + "\n";
+        text += "\n" + comment(p.meaning, indent()) +
+                comment("Allowed: " + p.allowed + ".", indent()) + indent() + "set " + p.name +
+                " =" + (value.empty() ? "" : " " + value) + "\n";
       }
     while (!open.empty())
       close();

@@ -21,12 +21,14 @@ namespace mortise
   std::string
   Parameters::where(const std::string &path) const
   {
-    std::string readable = path;
-    for (std::size_t slash = 0; (slash = readable.find('/', slash)) != std::string::npos;
-         slash += 3)
-      readable.replace(slash, 1, " / ");
-    const auto origin = origins.find(path);
-    return origin == origins.end() ? readable : readable + " (" + origin->second + ")";
+    auto origin = origins.find(path);
+    if (origin == origins.end()) // a subsection that only --set opens: its first parameter
+      {
+        origin = origins.lower_bound(path + "/");
+        if (origin != origins.end() && origin->first.compare(0, path.size() + 1, path + "/") != 0)
+          origin = origins.end();
+      }
+    return origin == origins.end() ? path : path + " (" + origin->second + ")";
   }
 
   bool

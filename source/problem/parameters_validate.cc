@@ -93,7 +93,7 @@ namespace mortise
             fail(parameters,
                  path,
                  "\"exact\" in a scene without an exact solution",
-                 "an expression, or give Exact solution / Displacement");
+                 "an expression, or give Exact solution/Displacement");
         }
     }
 
@@ -115,7 +115,7 @@ namespace mortise
         fail(parameters,
              path,
              "\"exact\" in a scene without an exact solution",
-             "an expression, or give Exact solution / Displacement");
+             "an expression, or give Exact solution/Displacement");
     }
 
     /// The named exact solutions take the pressures of the scene: they cannot give them.

@@ -42,7 +42,7 @@ namespace mortise
       }
     };
 
-    /// diag(A^, W / s)^{-1} with A^ for K + J.
+    /// diag(A^, W)^{-1} with A^ for K + J. Scaling W by 1/2 to 5 takes more iterations (measured).
     class BlockDiagonalPreconditioner
     {
     public:

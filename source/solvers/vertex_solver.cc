@@ -15,8 +15,9 @@ namespace mortise
 
   namespace
   {
-    /// Up to this many dofs the factorisation is faster than multigrid, setup included.
-    constexpr int max_direct_size = 3000;
+    /// Up to this many dofs a factorisation costs no more than the additional iterations of
+    /// multigrid (measured at 11,718: 1.5 s against 0.7 s, but 14 iterations against 24).
+    constexpr int max_direct_size = 12000;
   } // namespace
 
   VertexSolver::VertexSolver()  = default;
@@ -28,8 +29,7 @@ namespace mortise
     extract(system, matrix);
     r_c = std::make_unique<Epetra_Vector>(*map);
     x_c = std::make_unique<Epetra_Vector>(*map);
-    int limit = max_direct_size; if (getenv("DIRECT")) limit = atoi(getenv("DIRECT"));
-    if (coarse->NumGlobalRows() <= limit)
+    if (coarse->NumGlobalRows() <= max_direct_size)
       {
         factorization = std::make_unique<SparseFactorization>();
         return factorization->initialize(*coarse);
@@ -38,21 +38,23 @@ namespace mortise
     Teuchos::ParameterList parameters;
     ML_Epetra::SetDefaults("SA", parameters);
     parameters.set("ML output", 0);
-    parameters.set("PDE equations", dim);
+    parameters.set("PDE equations", static_cast<int>(dim));
     parameters.set("null space: type", "pre-computed");
     parameters.set("null space: dimension", 6);
     parameters.set("null space: vectors", rigid_modes.data());
     parameters.set("null space: add default vectors", false);
     parameters.set("aggregation: type", "Uncoupled");
-    parameters.set("aggregation: threshold", getenv("THR")?atof(getenv("THR")):0.01);
-    parameters.set("smoother: type", getenv("MLS")?getenv("MLS"):"Chebyshev");
-    parameters.set("smoother: sweeps", getenv("MLSW")?atoi(getenv("MLSW")):2);
+    parameters.set("aggregation: threshold", 0.01);
+    // Iterations of conjugate gradients at 11,718 dofs, Poisson's ratio 0.3: Chebyshev of degree 2: 40,
+    // of degree 4: 28; block Gauss-Seidel, one sweep: 27, two: 24.
+    parameters.set("smoother: type", "symmetric block Gauss-Seidel");
+    parameters.set("smoother: sweeps", 2);
+    parameters.set("smoother: damping factor", 1.);
     parameters.set("smoother: pre or post", "both");
     parameters.set("coarse: type", "Amesos-KLU");
     parameters.set("coarse: max size", 1000);
-    parameters.set("cycle applications", getenv("MLC")?atoi(getenv("MLC")):1);
     multigrid = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*coarse, parameters, true);
-    return true;
+    return multigrid->IsPreconditionerComputed();
   }
 
   void

@@ -103,8 +103,8 @@ main(int argc, char **argv)
       verdict(at + " stiffness: condition <= 2e4", legendre.stiffness, 2e4);
       if (p >= 4)
         verdict(at + " a hundred times better than FE_Q_Hierarchical",
-                100. * std::max(legendre.mass / monomial.mass,
-                                legendre.stiffness / monomial.stiffness),
+                100. *
+                  std::max(legendre.mass / monomial.mass, legendre.stiffness / monomial.stiffness),
                 1.);
     }
 }

@@ -48,7 +48,10 @@ evaluate(const CellIterator &cell, const DistributedVector &u, const std::vector
 /// both faces share: this uses no orientation flags.
 template <typename Cell, typename Neighbor>
 Point<3>
-move_to_neighbor(const Cell &cell, const unsigned int f, const Neighbor &neighbor, const Point<3> &x)
+move_to_neighbor(const Cell        &cell,
+                 const unsigned int f,
+                 const Neighbor    &neighbor,
+                 const Point<3>    &x)
 {
   Point<3> moved;
   for (unsigned int v = 0; v < 4; ++v)
@@ -112,7 +115,8 @@ public:
   TestPolynomial(const unsigned int n_components, const unsigned int p)
     : Function<3>(n_components)
     , p(p)
-  {}
+  {
+  }
 
   double
   value(const Point<3> &x, const unsigned int c) const override
@@ -126,18 +130,18 @@ private:
 
 struct Result
 {
-  double                  jump;    ///< of a random function of size 1
-  double                  lost;    ///< change of a polynomial by the constraints
+  double                  jump; ///< of a random function of size 1
+  double                  lost; ///< change of a polynomial by the constraints
   bool                    consistent;
   types::global_dof_index n_free;
 };
 
 Result
-check(Triangulation<3>   &triangulation,
-      const unsigned int  n_components,
-      const unsigned int  first,
-      const unsigned int  last,
-      const unsigned int  seed)
+check(Triangulation<3>  &triangulation,
+      const unsigned int n_components,
+      const unsigned int first,
+      const unsigned int last,
+      const unsigned int seed)
 {
   hp::FECollection<3> fes;
   for (unsigned int p = 1; p <= 8; ++p)
@@ -192,7 +196,7 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                   comm = MPI_COMM_WORLD;
-  ConditionalOStream out(std::cout, Utilities::MPI::this_mpi_process(comm) == 0);
+  ConditionalOStream               out(std::cout, Utilities::MPI::this_mpi_process(comm) == 0);
   const bool                       serial = Utilities::MPI::n_mpi_processes(comm) == 1;
 
   const auto verdict = [&](const bool ok, const std::string &what, const double got) {
@@ -225,11 +229,11 @@ main(int argc, char **argv)
             const unsigned int n      = last <= 4 ? 3 : 1;
             const Result       result = check(*triangulation, n, p, last, seed);
 
-            const std::string what =
-              shape + (distributed ? "" : ", serial") + ", p=" + std::to_string(p) + ".." +
-              std::to_string(last) + ", " + std::to_string(n) + " components, " +
-              std::to_string(triangulation->n_global_active_cells()) + " cells, " +
-              std::to_string(result.n_free) + " free";
+            const std::string what = shape + (distributed ? "" : ", serial") +
+                                     ", p=" + std::to_string(p) + ".." + std::to_string(last) +
+                                     ", " + std::to_string(n) + " components, " +
+                                     std::to_string(triangulation->n_global_active_cells()) +
+                                     " cells, " + std::to_string(result.n_free) + " free";
             verdict(result.jump <= 1e-12, what + ": jump <= 1e-12", result.jump);
             verdict(result.consistent, what + ": the same on every rank", 0.);
             if (shape == "cube")

@@ -66,8 +66,8 @@ apply_by_values(const Mapping<3>                &mapping,
                 DistributedVector               &y,
                 const DistributedVector         &x)
 {
-  const hp::MappingCollection<3> mappings(mapping);
-  hp::FEValues<3> hp_values(mappings,
+  const hp::MappingCollection<3>       mappings(mapping);
+  hp::FEValues<3>                      hp_values(mappings,
                             dof_handler.get_fe_collection(),
                             quadrature,
                             update_values | update_gradients | update_JxW_values);
@@ -77,9 +77,9 @@ apply_by_values(const Mapping<3>                &mapping,
     if (cell->is_locally_owned())
       {
         hp_values.reinit(cell);
-        const FEValues<3>  &values = hp_values.get_present_fe_values();
-        const unsigned int  n      = values.dofs_per_cell;
-        Vector<double>      local(n);
+        const FEValues<3> &values = hp_values.get_present_fe_values();
+        const unsigned int n      = values.dofs_per_cell;
+        Vector<double>     local(n);
         dofs.resize(n);
         cell->get_dof_indices(dofs);
         for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
@@ -95,9 +95,9 @@ apply_by_values(const Mapping<3>                &mapping,
             for (unsigned int i = 0; i < n; ++i)
               {
                 const unsigned int c = cell->get_fe().system_to_component_index(i).first;
-                local(i) += (value[c] * values.shape_value(i, q) +
-                             gradient[c] * values.shape_grad(i, q)) *
-                            values.JxW(q);
+                local(i) +=
+                  (value[c] * values.shape_value(i, q) + gradient[c] * values.shape_grad(i, q)) *
+                  values.JxW(q);
               }
           }
         constraints.distribute_local_to_global(local, dofs, y);

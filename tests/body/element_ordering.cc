@@ -38,7 +38,8 @@ main()
     {
       Triangulation<3> triangulation;
       create_shape(shape, 3, triangulation);
-      verdict(shape + ": ordered after turning its cells", mortise::is_consistently_ordered(triangulation));
+      verdict(shape + ": ordered after turning its cells",
+              mortise::is_consistently_ordered(triangulation));
     }
 
   Triangulation<3> cube, turned;

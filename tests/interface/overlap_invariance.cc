@@ -72,7 +72,8 @@ namespace
                                           faces(moved(master, scale, none), master_grid));
         verdict(name + ", lengths times " + (scale < 1 ? "1e-3" : "1e6"),
                 difference(base, other),
-                1e-12);
+                // Where rounding decides on one more point, the rule's own accuracy shows.
+                grid.degree == 1 ? 1e-12 : 2e-11);
       }
     const Tensor<1, 3> far({1000., -700., 1200.});
     const Signature    other =

@@ -5,6 +5,7 @@
 #include <mortise/problem/parameter_schema.h>
 #include <mortise/problem/parameters.h>
 
+#include <exception>
 #include <functional>
 #include <iostream>
 #include <string>
@@ -34,6 +35,10 @@ namespace parameter_checks
     catch (const InputError &e)
       {
         return e.what();
+      }
+    catch (const std::exception &e)
+      {
+        return std::string("another kind of error: ") + e.what();
       }
   }
 

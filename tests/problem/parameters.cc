@@ -52,7 +52,7 @@ namespace
             "points");
     verdict(p.output.resultants.size() == 1 && p.output.resultants[0].boundary == "inside",
             "resultants");
-    verdict(p.where("Body inner/Degree") == "Body inner / Degree (line 6 of dir/two_cubes.prm)",
+    verdict(p.where("Body inner/Degree") == "Body inner/Degree (line 6 of dir/two_cubes.prm)",
             "origin of a value",
             p.where("Body inner/Degree"));
   }
@@ -188,7 +188,7 @@ namespace
     verdict(!fs::exists(root / "new"), "the check makes no directory");
     check_message("a directory below a file",
                   [&] { check((root / "file/new").string()); },
-                  {"Output / Directory (--set", "file/new", "not a directory"});
+                  {"Output/Directory (--set", "file/new", "not a directory"});
     check_message("a directory that is a file",
                   [&] { check((root / "file").string()); },
                   {"not a directory"});

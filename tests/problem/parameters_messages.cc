@@ -109,18 +109,18 @@ namespace
     check_edit("a slave of no body",
                "inner: outside",
                "iner: outside",
-               {"Interface glue / Slave (line 38 of a.prm)",
+               {"Interface glue/Slave (line 38 of a.prm)",
                 "no body \"iner\"",
                 "did you mean \"inner\"",
                 "inner, outer"});
     check_edit("an interface without master",
                "  set Master = outer: inside\n",
                "",
-               {"Interface glue / Master: got \"\"", "body: boundary"});
+               {"Interface glue/Master: got \"\"", "body: boundary"});
     check_edit("a side without boundary",
                "outer: inside",
                "outer",
-               {"Interface glue / Master", "\"outer\"", "body: boundary"});
+               {"Interface glue/Master", "\"outer\"", "body: boundary"});
     const std::vector<std::vector<std::string>> names = {{"inside", "outside", "xmin", "zmin"},
                                                          {"inside", "outside"}};
     check_message("all boundaries exist",
@@ -132,25 +132,34 @@ namespace
                       parse_parameters(edited("Boundary inside", "Boundary insid"), "a.prm"),
                       names);
                   },
-                  {"Body inner / Boundary insid (line 19 of a.prm)",
+                  {"Body inner/Boundary insid (line 19 of a.prm)",
                    "\"inner\"",
                    "no boundary \"insid\"",
                    "did you mean \"inside\"",
                    "inside, outside, xmin, zmin"});
+    check_message("a boundary subsection of no boundary, by --set",
+                  [&] {
+                    check_boundary_names(parse_parameters(scene,
+                                                          "a.prm",
+                                                          {"Body inner/Boundary insid/Pressure=1"}),
+                                         names);
+                  },
+                  {"Body inner/Boundary insid (--set \"Body inner/Boundary insid/Pressure=1\")",
+                   "no boundary \"insid\""});
     check_message("a master that is no boundary",
                   [&] {
                     check_boundary_names(parse_parameters(edited("outer: inside", "outer: inner"),
                                                           "a.prm"),
                                          names);
                   },
-                  {"Interface glue / Master", "no boundary \"inner\"", "inside, outside"});
+                  {"Interface glue/Master", "no boundary \"inner\"", "inside, outside"});
     check_message("a resultant on no boundary",
                   [&] {
                     check_boundary_names(
                       parse_parameters(edited("push: inner: inside", "push: outer: xmin"), "a.prm"),
                       names);
                   },
-                  {"Output / Resultants", "no boundary \"xmin\"", "inside, outside"});
+                  {"Output/Resultants", "no boundary \"xmin\"", "inside, outside"});
   }
 
   void
@@ -188,17 +197,17 @@ namespace
     check_edit("two components",
                "Traction     = exact",
                "Traction = 1; 2",
-               {"Body inner / Boundary zmin / Traction (line 23",
+               {"Body inner/Boundary zmin/Traction (line 23",
                 "got \"1; 2\"",
                 "2 components, not 3"});
     check_edit("an expression that does not parse",
                "Pressure     = 1 + x",
                "Pressure = 1 + q",
-               {"Body inner / Boundary inside / Pressure (line 20 of a.prm)", "q"});
+               {"Body inner/Boundary inside/Pressure (line 20 of a.prm)", "q"});
     check_edit("a component that does not parse",
                "0, -, pow(x, 2)",
                "0, -, pow(x, 2",
-               {"Boundary xmin / Displacement (line 26 of a.prm)"});
+               {"Boundary xmin/Displacement (line 26 of a.prm)"});
     check_edit("an empty component",
                "0, -, pow(x, 2)",
                "0, , 1",
@@ -210,26 +219,26 @@ namespace
     check_edit("a body force of one number",
                "0; pow(x, 2); max(y, z)",
                "1",
-               {"Body inner / Body force", "got \"1\"", "auto"});
+               {"Body inner/Body force", "got \"1\"", "auto"});
     check_edit("exact without an exact solution",
                "Displacement = thick sphere",
                "Displacement =",
-               {"Boundary zmin / Traction", "\"exact\"", "Exact solution / Displacement"});
+               {"Boundary zmin/Traction", "\"exact\"", "Exact solution/Displacement"});
     check_edit("an exact pressure with a solution that follows from it",
                "Pressure     = 1 + x",
                "Pressure = exact",
-               {"Boundary inside / Pressure", "\"exact\"", "constant Pressure"});
+               {"Boundary inside/Pressure", "\"exact\"", "constant Pressure"});
     check_setting("a traction with a solution that follows from the pressure",
                   "Body inner/Boundary inside/Traction=exact",
-                  {"Boundary inside / Traction", "constant Pressure"});
+                  {"Boundary inside/Traction", "constant Pressure"});
     check_edit("a misspelled exact solution",
                "= thick sphere",
                "= thick spere",
-               {"Exact solution / Displacement", "thick spere", "did you mean \"thick sphere\""});
+               {"Exact solution/Displacement", "thick spere", "did you mean \"thick sphere\""});
     check_edit("an exact solution that does not parse",
                "= thick sphere",
                "= x; y; foo(z)",
-               {"Exact solution / Displacement", "component z", "foo"});
+               {"Exact solution/Displacement", "component z", "foo"});
     check_edit("a region without degree",
                "3: 4; 5: 1",
                "3: 4; 5",
@@ -238,23 +247,23 @@ namespace
     check_edit("a point of no body",
                "corner: outer:",
                "corner: outr:",
-               {"Output / Points", "no body \"outr\"", "did you mean \"outer\""});
+               {"Output/Points", "no body \"outr\"", "did you mean \"outer\""});
     check_edit("a point with two coordinates",
                "2, 0, 0;",
                "2, 0;",
-               {"Output / Points", "got \"2, 0\"", "x, y, z"});
+               {"Output/Points", "got \"2, 0\"", "x, y, z"});
     check_edit("a resultant without boundary",
                "push: inner: inside",
                "push: inner",
-               {"Output / Resultants", "name: body: boundary"});
+               {"Output/Resultants", "name: body: boundary"});
     check_edit("an unknown field",
                "displacement, traction",
                "displacement, tractions",
-               {"Output / Fields", "got \"tractions\"", "did you mean \"traction\"", "stress"});
+               {"Output/Fields", "got \"tractions\"", "did you mean \"traction\"", "stress"});
     check_edit("two quantities of one name",
                "push: inner",
                "corner: inner",
-               {"Output / Resultants", "\"corner\"", "differ"});
+               {"Output/Resultants", "\"corner\"", "differ"});
   }
 
   void
@@ -271,22 +280,20 @@ namespace
     check_edit("a negative Young's modulus",
                "Young modulus = 10",
                "Young modulus = -10",
-               {"Body inner / Material / Young modulus (line 15", "got -10", "positive"});
-    check_edit("Poisson's ratio 0.5",
-               "ratio = 0.25",
-               "ratio = 0.5",
-               {"Body inner / Material / Poisson ratio (line 16",
-                "got 0.5",
-                "below 0.5",
-                "not available yet"});
+               {"Body inner/Material/Young modulus (line 15", "got -10", "positive"});
+    check_edit(
+      "Poisson's ratio 0.5",
+      "ratio = 0.25",
+      "ratio = 0.5",
+      {"Body inner/Material/Poisson ratio (line 16", "got 0.5", "below 0.5", "not available yet"});
     check_edit("Poisson's ratio -1",
                "ratio = 0.25",
                "ratio = -1",
                {"Poisson ratio", "got -1", "above -1"});
     check_setting("tolerance 1",
                   "Solver/Tolerance=1",
-                  {"Solver / Tolerance (--set", "got 1", "between 0 and 1"});
-    check_setting("tolerance 0", "Solver/Tolerance=0", {"Solver / Tolerance", "got 0"});
+                  {"Solver/Tolerance (--set", "got 1", "between 0 and 1"});
+    check_setting("tolerance 0", "Solver/Tolerance=0", {"Solver/Tolerance", "got 0"});
     check_setting("no iterations",
                   "Solver/Max iterations=0",
                   {"Max iterations", "got \"0\"", "1 or more"});
@@ -295,21 +302,21 @@ namespace
                   {"Refinements", "got \"-1\"", "0 or more"});
     check_setting("tetrahedra",
                   "Body inner/Mesh/Cells=tetrahedra",
-                  {"Body inner / Mesh / Cells", "not available yet", "hexahedra"});
+                  {"Body inner/Mesh/Cells", "not available yet", "hexahedra"});
     check_setting("radii in the wrong order",
                   "Body inner/Mesh/Extent=2, 1",
-                  {"Body inner / Mesh", "Extent", "r_in < r_out"});
+                  {"Body inner/Mesh", "Extent", "r_in < r_out"});
     check_setting("a mesh file that is missing",
                   "Body inner/Mesh/Source=file",
-                  {"Body inner / Mesh (line 8 of a.prm)", "file"});
+                  {"Body inner/Mesh (line 8 of a.prm)", "file"});
     check_edit("slave and master the same",
                "outer: inside",
                "inner: outside",
-               {"Interface glue / Master (line 39", "inner: outside", "which is the slave"});
+               {"Interface glue/Master (line 39", "inner: outside", "which is the slave"});
     check_edit("a slave with a displacement",
                "inner: outside",
                "inner: xmin",
-               {"Interface glue / Slave (line 38",
+               {"Interface glue/Slave (line 38",
                 "prescribed displacement",
                 "exchange slave and master"});
     check_setting("a law that does not exist",
@@ -328,7 +335,7 @@ namespace
                                               {"Interface tape/Slave=outer: inside",
                                                "Interface tape/Master=inner: outside"}));
                   },
-                  {"Interface tape / Slave", "interface glue", "once"});
+                  {"Interface tape/Slave", "interface glue", "once"});
     check_message(
       "two interfaces of one body with itself",
       [] { validate(parse_parameters(scene, "a.prm", {"Interface glue/Master=inner: inside"})); },

@@ -71,7 +71,7 @@ namespace mortise
 
     const dealii::DoFHandler<3> &dof_handler;
     bool                         uniform;
-    Entity                       line_degrees, quad_degrees;                ///< by index
+    Entity                       line_degrees, quad_degrees;                 ///< by index
     Entity                       vertex_element, line_element, quad_element; ///< by index
   };
 } // namespace mortise

@@ -56,19 +56,17 @@ namespace mortise
 
     /// Exact embedding of a cell's function in its child, isotropic refinement only.
     const dealii::FullMatrix<double> &
-    get_prolongation_matrix(
-      unsigned int                     child,
-      const dealii::RefinementCase<3> &refinement_case =
-        dealii::RefinementCase<3>::isotropic_refinement) const override;
+    get_prolongation_matrix(unsigned int                     child,
+                            const dealii::RefinementCase<3> &refinement_case =
+                              dealii::RefinementCase<3>::isotropic_refinement) const override;
 
     /// Projection-based interpolation of a function given on the children, isotropic refinement
     /// only: values at vertices, then orthogonal in the H1-seminorm direction by direction. The
     /// contributions of the children add up (restriction_is_additive() is true).
     const dealii::FullMatrix<double> &
-    get_restriction_matrix(
-      unsigned int                     child,
-      const dealii::RefinementCase<3> &refinement_case =
-        dealii::RefinementCase<3>::isotropic_refinement) const override;
+    get_restriction_matrix(unsigned int                     child,
+                           const dealii::RefinementCase<3> &refinement_case =
+                             dealii::RefinementCase<3>::isotropic_refinement) const override;
 
     bool
     hp_constraints_are_implemented() const override;

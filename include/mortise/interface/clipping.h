@@ -80,17 +80,19 @@ namespace mortise
     void
     subdivide(const unsigned int edge, const double tau_0, const double tau_1, unsigned int depth);
     void
-    locate(const unsigned int begin);
+    locate(const unsigned int begin, const bool has_guess);
     void
     locate_breakpoints();
     void
     check_segments();
+    static double
+    on_cubic(const Breakpoint &a, const Breakpoint &b, const unsigned int i, const double t);
     bool
     check_segment(Segment &segment, const Breakpoint &middle) const;
     void
     find_crossings(const unsigned int segment, const unsigned int side);
     void
-    sample_segment(const unsigned int segment, const unsigned int side);
+    sample_segment(const unsigned int segment, const unsigned int side, const unsigned int rounds);
     void
     solve_crossings();
     void
@@ -98,7 +100,7 @@ namespace mortise
     void
     solve_by_sections(Crossing &crossing);
     void
-    pull_back_edge(const unsigned int edge, const Lanes &tau, Lanes (&xi)[2], const unsigned int n);
+    pull_back_segment(const Segment &segment, const Lanes &tau, Lanes (&xi)[2]);
     void
     build_pieces();
     void

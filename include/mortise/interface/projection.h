@@ -31,6 +31,13 @@ namespace mortise
     void
     chart(const Vec3<Lanes> &x, Lanes (&xi)[2], Lanes &height) const;
 
+    /// The same for one point: {xi_1, xi_2, height}.
+    std::array<double, 3>
+    chart(const Vec3<double> &x) const
+    {
+      return {{0.5 + dot(x, center_dual[0]), 0.5 + dot(x, center_dual[1]), dot(x, height_dual)}};
+    }
+
     /// Position, derivatives and normal field at points of the face.
     void
     evaluate(const Lanes (&xi)[2], Vec3<Lanes> &x, Vec3<Lanes> (&dx)[2]) const;
@@ -38,9 +45,9 @@ namespace mortise
     Vec3<Lanes>
     normal(const Lanes (&xi)[2]) const;
 
-    /// What a Newton step needs at any xi: the face continued by its tangents outside of the
-    /// reference square (continuously, and well defined however far away), the normal field
-    /// continued as a constant, and dx[i] + alpha dn/dxi_i.
+    /// What a Newton step needs at any xi: the face continued a little beyond the reference square
+    /// by its polynomial and then by its tangents (continuously, and well defined however far
+    /// away), the normal field continued in the same way, and dx[i] + alpha dn/dxi_i.
     void
     evaluate_extended(const Lanes (&xi)[2],
                       const Lanes &alpha,
@@ -138,9 +145,11 @@ namespace mortise
   inline unsigned int
   lanes_above(const Lanes &a, const Lanes &b)
   {
-    unsigned int result = 0;
+    const Lanes bit  = {1., 2., 4., 8., 16., 32., 64., 128.};
+    const Lanes bits = a <= b ? broadcast(0.) : bit;
+    double      sum  = 0;
     for (unsigned int l = 0; l < n_lanes; ++l)
-      result |= static_cast<unsigned int>(!(a[l] <= b[l])) << l;
-    return result;
+      sum += bits[l];
+    return static_cast<unsigned int>(sum);
   }
 } // namespace mortise

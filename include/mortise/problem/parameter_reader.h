@@ -22,7 +22,7 @@ namespace mortise
                     const Parameters               &parameters,
                     const std::vector<std::string> &sections);
 
-    /// "Body inner / Degree (line 7 of FILE)"
+    /// "Body inner/Degree (line 7 of FILE)"
     std::string
     where(const std::string &name) const;
 

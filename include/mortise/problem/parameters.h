@@ -135,7 +135,7 @@ namespace mortise
     std::map<std::string, std::string>
       origins; ///< "Body inner/Degree" -> "line 7 of FILE", "--set"
 
-    /// "Body inner / Degree (line 7 of scene.prm)"; without the parentheses for a default.
+    /// "Body inner/Degree (line 7 of scene.prm)"; without the parentheses for a default.
     std::string
     where(const std::string &path) const;
 
