@@ -1,4 +1,5 @@
 #include <mortise/body/entity_degrees.h>
+#include <mortise/body/fe_legendre.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,14 +17,6 @@ namespace mortise
   namespace
   {
     constexpr unsigned char no_element = 255;
-
-    /// Number of components n of an element FESystem(FE_Legendre(p), n), 1 for a scalar one.
-    unsigned int
-    n_components(const FiniteElement<3> &fe)
-    {
-      Assert(fe.n_base_elements() == 1, ExcMessage("one base element is needed"));
-      return fe.n_components();
-    }
   } // namespace
 
   EntityDegrees::EntityDegrees(const DoFHandler<3> &dof_handler)
@@ -31,6 +24,12 @@ namespace mortise
   {
     AssertThrow(dof_handler.get_fe_collection().size() < no_element,
                 ExcMessage("at most 254 elements in a collection"));
+    for (unsigned int i = 0; i < dof_handler.get_fe_collection().size(); ++i)
+      AssertThrow(dof_handler.get_fe(i).n_base_elements() == 1 &&
+                    dynamic_cast<const FE_Legendre *>(&dof_handler.get_fe(i).base_element(0)),
+                  ExcMessage("EntityDegrees: the elements must be FE_Legendre or "
+                             "FESystem(FE_Legendre(p), n); got " +
+                             dof_handler.get_fe(i).get_name()));
     unsigned int smallest = no_element, largest = 0;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -193,7 +192,7 @@ namespace mortise
 
     const FiniteElement<3> &fe         = cell->get_fe();
     const auto             &fes        = dof_handler.get_fe_collection();
-    const unsigned int      components = n_components(fe);
+    const unsigned int      components = fe.n_components();
     const unsigned int      n          = fe.degree - 1;
     constexpr auto          zero       = numbers::invalid_dof_index;
 

@@ -4,6 +4,7 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace mortise
@@ -15,10 +16,10 @@ namespace mortise
     using CellIterator = EntityDegrees::CellIterator;
     using Dofs         = std::vector<types::global_dof_index>;
 
-    /// Direction of line @p l of a cell and its place (0, 1) in the other two directions.
+    /// Direction of each line of a cell.
     constexpr unsigned int line_direction[12] = {1, 1, 0, 0, 1, 1, 0, 0, 2, 2, 2, 2};
 
-    /// One degree of freedom as a combination of others, which are kept when the line is made.
+    /// One degree of freedom as a combination of others (of none: zero).
     struct Line
     {
       types::global_dof_index                                 dof;
@@ -33,7 +34,6 @@ namespace mortise
       explicit LocalNumbering(const FiniteElement<3> &fe)
         : n(fe.degree + 1)
         , fe(fe)
-        , cell(cell_dof_indices(fe.degree))
       {
         for (unsigned int f = 0; f < 6; ++f)
           faces[f] = face_dof_indices(fe.degree, f);
@@ -61,7 +61,6 @@ namespace mortise
 
     private:
       const FiniteElement<3>   &fe;
-      std::vector<unsigned int> cell;
       std::vector<unsigned int> faces[6];
     };
 
@@ -278,6 +277,9 @@ namespace mortise
                               const EntityDegrees       &degrees,
                               AffineConstraints<double> &constraints)
   {
+    AssertThrow(is_consistently_ordered(dof_handler.get_triangulation()),
+                ExcMessage("make_conformity_constraints: the cells are not ordered consistently; "
+                           "try GridTools::consistently_order_cells on the coarse cells"));
     if (degrees.one_degree() && !dof_handler.get_triangulation().has_hanging_nodes())
       {
         constraints.reinit(all_dofs(dof_handler, {}));

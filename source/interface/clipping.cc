@@ -6,37 +6,10 @@ namespace mortise
 {
   namespace
   {
-    // Reference coordinates this close to a side are on it.
-    constexpr double on_side = 1e-13;
-
-    // Sides of the square: 0: xi_1 >= 0, 1: xi_1 <= 1, 2: xi_2 >= 0, 3: xi_2 <= 1.
-    inline double
-    inside_by(const double (&xi)[2], const unsigned int side)
-    {
-      return side % 2 == 0 ? xi[side / 2] : 1. - xi[side / 2];
-    }
-
     inline double
     snapped(const double f)
     {
       return std::abs(f) <= on_side ? 0. : f;
-    }
-
-    inline void
-    snap_to_sides(double (&xi)[2])
-    {
-      for (auto &x : xi)
-        x = std::abs(x) <= on_side ? 0. : std::abs(1. - x) <= on_side ? 1. : x;
-    }
-
-    // Both points are outside on one of the sides of the other coordinate: a crossing between
-    // them is of no interest.
-    inline bool
-    both_beside(const double (&a)[2], const double (&b)[2], const unsigned int side)
-    {
-      const unsigned int other = 1 - side / 2;
-      return (a[other] < -on_side && b[other] < -on_side) ||
-             (a[other] > 1. + on_side && b[other] > 1. + on_side);
     }
 
     // Cubic on [0,1] with values f and slopes d at the ends.
@@ -44,7 +17,8 @@ namespace mortise
     cubic(const double f_0, const double f_1, const double d_0, const double d_1, const double t)
     {
       const double s = 1. - t;
-      return s * s * (1. + 2. * t) * f_0 + t * t * (1. + 2. * s) * f_1 + s * t * (s * d_0 - t * d_1);
+      return s * s * (1. + 2. * t) * f_0 + t * t * (1. + 2. * s) * f_1 +
+             s * t * (s * d_0 - t * d_1);
     }
 
     // The value nearest to zero of the cubic with these ends and slopes at seven inner points,
@@ -145,10 +119,9 @@ namespace mortise
       }
     const double height   = std::min(std::max(high[2], -low[2]), slave->height_limit);
     const double widening = slave->twist() * height;
-    const bool   far      = low[0] > slave->near_upper[0] + widening ||
-                     high[0] < slave->near_lower[0] - widening ||
-                     low[1] > slave->near_upper[1] + widening ||
-                     high[1] < slave->near_lower[1] - widening;
+    const bool   far =
+      low[0] > slave->near_upper[0] + widening || high[0] < slave->near_lower[0] - widening ||
+      low[1] > slave->near_upper[1] + widening || high[1] < slave->near_lower[1] - widening;
     const bool simple = bend <= flat_enough && (slave->linear() || length <= short_enough);
     if (far || simple || depth >= max_depth)
       {
@@ -353,12 +326,12 @@ namespace mortise
                               const unsigned int side,
                               const unsigned int rounds)
   {
-    const Breakpoint  &a    = breakpoints[segments[segment].first];
-    const Breakpoint  &b    = breakpoints[segments[segment].last];
-    const double       f_a  = snapped(inside_by(a.xi, side));
-    const double       f_b  = snapped(inside_by(b.xi, side));
-    const double       sign = f_a + f_b >= 0 ? 1. : -1.;
-    double             low = a.tau, high = b.tau;
+    const Breakpoint &a    = breakpoints[segments[segment].first];
+    const Breakpoint &b    = breakpoints[segments[segment].last];
+    const double      f_a  = snapped(inside_by(a.xi, side));
+    const double      f_b  = snapped(inside_by(b.xi, side));
+    const double      sign = f_a + f_b >= 0 ? 1. : -1.;
+    double            low = a.tau, high = b.tau;
     for (unsigned int round = 0; round < rounds; ++round)
       {
         Lanes tau, xi[2];
@@ -370,10 +343,10 @@ namespace mortise
         unsigned int n_found = 0, best = 0;
         for (unsigned int l = 0; l <= n_lanes; ++l)
           {
-            const bool   last      = l == n_lanes;
-            const double x[2]      = {last ? b.xi[0] : xi[0][l], last ? b.xi[1] : xi[1][l]};
-            const double f         = last ? f_b : snapped(inside_by(x, side));
-            const double here      = last ? b.tau : tau[l];
+            const bool   last = l == n_lanes;
+            const double x[2] = {last ? b.xi[0] : xi[0][l], last ? b.xi[1] : xi[1][l]};
+            const double f    = last ? f_b : snapped(inside_by(x, side));
+            const double here = last ? b.tau : tau[l];
             if (f * previous < 0)
               {
                 ++n_found;
@@ -420,122 +393,5 @@ namespace mortise
     Lanes alpha{};
     if (slave->pull_back(x, true, xi, alpha) != 0)
       failed = true;
-  }
-
-
-
-  void
-  LoopClipper::solve_crossings()
-  {
-    for (unsigned int begin = 0; begin < crossings.size(); begin += n_lanes)
-      solve_batch(begin, std::min<unsigned int>(n_lanes, crossings.size() - begin));
-    for (auto &crossing : crossings)
-      {
-        if (!(crossing.tau >= crossing.tau_0 && crossing.tau <= crossing.tau_1))
-          solve_by_sections(crossing);
-        crossing.xi[crossing.side / 2] = crossing.side % 2;
-        snap_to_sides(crossing.xi);
-      }
-  }
-
-
-
-  // Newton's method for x_m(tau) = x_s(xi) + alpha n(xi) with one coordinate of xi held on its
-  // side: unknowns are tau, the other coordinate and alpha. What leaves its bracket or does not
-  // converge keeps a tau that is not a number.
-  void
-  LoopClipper::solve_batch(const unsigned int begin, const unsigned int n)
-  {
-    Lanes        tau, xi[2], alpha, on_first, low, high;
-    unsigned int edge[n_lanes];
-    for (unsigned int l = 0; l < n_lanes; ++l)
-      {
-        const Crossing   &crossing = crossings[begin + std::min(l, n - 1)];
-        const Breakpoint &a        = breakpoints[segments[crossing.segment].first];
-        const Breakpoint &b        = breakpoints[segments[crossing.segment].last];
-        const double      weight   = crossing.f_0 / (crossing.f_0 - crossing.f_1);
-        const unsigned    fixed    = crossing.side / 2;
-        edge[l]                    = a.edge;
-        low[l]                     = crossing.tau_0;
-        high[l]                    = crossing.tau_1;
-        tau[l]         = crossing.tau_0 + weight * (crossing.tau_1 - crossing.tau_0);
-        const double t = (tau[l] - a.tau) / (b.tau - a.tau);
-        xi[0][l]       = (1 - t) * a.xi[0] + t * b.xi[0];
-        xi[1][l]       = (1 - t) * a.xi[1] + t * b.xi[1];
-        xi[fixed][l]   = crossing.side % 2;
-        on_first[l]    = fixed == 0 ? 1. : 0.;
-      }
-    Vec3<Lanes> x_m, dx_m;
-    evaluate_edges(master->edges, edge, tau, x_m, dx_m);
-    Lanes ignored[2];
-    slave->chart(x_m, ignored, alpha);
-    const Lanes  slack  = 1e-12 * (high - low);
-    unsigned int active = (1u << n_lanes) - 1;
-    for (unsigned int iteration = 0; active != 0 && iteration < 12; ++iteration)
-      {
-        Vec3<Lanes> x_s, dx[2], normal;
-        slave->evaluate_extended(xi, alpha, x_s, dx, normal);
-        const Vec3<Lanes> free = on_first * dx[1] + (1. - on_first) * dx[0];
-        Lanes             step[3];
-        solve_3x3(dx_m, free, normal, x_s - x_m, step);
-        tau += step[0];
-        xi[0] -= (1. - on_first) * step[1];
-        xi[1] -= on_first * step[1];
-        alpha = -step[2];
-        tau   = minimum(maximum(tau, low - 0.5 * (high - low)), high + 0.5 * (high - low));
-        const Lanes change = maximum(absolute(step[0]) / (high - low), absolute(step[1]));
-        if (iteration > 0)
-          active &= lanes_above(change, broadcast(3e-8));
-        evaluate_edges(master->edges, edge, tau, x_m, dx_m);
-      }
-    for (unsigned int l = 0; l < n; ++l)
-      {
-        Crossing  &crossing = crossings[begin + l];
-        const bool good     = (active & (1u << l)) == 0 && tau[l] >= low[l] - slack[l] &&
-                          tau[l] <= high[l] + slack[l];
-        crossing.tau   = good ? std::min(std::max(tau[l], low[l]), high[l]) : std::nan("");
-        crossing.xi[0] = xi[0][l];
-        crossing.xi[1] = xi[1][l];
-      }
-  }
-
-
-
-  // The safe way: nine-fold sections of the bracket.
-  void
-  LoopClipper::solve_by_sections(Crossing &crossing)
-  {
-    double low = crossing.tau_0, high = crossing.tau_1;
-    double ends[2][2];
-    bool   known[2] = {false, false};
-    for (unsigned int round = 0; round < 17; ++round)
-      {
-        Lanes tau, xi[2];
-        for (unsigned int l = 0; l < n_lanes; ++l)
-          tau[l] = low + (high - low) * (l + 1.) / (n_lanes + 1.);
-        pull_back_segment(segments[crossing.segment], tau, xi);
-        for (unsigned int l = 0; l < n_lanes; ++l)
-          {
-            const double here[2] = {xi[0][l], xi[1][l]};
-            const double f       = inside_by(here, crossing.side);
-            const bool   beyond  = f * crossing.f_0 <= 0;
-            (beyond ? high : low) = tau[l];
-            known[beyond]         = true;
-            std::copy(here, here + 2, ends[beyond]);
-            if (std::abs(f) <= on_side)
-              {
-                std::copy(here, here + 2, crossing.xi);
-                crossing.tau = tau[l];
-                return;
-              }
-            if (beyond)
-              break;
-          }
-        if (known[0] && known[1] && both_beside(ends[0], ends[1], crossing.side))
-          break;
-      }
-    // Of no interest, or a jump of the continuation far away: its place does not matter.
-    std::copy(ends[known[1]], ends[known[1]] + 2, crossing.xi);
-    crossing.tau = 0.5 * (low + high);
   }
 } // namespace mortise

@@ -10,18 +10,129 @@ namespace mortise
     // runs along that side.
     constexpr double along_side = 1e-12;
 
-    inline double
-    inside_by(const double (&xi)[2], const unsigned int side)
-    {
-      return side % 2 == 0 ? xi[side / 2] : 1. - xi[side / 2];
-    }
-
     inline bool
     same_point(const double (&a)[2], const double (&b)[2])
     {
       return a[0] == b[0] && a[1] == b[1];
     }
   } // namespace
+
+
+
+  void
+  LoopClipper::solve_crossings()
+  {
+    for (unsigned int begin = 0; begin < crossings.size(); begin += n_lanes)
+      solve_batch(begin, std::min<unsigned int>(n_lanes, crossings.size() - begin));
+    for (auto &crossing : crossings)
+      {
+        if (!(crossing.tau >= crossing.tau_0 && crossing.tau <= crossing.tau_1))
+          solve_by_sections(crossing);
+        crossing.xi[crossing.side / 2] = crossing.side % 2;
+        snap_to_sides(crossing.xi);
+      }
+  }
+
+
+
+  // Newton's method for x_m(tau) = x_s(xi) + alpha n(xi) with one coordinate of xi held on its
+  // side: unknowns are tau, the other coordinate and alpha. What leaves its bracket or does not
+  // converge keeps a tau that is not a number.
+  void
+  LoopClipper::solve_batch(const unsigned int begin, const unsigned int n)
+  {
+    Lanes        tau, xi[2], alpha, on_first, low, high;
+    unsigned int edge[n_lanes];
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      {
+        const Crossing   &crossing = crossings[begin + std::min(l, n - 1)];
+        const Breakpoint &a        = breakpoints[segments[crossing.segment].first];
+        const Breakpoint &b        = breakpoints[segments[crossing.segment].last];
+        const double      weight   = crossing.f_0 / (crossing.f_0 - crossing.f_1);
+        const unsigned    fixed    = crossing.side / 2;
+        edge[l]                    = a.edge;
+        low[l]                     = crossing.tau_0;
+        high[l]                    = crossing.tau_1;
+        tau[l]                     = crossing.tau_0 + weight * (crossing.tau_1 - crossing.tau_0);
+        const double t             = (tau[l] - a.tau) / (b.tau - a.tau);
+        xi[0][l]                   = (1 - t) * a.xi[0] + t * b.xi[0];
+        xi[1][l]                   = (1 - t) * a.xi[1] + t * b.xi[1];
+        xi[fixed][l]               = crossing.side % 2;
+        on_first[l]                = fixed == 0 ? 1. : 0.;
+      }
+    Vec3<Lanes> x_m, dx_m;
+    evaluate_edges(master->edges, edge, tau, x_m, dx_m);
+    Lanes ignored[2];
+    slave->chart(x_m, ignored, alpha);
+    const Lanes  slack  = 1e-12 * (high - low);
+    unsigned int active = (1u << n_lanes) - 1;
+    for (unsigned int iteration = 0; active != 0 && iteration < 12; ++iteration)
+      {
+        Vec3<Lanes> x_s, dx[2], normal;
+        slave->evaluate_extended(xi, alpha, x_s, dx, normal);
+        const Vec3<Lanes> free = on_first * dx[1] + (1. - on_first) * dx[0];
+        Lanes             step[3];
+        solve_3x3(dx_m, free, normal, x_s - x_m, step);
+        tau += step[0];
+        xi[0] -= (1. - on_first) * step[1];
+        xi[1] -= on_first * step[1];
+        alpha = -step[2];
+        tau   = minimum(maximum(tau, low - 0.5 * (high - low)), high + 0.5 * (high - low));
+        const Lanes change = maximum(absolute(step[0]) / (high - low), absolute(step[1]));
+        if (iteration > 0)
+          active &= lanes_above(change, broadcast(3e-8));
+        evaluate_edges(master->edges, edge, tau, x_m, dx_m);
+      }
+    for (unsigned int l = 0; l < n; ++l)
+      {
+        Crossing  &crossing = crossings[begin + l];
+        const bool good =
+          (active & (1u << l)) == 0 && tau[l] >= low[l] - slack[l] && tau[l] <= high[l] + slack[l];
+        crossing.tau   = good ? std::min(std::max(tau[l], low[l]), high[l]) : std::nan("");
+        crossing.xi[0] = xi[0][l];
+        crossing.xi[1] = xi[1][l];
+      }
+  }
+
+
+
+  // The safe way: nine-fold sections of the bracket.
+  void
+  LoopClipper::solve_by_sections(Crossing &crossing)
+  {
+    double low = crossing.tau_0, high = crossing.tau_1;
+    double ends[2][2];
+    bool   known[2] = {false, false};
+    for (unsigned int round = 0; round < 17; ++round)
+      {
+        Lanes tau, xi[2];
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          tau[l] = low + (high - low) * (l + 1.) / (n_lanes + 1.);
+        pull_back_segment(segments[crossing.segment], tau, xi);
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          {
+            const double here[2]  = {xi[0][l], xi[1][l]};
+            const double f        = inside_by(here, crossing.side);
+            const bool   beyond   = f * crossing.f_0 <= 0;
+            (beyond ? high : low) = tau[l];
+            known[beyond]         = true;
+            std::copy(here, here + 2, ends[beyond]);
+            if (std::abs(f) <= on_side)
+              {
+                std::copy(here, here + 2, crossing.xi);
+                crossing.tau = tau[l];
+                return;
+              }
+            if (beyond)
+              break;
+          }
+        if (known[0] && known[1] && both_beside(ends[0], ends[1], crossing.side))
+          break;
+      }
+    // Of no interest, or a jump of the continuation far away: its place does not matter.
+    std::copy(ends[known[1]], ends[known[1]] + 2, crossing.xi);
+    crossing.tau = 0.5 * (low + high);
+  }
 
 
 
@@ -38,9 +149,9 @@ namespace mortise
         const Breakpoint &a = breakpoints[segments[s].first];
         const Breakpoint &b = breakpoints[segments[s].last];
         LoopPiece         piece;
-        piece.edge    = a.edge;
-        piece.has_mid = segments[s].checked &&
-                        (next == crossings.size() || crossings[next].segment != s);
+        piece.edge = a.edge;
+        piece.has_mid =
+          segments[s].checked && (next == crossings.size() || crossings[next].segment != s);
         std::copy(segments[s].mid, segments[s].mid + 2, piece.mid);
         piece.tau_p = a.tau;
         std::copy(a.xi, a.xi + 2, piece.p);
@@ -217,39 +328,5 @@ namespace mortise
     if (!inside_box) // a loop whose area is rounding only
       std::copy(base, base + 2, centroid);
     whole_slave = straight && std::abs(std::abs(area) - 1.) <= 1e-13;
-  }
-
-
-
-  void
-  clip_to_unit_square(ConvexPolygon &polygon)
-  {
-    ConvexPolygon result;
-    for (unsigned int side = 0; side < 4 && polygon.n > 0; ++side)
-      {
-        result.n = 0;
-        for (unsigned int i = 0; i < polygon.n; ++i)
-          {
-            const double(&p)[2] = polygon.x[i];
-            const double(&q)[2] = polygon.x[i + 1 < polygon.n ? i + 1 : 0];
-            const double f_p = inside_by(p, side), f_q = inside_by(q, side);
-            if (f_p >= 0)
-              {
-                result.x[result.n][0]   = p[0];
-                result.x[result.n++][1] = p[1];
-              }
-            if ((f_p > 0 && f_q < 0) || (f_p < 0 && f_q > 0))
-              {
-                // From the inner to the outer end, whichever way the edge is run through.
-                const double(&in)[2] = f_p > 0 ? p : q, (&out)[2] = f_p > 0 ? q : p;
-                const double f_in = std::max(f_p, f_q), f_out = std::min(f_p, f_q);
-                const double t     = f_in / (f_in - f_out);
-                const unsigned int o = 1 - side / 2;
-                result.x[result.n][side / 2] = side % 2;
-                result.x[result.n++][o]      = in[o] + t * (out[o] - in[o]);
-              }
-          }
-        polygon = result;
-      }
   }
 } // namespace mortise

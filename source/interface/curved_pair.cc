@@ -127,9 +127,9 @@ namespace mortise
     void
     choose_apex(const LoopClipper &clipper, double (&apex)[2])
     {
-      apex[0]            = clipper.centroid[0];
-      apex[1]            = clipper.centroid[1];
-      unsigned int most  = 0;
+      apex[0]           = clipper.centroid[0];
+      apex[1]           = clipper.centroid[1];
+      unsigned int most = 0;
       for (const auto &candidate : clipper.loop)
         {
           unsigned int n = 0;
@@ -166,9 +166,9 @@ namespace mortise
             {
               double r[2], determinant = twice;
               for (unsigned int i = 0; i < 2; ++i)
-                r[i] = (piece.edge < 0 ? piece.p[i] + rule.point[j] * d[i] :
-                                         scratch.gamma[i][next]) -
-                       c[i];
+                r[i] =
+                  (piece.edge < 0 ? piece.p[i] + rule.point[j] * d[i] : scratch.gamma[i][next]) -
+                  c[i];
               if (piece.edge >= 0)
                 {
                   determinant =
@@ -251,9 +251,9 @@ namespace mortise
               store(origin[d] + x_m[d], count, &points.master_x[d][begin]);
             }
         }
-      return normals_agree                        ? PairStatus::normals_agree :
+      return normals_agree                          ? PairStatus::normals_agree :
              !(result.max_gap <= scratch.gap_limit) ? PairStatus::too_far :
-                                                    PairStatus::accepted;
+                                                      PairStatus::accepted;
     }
 
     struct Judgement
@@ -315,10 +315,10 @@ namespace mortise
       scratch.slave.evaluate(xi, x_s, dx_s);
       const Vec3<Lanes>  n      = scratch.slave.normal(xi);
       const unsigned int failed = scratch.master.project(x_s, n, false, eta, alpha, x_m, slope);
-      const PairStatus   status = (failed & 1u) != 0                          ? PairStatus::failed :
-                                  slope[0] >= 0                               ? PairStatus::normals_agree :
+      const PairStatus   status = (failed & 1u) != 0 ? PairStatus::failed :
+                                  slope[0] >= 0      ? PairStatus::normals_agree :
                                   std::abs(alpha[0]) > 2 * scratch.gap_limit ? PairStatus::too_far :
-                                                                                PairStatus::accepted;
+                                                                               PairStatus::accepted;
       return {status,
               std::max({1e-10,
                         variation(dot(n, cross(dx_s[0], dx_s[1]))),

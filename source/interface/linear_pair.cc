@@ -11,6 +11,48 @@ namespace mortise
     // Overlaps below this fraction of the slave's reference square are rounding.
     constexpr double empty_area = 1e-15;
 
+    /// A convex polygon with few corners.
+    struct ConvexPolygon
+    {
+      static constexpr unsigned int max_corners = 16;
+
+      unsigned int n = 0;
+      double       x[max_corners][2];
+    };
+
+    /// Sutherland and Hodgman for straight edges: the part of @p polygon in [0,1]^2.
+    void
+    clip_to_unit_square(ConvexPolygon &polygon)
+    {
+      ConvexPolygon result;
+      for (unsigned int side = 0; side < 4 && polygon.n > 0; ++side)
+        {
+          result.n = 0;
+          for (unsigned int i = 0; i < polygon.n; ++i)
+            {
+              const double(&p)[2] = polygon.x[i];
+              const double(&q)[2] = polygon.x[i + 1 < polygon.n ? i + 1 : 0];
+              const double f_p = inside_by(p, side), f_q = inside_by(q, side);
+              if (f_p >= 0)
+                {
+                  result.x[result.n][0]   = p[0];
+                  result.x[result.n++][1] = p[1];
+                }
+              if ((f_p > 0 && f_q < 0) || (f_p < 0 && f_q > 0))
+                {
+                  // From the inner to the outer end, whichever way the edge is run through.
+                  const double(&in)[2] = f_p > 0 ? p : q, (&out)[2] = f_p > 0 ? q : p;
+                  const double       f_in = std::max(f_p, f_q), f_out = std::min(f_p, f_q);
+                  const double       t         = f_in / (f_in - f_out);
+                  const unsigned int o         = 1 - side / 2;
+                  result.x[result.n][side / 2] = side % 2;
+                  result.x[result.n++][o]      = in[o] + t * (out[o] - in[o]);
+                }
+            }
+          polygon = result;
+        }
+    }
+
     double
     area_of(const ConvexPolygon &polygon)
     {
@@ -68,17 +110,17 @@ namespace mortise
               const unsigned int offset,
               IntegrationPoints &points)
     {
-      const unsigned int n = rule.tensor_weight.size();
+      const unsigned int n       = rule.tensor_weight.size();
       const double *__restrict s = rule.s.data(), *__restrict t = rule.t.data();
-      const double *__restrict w      = rule.tensor_weight.data();
-      double *__restrict xi_1         = points.slave_xi[0].data() + offset;
-      double *__restrict xi_2         = points.slave_xi[1].data() + offset;
-      double *__restrict weight       = points.weight.data() + offset;
+      const double *__restrict w = rule.tensor_weight.data();
+      double *__restrict xi_1    = points.slave_xi[0].data() + offset;
+      double *__restrict xi_2    = points.slave_xi[1].data() + offset;
+      double *__restrict weight  = points.weight.data() + offset;
       for (unsigned int q = 0; q < n; ++q)
         {
           const double st = s[q] * t[q];
-          xi_1[q] = cell.a[0] + s[q] * cell.b[0] + t[q] * cell.c[0] + st * cell.d[0];
-          xi_2[q] = cell.a[1] + s[q] * cell.b[1] + t[q] * cell.c[1] + st * cell.d[1];
+          xi_1[q]         = cell.a[0] + s[q] * cell.b[0] + t[q] * cell.c[0] + st * cell.d[0];
+          xi_2[q]         = cell.a[1] + s[q] * cell.b[1] + t[q] * cell.c[1] + st * cell.d[1];
           const double determinant =
             (cell.b[0] + t[q] * cell.d[0]) * (cell.c[1] + s[q] * cell.d[1]) -
             (cell.b[1] + t[q] * cell.d[1]) * (cell.c[0] + s[q] * cell.d[0]);
@@ -87,8 +129,7 @@ namespace mortise
       const auto fill = [&](const Affine &map, std::vector<double> &values) {
         double *__restrict value = values.data() + offset;
         for (unsigned int q = 0; q < n; ++q)
-          value[q] =
-            map.value + (xi_1[q] - 0.5) * map.slope[0] + (xi_2[q] - 0.5) * map.slope[1];
+          value[q] = map.value + (xi_1[q] - 0.5) * map.slope[0] + (xi_2[q] - 0.5) * map.slope[1];
       };
       for (unsigned int i = 0; i < 2; ++i)
         fill(maps.eta[i], points.master_eta[i]);
@@ -110,7 +151,7 @@ namespace mortise
   {
     PairResult          result;
     const FaceFrame    &s_frame = scratch.slave_frame, &m_frame = master.frame;
-    const Tensor<1, 3> &n = s_frame.normal;
+    const Tensor<1, 3> &n      = s_frame.normal;
     const Tensor<1, 3>  s_area = cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
     const Tensor<1, 3>  m_area = cross_product_3d(m_frame.tangent[0], m_frame.tangent[1]);
 
@@ -124,7 +165,7 @@ namespace mortise
           A[i][j] = s_frame.dual[i] * m_frame.tangent[j];
       }
     ConvexPolygon polygon;
-    polygon.n                         = 4;
+    polygon.n                     = 4;
     constexpr double corner[4][2] = {{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}};
     for (unsigned int v = 0; v < 4; ++v)
       for (unsigned int i = 0; i < 2; ++i)
@@ -160,10 +201,10 @@ namespace mortise
         maps.master_x[d].value += s_frame.center[d];
       }
     for (unsigned int v = 0; v < polygon.n; ++v)
-      result.max_gap = std::max(result.max_gap,
-                                std::abs(maps.gap.value +
-                                         (polygon.x[v][0] - .5) * maps.gap.slope[0] +
-                                         (polygon.x[v][1] - .5) * maps.gap.slope[1]));
+      result.max_gap =
+        std::max(result.max_gap,
+                 std::abs(maps.gap.value + (polygon.x[v][0] - .5) * maps.gap.slope[0] +
+                          (polygon.x[v][1] - .5) * maps.gap.slope[1]));
     if (!(result.max_gap <= scratch.gap_limit))
       {
         result.status = PairStatus::too_far;
@@ -171,7 +212,7 @@ namespace mortise
       }
 
     Cell cells[ConvexPolygon::max_corners];
-    result.n_cells         = cut_into_cells(polygon, cells);
+    result.n_cells          = cut_into_cells(polygon, cells);
     const GaussRule   &rule = scratch.rule(0.);
     const unsigned int n_q  = rule.tensor_weight.size();
     points.resize(result.n_cells * n_q);

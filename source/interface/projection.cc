@@ -50,10 +50,9 @@ namespace mortise
       {
         // Outside of the face its tangents continue it, so the distance between the chart and the
         // true coordinates grows in proportion: twice the deviation on the face and a half.
-        const double deviation =
-          std::max({0., -frame.chart_lower[i], frame.chart_upper[i] - 1.});
-        near_lower[i] = is_linear ? 0. : -0.5 - 3. * deviation;
-        near_upper[i] = is_linear ? 1. : 1.5 + 3. * deviation;
+        const double deviation = std::max({0., -frame.chart_lower[i], frame.chart_upper[i] - 1.});
+        near_lower[i]          = is_linear ? 0. : -0.5 - 3. * deviation;
+        near_upper[i]          = is_linear ? 1. : 1.5 + 3. * deviation;
       }
     height_limit = slave.size;
   }
@@ -98,11 +97,12 @@ namespace mortise
                               Vec3<Lanes> &n) const
   {
     const Lanes zero = broadcast(0.), low = broadcast(-margin), high = broadcast(1. + margin);
-    const Lanes inside[2] = {minimum(maximum(xi[0], low), high), minimum(maximum(xi[1], low), high)};
+    const Lanes inside[2]  = {minimum(maximum(xi[0], low), high),
+                              minimum(maximum(xi[1], low), high)};
     const Lanes outside[2] = {xi[0] - inside[0], xi[1] - inside[1]};
     polynomial.evaluate(inside[0], inside[1], x, dx);
-    x = x + outside[0] * dx[0] + outside[1] * dx[1];
-    n = normal(inside);
+    x                   = x + outside[0] * dx[0] + outside[1] * dx[1];
+    n                   = normal(inside);
     const Lanes alpha_1 = outside[0] == 0. ? alpha : zero;
     const Lanes alpha_2 = outside[1] == 0. ? alpha : zero;
     for (unsigned int d = 0; d < 3; ++d)
@@ -132,9 +132,10 @@ namespace mortise
       return 0;
 
     const Lanes widening = normal_twist * minimum(absolute(height), broadcast(height_limit));
-    const Lanes distance = maximum(maximum(near_lower[0] - chart_xi[0], chart_xi[0] - near_upper[0]),
-                                   maximum(near_lower[1] - chart_xi[1], chart_xi[1] - near_upper[1]));
-    const unsigned int near  = lanes_above(widening, distance);
+    const Lanes distance =
+      maximum(maximum(near_lower[0] - chart_xi[0], chart_xi[0] - near_upper[0]),
+              maximum(near_lower[1] - chart_xi[1], chart_xi[1] - near_upper[1]));
+    const unsigned int near   = lanes_above(widening, distance);
     unsigned int       active = near;
     for (unsigned int iteration = 0; active != 0 && iteration < max_iterations; ++iteration)
       {
@@ -163,8 +164,8 @@ namespace mortise
     unsigned int failed = 0;
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
-        const unsigned int bit = 1u << l;
-        const bool beside = chart_xi[0][l] < frame.chart_lower[0] - 0.05 ||
+        const unsigned int bit    = 1u << l;
+        const bool         beside = chart_xi[0][l] < frame.chart_lower[0] - 0.05 ||
                             chart_xi[0][l] > frame.chart_upper[0] + 0.05 ||
                             chart_xi[1][l] < frame.chart_lower[1] - 0.05 ||
                             chart_xi[1][l] > frame.chart_upper[1] + 0.05;
@@ -194,13 +195,15 @@ namespace mortise
         dxi[1] = dot(dx, center_dual[1]);
         return;
       }
-    // x_m' = (dx_s/dxi + alpha dn/dxi) xi' + alpha' n
+    // x_m' = (dx_s/dxi + alpha dn/dxi) xi' + alpha' n; far away the chart's, as in pull_back().
     Vec3<Lanes> x_s, dx_s[2], n;
     evaluate_extended(xi, alpha, x_s, dx_s, n);
     Lanes rate[3];
     solve_3x3(dx_s[0], dx_s[1], n, dx, rate);
-    dxi[0] = rate[0];
-    dxi[1] = rate[1];
+    const Lanes beyond = maximum(maximum(near_lower[0] - xi[0], xi[0] - near_upper[0]),
+                                 maximum(near_lower[1] - xi[1], xi[1] - near_upper[1]));
+    for (unsigned int i = 0; i < 2; ++i)
+      dxi[i] = beyond > 0. ? dot(dx, center_dual[i]) : rate[i];
   }
 
 
@@ -246,13 +249,35 @@ namespace mortise
           }
       }
 
-    unsigned int active = (1u << n_lanes) - 1;
+    unsigned int failed = iterate(x, n, eta, alpha, x_m, slope);
+    if (failed != 0)
+      {
+        // A strongly curved face: its linear picture was no good beginning.
+        nearest_samples(x, n, failed, eta);
+        failed = iterate(x, n, eta, alpha, x_m, slope);
+      }
+    return failed;
+  }
+
+
+
+  unsigned int
+  MasterMap::iterate(const Vec3<Lanes> &x,
+                     const Vec3<Lanes> &n,
+                     Lanes (&eta)[2],
+                     Lanes       &alpha,
+                     Vec3<Lanes> &x_m,
+                     Lanes       &slope) const
+  {
+    const Vec3<Lanes> minus_n = {{-n[0], -n[1], -n[2]}};
+    unsigned int      active  = (1u << n_lanes) - 1;
     for (unsigned int iteration = 0; active != 0 && iteration < max_iterations; ++iteration)
       {
         // A partner lies on the face; farther out the polynomial means nothing.
         for (auto &e : eta)
           e = minimum(maximum(e, broadcast(-0.5)), broadcast(1.5));
         Vec3<Lanes> dx[2];
+        Lanes       step[3];
         polynomial.evaluate(eta[0], eta[1], x_m, dx);
         solve_3x3(dx[0], dx[1], minus_n, x - x_m, step);
         eta[0] += step[0];
@@ -260,9 +285,37 @@ namespace mortise
         alpha = step[2];
         x_m   = x_m + step[0] * dx[0] + step[1] * dx[1];
         slope = orientation * dot(n, cross(dx[0], dx[1]));
-        active = lanes_above(maximum(absolute(step[0]), absolute(step[1])),
-                             broadcast(step_tolerance));
+        active =
+          lanes_above(maximum(absolute(step[0]), absolute(step[1])), broadcast(step_tolerance));
       }
     return active;
+  }
+
+
+
+  void
+  MasterMap::nearest_samples(const Vec3<Lanes> &x,
+                             const Vec3<Lanes> &n,
+                             const unsigned int wanted,
+                             Lanes (&eta)[2]) const
+  {
+    constexpr unsigned int n_samples = 7;
+    Lanes                  chosen, best = broadcast(1e300);
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      chosen[l] = (wanted & (1u << l)) != 0 ? 1. : 0.;
+    for (unsigned int i = 0; i < n_samples * n_samples; ++i)
+      {
+        const Lanes e[2] = {broadcast((i % n_samples + 0.5) / n_samples),
+                            broadcast((i / n_samples + 0.5) / n_samples)};
+        Vec3<Lanes> x_m, dx[2];
+        polynomial.evaluate(e[0], e[1], x_m, dx);
+        const Vec3<Lanes> off      = cross(x_m - x, n);
+        const Lanes       facing   = orientation * dot(n, cross(dx[0], dx[1]));
+        const Lanes       distance = facing < 0. ? dot(off, off) : broadcast(1e200);
+        const Lanes       better   = distance < best ? chosen : broadcast(0.);
+        best                       = minimum(best, distance);
+        for (unsigned int d = 0; d < 2; ++d)
+          eta[d] = better > 0. ? e[d] : eta[d];
+      }
   }
 } // namespace mortise

@@ -48,7 +48,7 @@ namespace mortise
       serialize(Archive &archive, const unsigned int /*version*/)
       {
         for (unsigned int d = 0; d < 3; ++d)
-          archive &lower[d] &upper[d];
+          archive &lower[d] & upper[d];
       }
     };
 
@@ -88,8 +88,8 @@ namespace mortise
           const double b = (v / 2 % 2 == 0 ? frame.chart_lower[1] : frame.chart_upper[1]) - 0.5;
           const Tensor<1, 3> in_plane = a * frame.tangent[0] + b * frame.tangent[1];
           const double       height   = v < 4 ? frame.height_lower : frame.height_upper;
-          prism.corner[v] = frame.center + in_plane +
-                            (height - in_plane * frame.normal) * frame.normal;
+          prism.corner[v] =
+            frame.center + in_plane + (height - in_plane * frame.normal) * frame.normal;
         }
       return prism;
     }

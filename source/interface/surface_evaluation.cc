@@ -111,8 +111,8 @@ namespace mortise
     LagrangeBasis
     make_basis(const unsigned int degree)
     {
-      LagrangeBasis            basis{};
-      const QGaussLobatto<1>   nodes(degree + 1);
+      LagrangeBasis          basis{};
+      const QGaussLobatto<1> nodes(degree + 1);
       basis.degree = degree;
       for (unsigned int i = 0; i <= degree; ++i)
         basis.node[i] = nodes.point(i)[0];
@@ -121,7 +121,7 @@ namespace mortise
       for (unsigned int i = 0; i <= degree; ++i)
         {
           long double  weight = 1, monomial[max_face_nodes] = {1};
-          unsigned int order  = 0;
+          unsigned int order = 0;
           for (unsigned int j = 0; j <= degree; ++j)
             if (j != i)
               {

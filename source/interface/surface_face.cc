@@ -55,8 +55,7 @@ namespace mortise
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int k = 0; k < n; ++k)
             for (unsigned int d = 0; d < 3; ++d)
-              rows[j * n + i][d] +=
-                basis.bernstein[i][k] * polynomial.coefficients[d][j * n + k];
+              rows[j * n + i][d] += basis.bernstein[i][k] * polynomial.coefficients[d][j * n + k];
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int k = 0; k < n; ++k)
@@ -68,11 +67,11 @@ namespace mortise
     bool
     is_parallelogram(const SurfaceFace &face)
     {
-      const LagrangeBasis  &basis     = lagrange_basis(face.degree);
-      const double          tolerance = flat_tolerance(face) * face.size;
-      const unsigned int    n         = face.degree + 1;
-      const Tensor<1, 3>    a     = face.points[face.degree] - face.points[0];
-      const Tensor<1, 3>    b     = face.points[n * face.degree] - face.points[0];
+      const LagrangeBasis &basis     = lagrange_basis(face.degree);
+      const double         tolerance = flat_tolerance(face) * face.size;
+      const unsigned int   n         = face.degree + 1;
+      const Tensor<1, 3>   a         = face.points[face.degree] - face.points[0];
+      const Tensor<1, 3>   b         = face.points[n * face.degree] - face.points[0];
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
           if ((face.points[j * n + i] - face.points[0] - basis.node[i] * a - basis.node[j] * b)
@@ -114,8 +113,7 @@ namespace mortise
         frame.normal += normal;
       frame.normal /= frame.normal.norm();
       // dual[0] = t_2 x n / (t_1 . t_2 x n), dual[1] = n x t_1 / (...)
-      const double volume =
-        cross_product_3d(center.dx[0], center.dx[1]) * frame.normal;
+      const double volume = cross_product_3d(center.dx[0], center.dx[1]) * frame.normal;
       if (!(std::abs(volume) > 1e-10 * face.size * face.size * 1e-2))
         throw InputError("Surface face " + std::to_string(face.id) +
                          ": no area at its centre, or normals that lie in its plane.");
@@ -131,9 +129,9 @@ namespace mortise
   {
     check(*this);
     const unsigned int n = degree + 1;
-    size = std::max((points[n * n - 1] - points[0]).norm(),
+    size                 = std::max((points[n * n - 1] - points[0]).norm(),
                     (points[degree] - points[n * degree]).norm());
-    affine = is_parallelogram(*this);
+    affine               = is_parallelogram(*this);
 
     if (std::all_of(vertex_normals.begin(), vertex_normals.end(), [](const auto &normal) {
           return normal.norm_square() == 0.;
@@ -187,7 +185,7 @@ namespace mortise
     for (unsigned int v = 0; v < 4; ++v)
       {
         const PointOnFace point = evaluate(polynomial, v % 2, v / 2);
-        result[v] = face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
+        result[v]               = face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
       }
     return result;
   }
@@ -222,11 +220,17 @@ namespace mortise
   {
     FacePolynomial polynomial;
     polynomial.reinit(face, face.frame.center);
-    const GaussRule &rule = gauss_rule(n > 0 ? n : face.affine ? 1 : face.degree + 8);
-    double          area = 0;
+    // A face that bends far away from its plane needs more points.
+    const double       rise   = (face.frame.height_upper - face.frame.height_lower) / face.size;
+    const unsigned int enough = face.affine ? 1 :
+                                              face.degree + (rise < 0.05 ? 6 :
+                                                             rise < 0.15 ? 9 :
+                                                                           16);
+    const GaussRule   &rule   = gauss_rule(n > 0 ? n : enough);
+    double             area   = 0;
     for (unsigned int q = 0; q < rule.s.size(); q += n_lanes)
       {
-        Lanes              xi[2] = {broadcast(0.5), broadcast(0.5)}, weight{};
+        Lanes              xi[2]    = {broadcast(0.5), broadcast(0.5)}, weight{};
         const unsigned int n_active = std::min<unsigned int>(n_lanes, rule.s.size() - q);
         for (unsigned int l = 0; l < n_active; ++l)
           {

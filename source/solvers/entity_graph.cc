@@ -5,7 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <numeric>
+#include <set>
 
 namespace mortise
 {
@@ -32,7 +32,10 @@ namespace mortise
     const auto n_blocks = static_cast<int>(system.entity_blocks.size());
     const auto counts   = Utilities::MPI::all_gather(system.communicator, n_blocks);
     const auto rank     = Utilities::MPI::this_mpi_process(system.communicator);
-    first_block         = std::accumulate(counts.begin(), counts.begin() + rank, 0);
+    rank_start.assign(1, 0);
+    for (const int count : counts)
+      rank_start.push_back(rank_start.back() + count);
+    first_block = rank_start[rank];
 
     const auto first = first_displacement(system);
     block_of_dof.assign(system.owned_displacement.n_elements(), -1);
@@ -44,6 +47,7 @@ namespace mortise
       vertex[block_of_dof[i - first] - first_block] = true;
     connect(system);
     find_interiors(system);
+    fetch_ghosts(system);
   }
 
   void
@@ -129,32 +133,68 @@ namespace mortise
       }
   }
 
-  std::vector<std::vector<unsigned int>>
-  EntityGraph::patches() const
+  void
+  EntityGraph::fetch_ghosts(const BlockSystem &system)
   {
-    std::vector<std::vector<unsigned int>> result;
-    std::vector<bool>                      covered(interior);
+    std::map<unsigned int, std::vector<int>> requests;
+    {
+      std::set<int> wanted;
+      for (unsigned int v = 0; v < neighbors.size(); ++v)
+        if (vertex[v])
+          for (const int o : neighbors[v])
+            if (!is_owned(o))
+              wanted.insert(o);
+      for (const int o : wanted)
+        requests[std::upper_bound(rank_start.begin(), rank_start.end(), o) - rank_start.begin() - 1]
+          .push_back(o);
+    }
+    std::map<unsigned int, std::vector<std::pair<int, Ghost>>> answers;
+    for (const auto &from : Utilities::MPI::some_to_some(system.communicator, requests))
+      for (const int o : from.second)
+        {
+          const unsigned int b = o - first_block;
+          answers[from.first].push_back(
+            {o, {system.entity_blocks[b], neighbors[b], jump_neighbors[b], interior[b]}});
+        }
+    for (auto &from : Utilities::MPI::some_to_some(system.communicator, answers))
+      for (auto &answer : from.second)
+        ghosts.insert(std::move(answer));
+  }
+
+  std::vector<std::vector<types::global_dof_index>>
+  EntityGraph::patches(const BlockSystem &system) const
+  {
+    std::vector<std::vector<types::global_dof_index>> result;
+    std::vector<bool>                                 covered(interior);
+    const auto belongs = [&](const unsigned int      v,
+                             const std::vector<int> &around,
+                             const std::vector<int> &jump_around) {
+      return contains(neighbors[v], around) ||
+             (jump_around.size() > 1 && contains(jump_neighbors[v], jump_around));
+    };
     for (unsigned int v = 0; v < neighbors.size(); ++v)
       if (vertex[v])
         {
-          std::vector<unsigned int> patch;
+          result.emplace_back();
+          auto &patch = result.back();
           for (const int o : neighbors[v])
-            if (const unsigned int b = o - first_block; is_owned(o) && !interior[b])
+            if (is_owned(o))
               {
-                const bool in_star = contains(neighbors[v], neighbors[b]);
-                const bool across  = jump_neighbors[b].size() > 1 &&
-                                    contains(jump_neighbors[v], jump_neighbors[b]);
-                if (in_star || across)
+                const unsigned int b = o - first_block;
+                if (!interior[b] && belongs(v, neighbors[b], jump_neighbors[b]))
                   {
-                    patch.push_back(b);
+                    const auto &dofs = system.entity_blocks[b];
+                    patch.insert(patch.end(), dofs.begin(), dofs.end());
                     covered[b] = true;
                   }
               }
-          result.push_back(std::move(patch));
+            else if (const Ghost &ghost = ghosts.at(o);
+                     !ghost.interior && belongs(v, ghost.neighbors, ghost.jump_neighbors))
+              patch.insert(patch.end(), ghost.dofs.begin(), ghost.dofs.end());
         }
     for (unsigned int b = 0; b < neighbors.size(); ++b)
       if (!covered[b])
-        result.push_back({b});
+        result.push_back(system.entity_blocks[b]);
     return result;
   }
 } // namespace mortise

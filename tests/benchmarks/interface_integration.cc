@@ -55,8 +55,17 @@ main(int argc, char **argv)
 {
   const unsigned int largest = argc > 1 ? std::atoi(argv[1]) : 128;
   std::printf("%-22s %8s %8s %8s %9s %7s %9s %8s %8s %11s %10s\n",
-              "case", "slaves", "masters", "pairs", "cells", "cand/p", "points", "search/s",
-              "total/s", "overlaps/s", "ns/point");
+              "case",
+              "slaves",
+              "masters",
+              "pairs",
+              "cells",
+              "cand/p",
+              "points",
+              "search/s",
+              "total/s",
+              "overlaps/s",
+              "ns/point");
   for (const unsigned int degree : {1u, 2u})
     for (unsigned int n = 32; n <= largest; n *= 2)
       {

@@ -209,7 +209,7 @@ projection_error(const FiniteElement<3> &fe, const unsigned int p)
   SparseMatrix<double> mass(sparsity);
   Vector<double>       rhs(dof_handler.n_dofs()), u(dof_handler.n_dofs());
 
-  const QGauss<3> quadrature(p + 2);
+  const QGauss<3> quadrature(p + 1);
   FEValues<3>     values(mapping,
                      fe,
                      quadrature,
@@ -229,9 +229,12 @@ projection_error(const FiniteElement<3> &fe, const unsigned int p)
           {
             const double vi = values.shape_value(i, q) * values.JxW(q);
             local_rhs(i) += vi * f(values.quadrature_point(q));
-            for (unsigned int j = 0; j < dofs.size(); ++j)
+            for (unsigned int j = 0; j <= i; ++j)
               local(i, j) += vi * values.shape_value(j, q);
           }
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        for (unsigned int j = i + 1; j < dofs.size(); ++j)
+          local(i, j) = local(j, i);
       cell->get_dof_indices(dofs);
       constraints.distribute_local_to_global(local, local_rhs, dofs, mass, rhs);
     }

@@ -61,14 +61,14 @@ namespace
     };
     const Total total = integrate(owned_slaves, near, 3, collect(got));
     integrate(owned_slaves, masters, 3, collect(expected));
-    const bool   same      = got == expected;
-    const double area      = Utilities::MPI::sum(total.sum.covered_area, comm);
-    const double all_area  = integrate(slaves, masters, 3).sum.covered_area;
-    const unsigned   pairs = Utilities::MPI::sum(total.sum.n_pairs, comm);
-    const unsigned   all   = integrate(slaves, masters, 3).sum.n_pairs;
-    const double bad       = Utilities::MPI::max((sorted && intact && same) ? 0. : 1., comm);
-    const bool   too_many  = only_first_has_slaves && rank > 0 && !near.empty();
-    const double extra     = Utilities::MPI::max(too_many ? 1. : 0., comm);
+    const bool     same     = got == expected;
+    const double   area     = Utilities::MPI::sum(total.sum.covered_area, comm);
+    const double   all_area = integrate(slaves, masters, 3).sum.covered_area;
+    const unsigned pairs    = Utilities::MPI::sum(total.sum.n_pairs, comm);
+    const unsigned all      = integrate(slaves, masters, 3).sum.n_pairs;
+    const double   bad      = Utilities::MPI::max((sorted && intact && same) ? 0. : 1., comm);
+    const bool     too_many = only_first_has_slaves && rank > 0 && !near.empty();
+    const double   extra    = Utilities::MPI::max(too_many ? 1. : 0., comm);
     if (rank == 0)
       {
         verdict(name + ": sorted, intact, the same pairs as with all masters", bad, 0);

@@ -32,8 +32,7 @@ namespace
         polynomial.evaluate(xi_1 + (i == 0 ? h : 0.), xi_2 + (i == 1 ? h : 0.), b, ignored);
         polynomial.evaluate(xi_1 - (i == 0 ? h : 0.), xi_2 - (i == 1 ? h : 0.), a, ignored);
         for (unsigned int d = 0; d < 3; ++d)
-          derivative =
-            std::max(derivative, largest(absolute((b[d] - a[d]) / (2 * h) - dx[i][d])));
+          derivative = std::max(derivative, largest(absolute((b[d] - a[d]) / (2 * h) - dx[i][d])));
       }
     EdgePolynomial edges[4];
     unsigned int   edge[n_lanes];
@@ -61,8 +60,8 @@ namespace
   void
   check_geometry(const unsigned int degree)
   {
-    const std::string name = "degree " + std::to_string(degree);
-    const auto        all  = faces(sphere(2.), {3, 2, degree});
+    const std::string name    = "degree " + std::to_string(degree);
+    const auto        all     = faces(sphere(2.), {3, 2, degree});
     double            outside = 0, normal_error = 0, chart_error = 0;
     for (const auto &face : all)
       {
@@ -76,8 +75,8 @@ namespace
                 {
                   const double chart = 0.5 + face.frame.dual[c] * (x - face.frame.center);
                   chart_error        = std::max({chart_error,
-                                          face.frame.chart_lower[c] - chart,
-                                          chart - face.frame.chart_upper[c]});
+                                                 face.frame.chart_lower[c] - chart,
+                                                 chart - face.frame.chart_upper[c]});
                 }
             }
         for (unsigned int v = 0; v < 4; ++v)
@@ -99,8 +98,10 @@ namespace
       for (const double error : {1e-13, 1e-10})
         {
           SurfaceFace face;
-          for (const Point<3> &x :
-               {Point<3>(0, 0, 0), Point<3>(1, 0, 1), Point<3>(0.5, 1, 0), Point<3>(1.5, 1 + error, 1)})
+          for (const Point<3> &x : {Point<3>(0, 0, 0),
+                                    Point<3>(1, 0, 1),
+                                    Point<3>(0.5, 1, 0),
+                                    Point<3>(1.5, 1 + error, 1)})
             face.points.push_back(Point<3>(size * x));
           face.finalize();
           const bool expected = error < 1e-12;
@@ -122,7 +123,7 @@ namespace
   {
     // The cube's sides projected to the sphere: six patches cover it.
     const Surface patch = [](const double u, const double v) {
-      const double a = std::tan((u - 0.5) * 0.5 * M_PI), b = std::tan((v - 0.5) * 0.5 * M_PI);
+      const double   a = std::tan((u - 0.5) * 0.5 * M_PI), b = std::tan((v - 0.5) * 0.5 * M_PI);
       const Point<3> p(1., a, b);
       return Point<3>(p / p.norm());
     };
@@ -159,7 +160,9 @@ namespace
     bad = good;
     for (auto &point : bad.points)
       point = Point<3>(point[0], 0, 0);
-    verdict("a face without area is refused", message_of(bad).find("no area") == std::string::npos, 0);
+    verdict("a face without area is refused",
+            message_of(bad).find("no area") == std::string::npos,
+            0);
     bad              = good;
     bad.points[3][1] = std::nan("");
     verdict("a coordinate that is not a number is refused",
@@ -170,17 +173,17 @@ namespace
   void
   check_serialization()
   {
-    SurfaceFace face = faces(sphere(), {2, 2, 3})[2];
-    face.payload     = {'a', 'b', 'c'};
-    face.owner       = 7;
-    const SurfaceFace copy =
-      dealii::Utilities::unpack<SurfaceFace>(dealii::Utilities::pack(face));
-    const bool same = copy.points == face.points && copy.id == face.id && copy.owner == 7 &&
+    SurfaceFace face       = faces(sphere(), {2, 2, 3})[2];
+    face.payload           = {'a', 'b', 'c'};
+    face.owner             = 7;
+    const SurfaceFace copy = dealii::Utilities::unpack<SurfaceFace>(dealii::Utilities::pack(face));
+    const bool        same = copy.points == face.points && copy.id == face.id && copy.owner == 7 &&
                       copy.payload == face.payload && copy.degree == face.degree &&
                       copy.orientation == face.orientation && copy.lower == face.lower &&
                       copy.upper == face.upper && copy.affine == face.affine &&
                       copy.vertex_normals == face.vertex_normals && copy.size == face.size &&
-                      copy.frame.dual == face.frame.dual && copy.frame.center == face.frame.center &&
+                      copy.frame.dual == face.frame.dual &&
+                      copy.frame.center == face.frame.center &&
                       copy.frame.chart_upper == face.frame.chart_upper &&
                       copy.frame.height_upper == face.frame.height_upper;
     verdict("a face survives its journey", same ? 0 : 1, 0);

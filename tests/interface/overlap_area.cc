@@ -27,8 +27,8 @@ namespace
     for (const auto &ratio : std::vector<std::array<unsigned int, 2>>{
            {{1, 1}}, {{5, 5}}, {{2, 3}}, {{7, 11}}, {{1, 20}}, {{20, 1}}, {{1, 50}}, {{50, 1}}})
       {
-        ratios = std::max(ratios,
-                          worst_of(plane(), {ratio[0], ratio[0]}, plane(), {ratio[1], ratio[1]}));
+        ratios =
+          std::max(ratios, worst_of(plane(), {ratio[0], ratio[0]}, plane(), {ratio[1], ratio[1]}));
         for (const double degrees : {1e-12, 20., 45.})
           turned = std::max(turned,
                             worst_of(plane(),
@@ -61,16 +61,16 @@ namespace
              std::vector<std::array<unsigned int, 2>>{{{4, 6}}, {{6, 4}}, {{5, 5}}, {{7, 11}}})
           {
             // The sphere's masters reach beyond the slaves; the cylinder's rims are the same.
-            ratios = std::max({ratios,
-                               worst_of(sphere(),
-                                        {ratio[0], ratio[0], g},
-                                        sphere(),
-                                        {ratio[1], ratio[1], g, -0.1, 1.1, -0.1, 1.1}),
-                               worst_of(cylinder(), {ratio[0], 3, g}, cylinder(), {ratio[1], 2, g})});
+            ratios =
+              std::max({ratios,
+                        worst_of(sphere(),
+                                 {ratio[0], ratio[0], g},
+                                 sphere(),
+                                 {ratio[1], ratio[1], g, -0.1, 1.1, -0.1, 1.1}),
+                        worst_of(cylinder(), {ratio[0], 3, g}, cylinder(), {ratio[1], 2, g})});
           }
         if (g <= 4)
-          for (const auto &ratio :
-               std::vector<std::array<unsigned int, 2>>{{{2, 100}}, {{100, 2}}})
+          for (const auto &ratio : std::vector<std::array<unsigned int, 2>>{{{2, 100}}, {{100, 2}}})
             extreme = std::max(extreme,
                                worst_of(cylinder(),
                                         {ratio[0], ratio[0] / 2, g},

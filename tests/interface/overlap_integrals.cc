@@ -23,7 +23,8 @@ namespace
     explicit Moments(const unsigned int p)
       : p(p)
       , values((p + 1) * (p + 1))
-    {}
+    {
+    }
 
     void
     add(const double x, const double y, const double weight)
@@ -71,13 +72,13 @@ namespace
             const unsigned int              p,
             const unsigned int              n_points = 0)
   {
-    Errors                          errors;
+    Errors                           errors;
     std::map<std::uint64_t, Moments> slave_moments, master_moments;
-    const auto                      visit = [&](const SurfaceFace       &slave,
-                           const SurfaceFace       &master,
+    const auto                       visit = [&](const SurfaceFace &slave,
+                           const SurfaceFace &master,
                            const PairResult &,
                            const IntegrationPoints &points) {
-      Moments &on_slave  = slave_moments.emplace(slave.id, Moments(p)).first->second;
+      Moments &on_slave = slave_moments.emplace(slave.id, Moments(p)).first->second;
       Moments &on_master = master_moments.emplace(master.id, Moments(p)).first->second;
       for (unsigned int q = 0; q < points.size(); ++q)
         {
@@ -90,9 +91,9 @@ namespace
           const Point<3> x_m(points.master_x[0][q], points.master_x[1][q], points.master_x[2][q]);
           const double   size = std::min(slave.size, master.size);
           errors.rule         = std::max({errors.rule,
-                                  (x_s - face_point(slave, xi)).norm() / size,
-                                  (x_m - face_point(master, eta)).norm() / size,
-                                  (x_m - x_s - points.gap[q] * n / n.norm()).norm() / size});
+                                          (x_s - face_point(slave, xi)).norm() / size,
+                                          (x_m - face_point(master, eta)).norm() / size,
+                                          (x_m - x_s - points.gap[q] * n / n.norm()).norm() / size});
           for (unsigned int i = 0; i < 2; ++i)
             errors.outside =
               std::max({errors.outside, -xi[i], xi[i] - 1, -eta[i] - 0.1, eta[i] - 1.1});
@@ -125,11 +126,11 @@ main()
     for (const auto &n : std::vector<std::array<unsigned int, 2>>{{{7, 5}}, {{5, 7}}, {{2, 20}}})
       for (const double distortion : {0., 0.05, 0.15})
         {
-          const auto slaves = faces(plane(), {n[0], n[0], 1, 0, 1, 0, 1, 1, false, distortion});
+          const auto slaves  = faces(plane(), {n[0], n[0], 1, 0, 1, 0, 1, 1, false, distortion});
           const auto masters = faces(plane(), {n[1], n[1], 1, 0, 1, 0, 1, -1, true, distortion});
           check("p=" + std::to_string(p) + ", flat, " + std::to_string(n[0]) + ":" +
-                  std::to_string(n[1]) + ", distorted by " +
-                  std::to_string(int(100 * distortion)) + " %",
+                  std::to_string(n[1]) + ", distorted by " + std::to_string(int(100 * distortion)) +
+                  " %",
                 errors_of(slaves, masters, p),
                 distortion == 0 ? 1e-13 : 2e-10,
                 true);

@@ -1,5 +1,5 @@
-// Proves that the numbers do not depend on the scene's unit, place or turn, nor on the choice of the
-// slave, and that pairs are accepted by distance and normals as documented.
+// Proves that the numbers do not depend on the scene's unit, place or turn, nor on the choice of
+// the slave, and that pairs are accepted by distance and normals as documented.
 #include "synthetic_surface.h"
 
 using namespace synthetic;
@@ -31,7 +31,8 @@ namespace
       const double area = face_area(slave);
       // Slivers of rounding may come and go: they count for nothing.
       if (pair.area > 1e-10 * area)
-        for (const double value : {double(slave.id), double(master.id), pair.area / area, sum / area})
+        for (const double value :
+             {double(slave.id), double(master.id), pair.area / area, sum / area})
           result.values.push_back(value);
     };
     integrate(slaves, masters, 2, visit);
@@ -58,7 +59,10 @@ namespace
   }
 
   void
-  check_units(const std::string &name, const Surface &slave, const Surface &master, const Grid &grid)
+  check_units(const std::string &name,
+              const Surface     &slave,
+              const Surface     &master,
+              const Grid        &grid)
   {
     Grid master_grid        = grid;
     master_grid.n_u         = 5;
@@ -89,7 +93,7 @@ namespace
         Grid a{6, 5, g}, b{4, 7, g};
         for (Grid *grid : {&a, &b})
           grid->distortion = g == 1 ? 0.1 : 0.;
-        const auto one  = [&](const bool exchanged) {
+        const auto one = [&](const bool exchanged) {
           Grid slave = exchanged ? b : a, master = exchanged ? a : b;
           slave.orientation  = exchanged ? -1 : 1;
           master.orientation = exchanged ? 1 : -1;
@@ -97,7 +101,7 @@ namespace
           const Surface surface = g == 1 ? plane() : cylinder();
           return integrate(faces(surface, slave), faces(surface, master), g);
         };
-        const Total there = one(false), back = one(true);
+        const Total  there = one(false), back = one(true);
         const double difference =
           std::abs(there.sum.covered_area - back.sum.covered_area) / there.sum.covered_area;
         const std::string name = "degree " + std::to_string(g) + ", slave and master exchanged";
@@ -128,12 +132,12 @@ namespace
       for (const double gap : {-0.4, -0.1, 0., 0.1, 0.4})
         {
           const Total total = with_gap(gap, -1., degree);
-          verdict("degree " + std::to_string(degree) + ", gap of " + std::to_string(gap).substr(0, 4) +
-                    " face sizes: covered",
+          verdict("degree " + std::to_string(degree) + ", gap of " +
+                    std::to_string(gap).substr(0, 4) + " face sizes: covered",
                   total.worst + total.sum.n_failures,
                   1e-10);
-          verdict("degree " + std::to_string(degree) + ", gap of " + std::to_string(gap).substr(0, 4) +
-                    " face sizes: its size",
+          verdict("degree " + std::to_string(degree) + ", gap of " +
+                    std::to_string(gap).substr(0, 4) + " face sizes: its size",
                   std::abs(total.sum.max_gap / faces(sphere(), {4, 4, degree})[5].size -
                            std::abs(gap)),
                   1e-3);

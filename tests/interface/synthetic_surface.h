@@ -32,9 +32,9 @@ namespace synthetic
   {
     unsigned int n_u = 1, n_v = 1, degree = 1;
     double       u_0 = 0, u_1 = 1, v_0 = 0, v_1 = 1;
-    double       orientation = 1; ///< of x_u x x_v against the outward normal
+    double       orientation = 1;     ///< of x_u x x_v against the outward normal
     bool         transposed  = false; ///< reference coordinates of the faces swapped
-    double       distortion  = 0; ///< inner vertices move by up to this fraction of a cell
+    double       distortion  = 0;     ///< inner vertices move by up to this fraction of a cell
   };
 
   /// A number in [-1,1] that depends on i, j and k only.
@@ -91,10 +91,8 @@ namespace synthetic
     return result;
   }
 
-  using Visitor = std::function<void(const SurfaceFace &,
-                                     const SurfaceFace &,
-                                     const PairResult &,
-                                     const IntegrationPoints &)>;
+  using Visitor = std::function<
+    void(const SurfaceFace &, const SurfaceFace &, const PairResult &, const IntegrationPoints &)>;
 
   struct Total
   {
@@ -107,8 +105,8 @@ namespace synthetic
   integrate(const std::vector<SurfaceFace> &slaves,
             const std::vector<SurfaceFace> &masters,
             const unsigned int              degree,
-            const Visitor                  &visitor      = Visitor(),
-            const unsigned int              n_points     = 0,
+            const Visitor                  &visitor         = Visitor(),
+            const unsigned int              n_points        = 0,
             const double                    search_fraction = default_search_fraction)
   {
     FaceTree                  tree(masters, search_fraction);

@@ -8,15 +8,44 @@
 
 namespace mortise
 {
+  /// Reference coordinates this close to a side of the unit square are on it.
+  constexpr double on_side = 1e-13;
+
+  /// Distance of xi from a side of the unit square, positive inside. Sides: 0: xi_1 >= 0,
+  /// 1: xi_1 <= 1, 2: xi_2 >= 0, 3: xi_2 <= 1.
+  inline double
+  inside_by(const double (&xi)[2], const unsigned int side)
+  {
+    return side % 2 == 0 ? xi[side / 2] : 1. - xi[side / 2];
+  }
+
+  /// Put coordinates that are on a side exactly there.
+  inline void
+  snap_to_sides(double (&xi)[2])
+  {
+    for (auto &x : xi)
+      x = std::abs(x) <= on_side ? 0. : std::abs(1. - x) <= on_side ? 1. : x;
+  }
+
+  /// Both points are outside on one of the sides of the other coordinate: a crossing between
+  /// them is of no interest.
+  inline bool
+  both_beside(const double (&a)[2], const double (&b)[2], const unsigned int side)
+  {
+    const unsigned int other = 1 - side / 2;
+    return (a[other] < -on_side && b[other] < -on_side) ||
+           (a[other] > 1. + on_side && b[other] > 1. + on_side);
+  }
+
   /// One side of an overlap, from p to q in the slave's reference coordinates: straight, or the
   /// pull-back of a part of a master edge.
   struct LoopPiece
   {
     double p[2], q[2];
-    int    edge  = -1;      ///< master edge 0..3, see EdgePolynomial; -1: straight
-    double tau_p = 0;       ///< parameters of the ends on that edge
-    double tau_q = 0;
-    double mid[2] = {0, 0}; ///< the curve's point at the mean of both parameters
+    int    edge    = -1; ///< master edge 0..3, see EdgePolynomial; -1: straight
+    double tau_p   = 0;  ///< parameters of the ends on that edge
+    double tau_q   = 0;
+    double mid[2]  = {0, 0}; ///< the curve's point at the mean of both parameters
     bool   has_mid = false;
   };
 
@@ -60,9 +89,9 @@ namespace mortise
 
     struct Segment
     {
-      unsigned int first, last;   ///< breakpoints
-      bool         far;           ///< outside on one side
-      bool         checked = false;
+      unsigned int first, last; ///< breakpoints
+      bool         far;         ///< outside on one side
+      bool         checked   = false;
       double       deviation = 0; ///< of the curve from its cubic through ends and slopes
       double       mid[2];        ///< the curve's point at the mean parameter
     };
@@ -124,17 +153,4 @@ namespace mortise
     std::vector<LoopPiece>  scratch;
     std::vector<double>     control; ///< stack of control polygons of the subdivision
   };
-
-  /// A convex polygon with few corners.
-  struct ConvexPolygon
-  {
-    static constexpr unsigned int max_corners = 16;
-
-    unsigned int n = 0;
-    double       x[max_corners][2];
-  };
-
-  /// Sutherland and Hodgman for straight edges: the part of @p polygon in [0,1]^2.
-  void
-  clip_to_unit_square(ConvexPolygon &polygon);
 } // namespace mortise

@@ -21,7 +21,7 @@ namespace mortise
     std::vector<double>                weight;     ///< area on the true slave surface
     std::array<std::vector<double>, 3> slave_x;    ///< position on the slave face
     std::array<std::vector<double>, 3> master_x;   ///< position on the master face
-    std::vector<double>                gap; ///< along the unit normal; positive: open
+    std::vector<double>                gap;        ///< along the unit normal; positive: open
 
     unsigned int
     size() const

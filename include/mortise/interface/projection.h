@@ -122,6 +122,23 @@ namespace mortise
     double         orientation;
 
   private:
+    /// Newton's method from eta as it stands; returns the lanes that did not converge.
+    unsigned int
+    iterate(const Vec3<Lanes> &x,
+            const Vec3<Lanes> &n,
+            Lanes (&eta)[2],
+            Lanes       &alpha,
+            Vec3<Lanes> &x_m,
+            Lanes       &slope) const;
+
+    /// For the lanes in @p wanted: the sample of the face that faces x and lies nearest to the
+    /// line through x along n.
+    void
+    nearest_samples(const Vec3<Lanes> &x,
+                    const Vec3<Lanes> &n,
+                    const unsigned int wanted,
+                    Lanes (&eta)[2]) const;
+
     bool         is_affine;
     Vec3<double> center, tangent[2];
   };

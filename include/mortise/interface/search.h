@@ -21,7 +21,7 @@ namespace mortise
   public:
     /// Keeps a reference to @p masters: they have to be finalized and outlive the tree.
     explicit FaceTree(const std::vector<SurfaceFace> &masters,
-                      const double search_fraction = default_search_fraction);
+                      const double                    search_fraction = default_search_fraction);
     ~FaceTree();
 
     /// Positions in @p masters, ascending, of the faces that may overlap @p slave: boxes meet,

@@ -84,7 +84,7 @@ namespace mortise
   /// other ranks own have to be among @p faces for the field to be the same on every rank.
   /// Call finalize() afterwards.
   void
-  average_vertex_normals(std::vector<SurfaceFace>                       &faces,
+  average_vertex_normals(std::vector<SurfaceFace>                        &faces,
                          const std::vector<std::array<std::uint64_t, 4>> &vertices);
 
   /// Area of a face by the tensor Gauss rule with @p n points per direction (0: exact for a
@@ -116,7 +116,7 @@ namespace mortise
       archive &normal;
     archive &affine &linear &lower &upper &size &frame.center &frame.normal;
     for (unsigned int i = 0; i < 2; ++i)
-      archive &frame.tangent[i] &frame.dual[i] &frame.chart_lower[i] &frame.chart_upper[i];
+      archive &frame.tangent[i] & frame.dual[i] & frame.chart_lower[i] & frame.chart_upper[i];
     archive &frame.height_lower &frame.height_upper;
   }
 } // namespace mortise

@@ -4,6 +4,7 @@
 
 #include <mortise/operators/block_system.h>
 
+#include <map>
 #include <vector>
 
 namespace mortise
@@ -23,25 +24,45 @@ namespace mortise
       return interior[block];
     }
 
-    /// Overlapping groups of blocks that are not interior; together they hold all of them. A patch is the
-    /// star of a vertex v (every entity o with N(o) within N(v), N being the neighbours in A); on an
-    /// interface with the entities of the other side that J couples with that star alone.
-    std::vector<std::vector<unsigned int>>
-    patches() const;
+    /// Overlapping groups of dofs that are not interior, those of other ranks included; the groups of
+    /// all ranks together hold all dofs that are not interior. A group is the star of an owned vertex v
+    /// (every entity o with N(o) within N(v), N being the neighbours in A); on an interface with the
+    /// entities of the other side that J couples with that star alone.
+    std::vector<std::vector<dealii::types::global_dof_index>>
+    patches(const BlockSystem &system) const;
 
   private:
     using Lists = std::vector<std::vector<int>>;
+
+    /// A block of another rank.
+    struct Ghost
+    {
+      std::vector<dealii::types::global_dof_index> dofs;
+      std::vector<int>                             neighbors, jump_neighbors;
+      bool                                         interior = false;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &dofs &neighbors &jump_neighbors &interior;
+      }
+    };
 
     void
     connect(const BlockSystem &system);
     void
     find_interiors(const BlockSystem &system);
+    void
+    fetch_ghosts(const BlockSystem &system);
     bool
     is_owned(const int block) const
     {
       return block >= first_block && block < first_block + static_cast<int>(neighbors.size());
     }
 
+    std::vector<int>     rank_start;      ///< first block of each rank, and their number
+    std::map<int, Ghost> ghosts;          ///< neighbours of owned vertices
     int               first_block = 0; ///< blocks of all ranks are numbered rank by rank
     std::vector<int>  block_of_dof;    ///< owned dofs, by position
     Lists             neighbors;       ///< in A, sorted, itself included

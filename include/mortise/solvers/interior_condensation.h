@@ -30,13 +30,6 @@ namespace mortise
       return *schur;
     }
 
-    /// Row of S of each owned dof, by position; -1 for interior dofs.
-    const std::vector<int> &
-    row_of_dof() const
-    {
-      return position;
-    }
-
     /// False when an interior block was not positive definite on any rank: nothing can be solved.
     bool
     is_valid() const
@@ -85,7 +78,7 @@ namespace mortise
     void
     add_to_row(const int row, const std::vector<int> &columns, const double *values);
 
-    std::vector<int>                  position;       ///< see row_of_dof()
+    std::vector<int>                  position;       ///< row of S of each owned dof; -1 for interior dofs
     std::vector<int>                  remaining_dofs; ///< position of each row of S
     std::vector<Interior>             interiors;
     std::unique_ptr<Epetra_CrsMatrix> schur;

@@ -1,0 +1,57 @@
+// Proves the rates of convergence of the tied thick sphere and cylinder on curved interfaces whose
+// meshes do not match: energy h^p, L2 h^(p+1), multiplier at least h^p; and small errors.
+#include "scene.h"
+#include "scenes.h"
+
+using namespace mortise;
+using namespace mortise::testing;
+
+namespace
+{
+  ErrorSummary
+  errors(const bool sphere, const unsigned int p, const std::string &inner, const std::string &outer)
+  {
+    const std::string degree = std::to_string(p);
+    return *run_scene(two_layers(sphere),
+                      {"Body inner/Degree=" + degree,
+                       "Body outer/Degree=" + degree,
+                       "Body inner/Mesh/Subdivisions=" + inner,
+                       "Body outer/Mesh/Subdivisions=" + outer,
+                       "Solver/Tolerance=1e-11"})
+              .steps.back()
+              .errors;
+  }
+
+  void
+  check(const bool sphere, const unsigned int p, const ErrorSummary &coarse, const ErrorSummary &fine)
+  {
+    const std::string what =
+      std::string(sphere ? "sphere" : "cylinder") + ", degree " + std::to_string(p);
+    // meshes halved once: rates are still before their limit, a fifth of an order is allowed
+    verdict(what + ": energy rate at least p - 0.2",
+            p - rate(*coarse.energy, *fine.energy),
+            0.2);
+    verdict(what + ": L2 rate at least p + 1 - 0.3",
+            p + 1. - rate(*coarse.displacement_l2, *fine.displacement_l2),
+            0.3);
+    verdict(what + ": multiplier rate at least p - 0.2",
+            p - rate(*coarse.multiplier_l2, *fine.multiplier_l2),
+            0.2);
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check(true, 1, errors(true, 1, "4, 2", "6, 3"), errors(true, 1, "8, 4", "12, 6"));
+  check(true, 2, errors(true, 2, "2, 1", "3, 2"), errors(true, 2, "4, 2", "6, 4"));
+  check(true, 3, errors(true, 3, "2, 1", "3, 1"), errors(true, 3, "4, 2", "6, 2"));
+  check(false, 1, errors(false, 1, "4, 2, 1", "6, 3, 2"), errors(false, 1, "8, 4, 2", "12, 6, 4"));
+  check(false, 2, errors(false, 2, "2, 1, 1", "3, 2, 2"), errors(false, 2, "4, 2, 2", "6, 4, 4"));
+  check(false, 3, errors(false, 3, "2, 1, 1", "3, 1, 1"), errors(false, 3, "4, 2, 2", "6, 2, 2"));
+  check(false, 4, errors(false, 4, "1, 1, 1", "2, 1, 1"), errors(false, 4, "2, 2, 2", "4, 2, 2"));
+  verdict("cylinder, degree 6 on 1 and 2 cells: energy error 1e-4",
+          *errors(false, 6, "2, 1, 1", "3, 1, 1").energy,
+          1e-4);
+}

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# Proves that wrong input ends with exit code 2 and one message that says what, on one and two
+# ranks, and leaves no output directory; and that a solver that gives up ends with 3 and writes.
+set -u
+mortise=$1 prm=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+passed=0 failed=0
+root=()
+[ "$(id -u)" = 0 ] && root=(--allow-run-as-root)
+
+# expect CODE PATTERN ARGUMENT...
+expect() {
+  local code=$1 pattern=$2 ranks message got
+  shift 2
+  for ranks in 1 2; do
+    rm -rf "$work/out"
+    message=$(timeout 120 mpirun -q -n $ranks --oversubscribe --bind-to none "${root[@]}" \
+      "$mortise" --output "$work/out" "$@" 2>&1 >/dev/null)
+    got=$?
+    if [ $got -ne "$code" ]; then
+      echo "FAILED  $* on $ranks ranks: exit code $got, expected $code: $message"
+    elif ! grep -q -i -e "$pattern" <<<"$message"; then
+      echo "FAILED  $* on $ranks ranks: no \"$pattern\" in: $message"
+    elif [ "$(grep -c -i -e "$pattern" <<<"$message")" -ne 1 ]; then
+      echo "FAILED  $* on $ranks ranks: message printed more than once: $message"
+    elif [ "$code" -eq 2 ] && [ -e "$work/out" ]; then
+      echo "FAILED  $* on $ranks ranks: left an output directory"
+    elif [ "$code" -eq 3 ] && [ ! -s "$work/out/summary.json" ]; then
+      echo "FAILED  $* on $ranks ranks: wrote no summary"
+    else
+      passed=$((passed + 1))
+      continue
+    fi
+    failed=$((failed + 1))
+  done
+}
+
+scene=$prm/patch.prm
+expect 2 'Degree' "$scene" --set 'Body lower/Degre=2'
+expect 2 'Degree' "$scene" --set 'Body lower/Degree=two'
+expect 2 '1.*8' "$scene" --set 'Body lower/Degree=9'
+expect 2 '0.5' "$scene" --set 'Body lower/Material/Poisson ratio=0.5'
+expect 2 'Young' "$scene" --set 'Body lower/Material/Young modulus=-1'
+expect 2 'missing.msh' "$scene" --set 'Body lower/Mesh/Source=file' --set 'Body lower/Mesh/File=missing.msh'
+expect 2 'zmax' "$scene" --set 'Interface glue/Slave=lower: top'
+expect 2 'same' "$scene" --set 'Interface glue/Master=lower: zmax'
+expect 2 'do not meet' "$scene" --set 'Body upper/Mesh/Translate=0, 0, 5'
+expect 2 'rigid motions.*translation along z' "$scene" --set 'Body lower/Boundary zmin/Displacement=-, -, -'
+expect 2 'missing.prm' "$work/missing.prm"
+echo plain >"$work/file"
+expect 2 'file' "$scene" --set "Output/Directory=$work/file/results"
+expect 3 'did not converge' "$scene" --set 'Solver/Method=condensed' --set 'Solver/Max iterations=1'
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]
