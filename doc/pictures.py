@@ -28,10 +28,10 @@ def main(directory, picture):
         mesh["displacement magnitude"] = numpy.linalg.norm(mesh["displacement"], axis=1)
         apart = 0.5 * (numpy.array(mesh.center) - middle) if len(meshes) > 1 else numpy.zeros(3)
         mesh.points = mesh.points + 0.08 * size / largest * mesh["displacement"] + apart
-        surface = mesh.extract_surface(algorithm="geometry", nonlinear_subdivision=3)
+        surface = mesh.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=3)
         plotter.add_mesh(surface, scalars="displacement magnitude", clim=(0, largest), cmap="viridis",
                          ambient=0.45, diffuse=0.6, scalar_bar_args={"color": "black", "fmt": "%.3g"})
-        edges = mesh.separate_cells().extract_surface(algorithm="geometry", nonlinear_subdivision=3).extract_feature_edges(
+        edges = mesh.separate_cells().extract_surface(algorithm="dataset_surface", nonlinear_subdivision=3).extract_feature_edges(
             feature_angle=40, boundary_edges=True, manifold_edges=False, non_manifold_edges=False)
         if edges.n_points:
             plotter.add_mesh(edges, color="black", line_width=1)

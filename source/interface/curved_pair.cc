@@ -339,13 +339,16 @@ namespace mortise
     const double area          = scratch.clipper.area;
     if (std::abs(area) <= empty_area)
       {
-        result.status = clipped ? PairStatus::no_overlap : PairStatus::failed;
+        result.status =
+          clipped || !scratch.samples_meet() ? PairStatus::no_overlap : PairStatus::failed;
         return result;
       }
     const Judgement judgement = judge(scratch);
     result.status             = judgement.status;
     if (result.status == PairStatus::accepted && !clipped)
       result.status = PairStatus::failed;
+    if (result.status == PairStatus::failed && !scratch.samples_meet())
+      result.status = PairStatus::no_overlap;
     if (result.status != PairStatus::accepted)
       return result;
 

@@ -150,6 +150,41 @@ namespace mortise
 
 
 
+  bool
+  PairIntegrator::Scratch::samples_meet() const
+  {
+    // Not on the boundary: faces that only touch do not meet.
+    constexpr unsigned int n_samples = 8;
+    constexpr double       rim       = 0.02;
+    const auto             meet = [&](const Lanes(&x)[2], const Lanes &gap, const Lanes &slope) {
+      for (unsigned int l = 0; l < n_lanes; ++l)
+        if (x[0][l] > 0 && x[0][l] < 1 && x[1][l] > 0 && x[1][l] < 1 &&
+            std::abs(gap[l]) <= gap_limit && slope[l] < 0)
+          return true;
+      return false;
+    };
+    Lanes first;
+    for (unsigned int l = 0; l < n_lanes; ++l)
+      first[l] = rim + (1. - 2. * rim) * l / (n_lanes - 1.);
+    for (unsigned int j = 0; j < n_samples; ++j)
+      {
+        const Lanes at[2] = {first, broadcast(rim + (1. - 2. * rim) * j / (n_samples - 1.))};
+        Lanes       other[2], gap, slope;
+        Vec3<Lanes> x, dx[2], x_m;
+        slave.evaluate(at, x, dx);
+        if (master.project(x, slave.normal(at), false, other, gap, x_m, slope) == 0 &&
+            meet(other, gap, slope))
+          return true;
+        master.polynomial.evaluate(at[0], at[1], x, dx);
+        if (slave.pull_back(x, false, other, gap) == 0 &&
+            meet(other, gap, master.orientation * dot(slave.normal(other), cross(dx[0], dx[1]))))
+          return true;
+      }
+    return false;
+  }
+
+
+
   void
   PairIntegrator::set_points_per_direction(const unsigned int n)
   {

@@ -102,6 +102,38 @@ namespace mortise
       Affine eta[2], slave_x[3], master_x[3], gap;
     };
 
+    // The maps of a pair from xi - 1/2 = shift + A (eta - 1/2).
+    PointMaps
+    point_maps(const FaceFrame &s_frame,
+               const FaceFrame &m_frame,
+               const double (&shift)[2],
+               const double (&A)[2][2])
+    {
+      const Tensor<1, 3> center = m_frame.center - s_frame.center;
+      const Tensor<1, 3> s_area = cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
+      PointMaps          maps;
+      const double       det = A[0][0] * A[1][1] - A[0][1] * A[1][0];
+      const double B[2][2]   = {{A[1][1] / det, -A[0][1] / det}, {-A[1][0] / det, A[0][0] / det}};
+      const double to_height = 1. / (s_area * s_frame.normal);
+      for (unsigned int i = 0; i < 2; ++i)
+        maps.eta[i] = {0.5 - B[i][0] * shift[0] - B[i][1] * shift[1], {B[i][0], B[i][1]}};
+      maps.gap = {0., {0., 0.}};
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const double *e_0 = maps.eta[0].slope, *e_1 = maps.eta[1].slope;
+          const double  t_0 = m_frame.tangent[0][d], t_1 = m_frame.tangent[1][d];
+          maps.slave_x[d]  = {s_frame.center[d], {s_frame.tangent[0][d], s_frame.tangent[1][d]}};
+          maps.master_x[d] = {center[d] + (maps.eta[0].value - .5) * t_0 +
+                                (maps.eta[1].value - .5) * t_1,
+                              {e_0[0] * t_0 + e_1[0] * t_1, e_0[1] * t_0 + e_1[1] * t_1}};
+          maps.gap.value += s_area[d] * to_height * maps.master_x[d].value;
+          for (unsigned int i = 0; i < 2; ++i)
+            maps.gap.slope[i] += s_area[d] * to_height * maps.master_x[d].slope[i];
+          maps.master_x[d].value += s_frame.center[d];
+        }
+      return maps;
+    }
+
     void
     fill_cell(const Cell        &cell,
               const GaussRule   &rule,
@@ -180,26 +212,7 @@ namespace mortise
         return result;
       }
 
-    PointMaps    maps;
-    const double det       = A[0][0] * A[1][1] - A[0][1] * A[1][0];
-    const double B[2][2]   = {{A[1][1] / det, -A[0][1] / det}, {-A[1][0] / det, A[0][0] / det}};
-    const double to_height = 1. / (s_area * n);
-    for (unsigned int i = 0; i < 2; ++i)
-      maps.eta[i] = {0.5 - B[i][0] * shift[0] - B[i][1] * shift[1], {B[i][0], B[i][1]}};
-    maps.gap = {0., {0., 0.}};
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        const double *e_0 = maps.eta[0].slope, *e_1 = maps.eta[1].slope;
-        const double  t_0 = m_frame.tangent[0][d], t_1 = m_frame.tangent[1][d];
-        maps.slave_x[d]  = {s_frame.center[d], {s_frame.tangent[0][d], s_frame.tangent[1][d]}};
-        maps.master_x[d] = {center[d] + (maps.eta[0].value - .5) * t_0 +
-                              (maps.eta[1].value - .5) * t_1,
-                            {e_0[0] * t_0 + e_1[0] * t_1, e_0[1] * t_0 + e_1[1] * t_1}};
-        maps.gap.value += s_area[d] * to_height * maps.master_x[d].value;
-        for (unsigned int i = 0; i < 2; ++i)
-          maps.gap.slope[i] += s_area[d] * to_height * maps.master_x[d].slope[i];
-        maps.master_x[d].value += s_frame.center[d];
-      }
+    const PointMaps maps = point_maps(s_frame, m_frame, shift, A);
     for (unsigned int v = 0; v < polygon.n; ++v)
       result.max_gap =
         std::max(result.max_gap,

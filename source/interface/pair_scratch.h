@@ -15,6 +15,11 @@ namespace mortise
     const GaussRule &
     rule(const double distortion) const;
 
+    /// Whether any of some sample points of one face has a partner on the other: tells a pair that
+    /// could not be clipped from one that never mattered.
+    bool
+    samples_meet() const;
+
     SlaveMap    slave;
     FaceFrame   slave_frame;
     bool        slave_linear = false;

@@ -249,11 +249,13 @@ namespace mortise
           }
       }
 
-    unsigned int failed = iterate(x, n, eta, alpha, x_m, slope);
-    if (failed != 0)
+    unsigned int       failed = iterate(x, n, eta, alpha, x_m, slope);
+    const unsigned int behind = lanes_above(slope, broadcast(0.));
+    if ((failed | behind) != 0)
       {
-        // A strongly curved face: its linear picture was no good beginning.
-        nearest_samples(x, n, failed, eta);
+        // A strongly curved face: its linear picture was no good beginning, or led to a point
+        // that looks the other way.
+        nearest_samples(x, n, failed | behind, eta);
         failed = iterate(x, n, eta, alpha, x_m, slope);
       }
     return failed;

@@ -3,6 +3,7 @@
 #include <mortise/solvers/epetra_tools.h>
 
 #include <Epetra_SerialComm.h>
+#include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ namespace mortise
           block.rows.push_back(map.LID(static_cast<int>(row)));
         const int n = static_cast<int>(rows.size());
         largest     = std::max(largest, rows.size());
-        block.cholesky.assign(n * n, 0.);
+        block.inverse.assign(n * n, 0.);
         for (int i = 0; i < n; ++i)
           position[block.rows[i]] = i;
         for (int i = 0; i < n; ++i)
@@ -40,16 +41,22 @@ namespace mortise
             const EpetraRow row(*matrix, block.rows[i]);
             for (int k = 0; k < row.length; ++k)
               if (const int j = position[row.columns[k]]; j >= 0)
-                block.cholesky[i + j * n] = row.values[k];
+                block.inverse[i + j * n] = row.values[k];
           }
         for (int i = 0; i < n; ++i)
           position[block.rows[i]] = -1;
         int info = 0;
-        lapack.POTRF('L', n, block.cholesky.data(), n, &info);
+        lapack.POTRF('L', n, block.inverse.data(), n, &info);
+        // The inverse itself: a product streams it once, two triangular solves wait at each row.
+        if (info == 0)
+          lapack.POTRI('L', n, block.inverse.data(), n, &info);
+        for (int j = 0; j < n; ++j)
+          for (int i = 0; i < j; ++i)
+            block.inverse[i + j * n] = block.inverse[j + i * n];
         valid = valid && info == 0;
         blocks.push_back(std::move(block));
       }
-    workspace.resize(largest);
+    workspace.resize(2 * largest);
     return valid;
   }
 
@@ -118,16 +125,28 @@ namespace mortise
     for (int i = 0; i < n; ++i)
       {
         const EpetraRow row(*matrix, block.rows[i]);
-        double          sum = r[block.rows[i]];
-        for (int k = 0; k < row.length; ++k)
-          sum -= row.values[k] * x[row.columns[k]];
-        workspace[i] = sum;
+        // Four sums: a single one would wait for itself at each addition.
+        double        a = r[block.rows[i]], b = 0., c = 0., d = 0.;
+        const int    *j = row.columns;
+        const double *v = row.values;
+        int           k = 0;
+        for (; k + 3 < row.length; k += 4)
+          {
+            a -= v[k] * x[j[k]];
+            b -= v[k + 1] * x[j[k + 1]];
+            c -= v[k + 2] * x[j[k + 2]];
+            d -= v[k + 3] * x[j[k + 3]];
+          }
+        for (; k < row.length; ++k)
+          a -= v[k] * x[j[k]];
+        workspace[i] = (a + b) + (c + d);
       }
-    Teuchos::LAPACK<int, double> lapack;
-    int                          info = 0;
-    lapack.POTRS('L', n, 1, block.cholesky.data(), n, workspace.data(), n, &info);
+    Teuchos::BLAS<int, double> blas;
+    double                    *y = workspace.data() + n;
+    blas.GEMV(
+      Teuchos::NO_TRANS, n, n, 1., block.inverse.data(), n, workspace.data(), 1, 0., y, 1);
     for (int i = 0; i < n; ++i)
-      x[block.rows[i]] += workspace[i];
+      x[block.rows[i]] += y[i];
   }
 
   void

@@ -116,22 +116,15 @@ namespace mortise
       return entries;
     }
 
-    /// Square roots of the inverse diagonals, in the monolithic numbering of this rank: they make the
-    /// matrix free of units, so that pivoting compares like with like.
-    std::vector<double>
-    scaling(const BlockSystem &system)
+    /// Square roots of the inverse diagonals of the residual's norm, in the monolithic numbering: they
+    /// make the matrix free of units, so that pivoting compares like with like.
+    void
+    set_scaling(Epetra_Vector &scale, const ScaledResidual &residual, const int n_displacements)
     {
-      std::vector<double> scale;
-      const bool          has_interface = system.owned_multiplier.size() > 0;
-      const auto          add           = [&](const double d) {
-        scale.push_back(d > 0. ? 1. / std::sqrt(d) : 1.);
-      };
-      for (const auto i : system.owned_displacement)
-        add(system.stiffness.diag_element(i) +
-            (has_interface ? system.jump_penalty.diag_element(i) : 0.));
-      for (const auto k : system.owned_multiplier)
-        add(system.multiplier_norm.diag_element(k));
-      return scale;
+      for (int i = 0; i < scale.MyLength(); ++i)
+        scale[i] = std::sqrt(i < n_displacements ?
+                               residual.inverse_diagonal_u()[i] :
+                               residual.inverse_diagonal_lambda()[i - n_displacements]);
     }
 
     /// [K B^T; B 0], not scaled.
@@ -223,9 +216,9 @@ namespace mortise
 
     const MonolithicNumbering numbering(system);
     const auto                matrix = monolithic_matrix(system, numbering);
+    const ScaledResidual      residual(system);
     Epetra_Vector             scale(matrix->RowMap());
-    const std::vector<double> scale_values = scaling(system);
-    std::copy(scale_values.begin(), scale_values.end(), scale.Values());
+    set_scaling(scale, residual, static_cast<int>(system.owned_displacement.n_elements()));
     matrix->LeftScale(scale);
     matrix->RightScale(scale);
 
@@ -238,7 +231,6 @@ namespace mortise
     u.reinit(system.owned_displacement, system.communicator);
     lambda.reinit(system.owned_multiplier, system.communicator);
     Vector               r_u(u), r_lambda(lambda);
-    const ScaledResidual residual(system);
     const double         rhs_norm = residual.right_hand_side_norm();
     report.converged              = rhs_norm == 0.;
     Epetra_Vector r(matrix->RowMap()), x(matrix->RowMap());

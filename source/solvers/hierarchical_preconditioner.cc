@@ -61,7 +61,7 @@ namespace mortise
       {
         schur.Multiply(false, data.x, data.t);
         data.r.Update(-1., data.t, 1.);
-        data.smoother.vmult(data.y, data.r); if(getenv("MS")) data.y.Scale(atof(getenv("MS")));
+        data.smoother.vmult(data.y, data.r);
         data.x.Update(1., data.y, 1.);
         schur.Multiply(false, data.y, data.t);
         data.coarse.vmult(data.y, data.t);

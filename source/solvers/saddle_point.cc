@@ -1,4 +1,5 @@
 // See saddle_point.h.
+#include <mortise/solvers/condensed.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/saddle_point.h>
 #include <mortise/solvers/scaled_residual.h>
@@ -177,6 +178,9 @@ namespace mortise
                      Vector              &u,
                      Vector              &lambda)
   {
+    if (system.owned_multiplier.size() == 0) // nothing indefinite about it
+      return solve_condensed(system, options, u, lambda);
+
     SolveReport report;
     report.method = "saddle point";
     Timer                             timer;

@@ -1,5 +1,8 @@
 // See scaled_residual.h.
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/scaled_residual.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <cmath>
 
@@ -9,30 +12,20 @@ namespace mortise
 
   namespace
   {
-    /// 1 / d for each positive entry of the diagonal of a (+ b), 1 elsewhere.
-    Vector
-    inverse_diagonal(const IndexSet &owned, const SparseMatrix &a, const SparseMatrix *b, MPI_Comm comm)
+    double
+    inverse(const double d)
     {
-      Vector result(owned, comm);
-      for (const auto i : owned)
-        {
-          const double d = a.diag_element(i) + (b != nullptr ? b->diag_element(i) : 0.);
-          result[i]      = d > 0. ? 1. / d : 1.;
-        }
-      result.compress(VectorOperation::insert);
-      return result;
+      return d > 0. ? 1. / d : 1.;
     }
 
     double
-    weighted_square(const Vector &r, const Vector &weight)
+    weighted_square(const Vector &r, const Epetra_Vector &weight)
     {
-      double sum = 0.;
-      for (unsigned int i = 0; i < r.locally_owned_size(); ++i)
-        {
-          const double value = r.trilinos_vector()[0][i];
-          sum += value * value * weight.trilinos_vector()[0][i];
-        }
-      return Utilities::MPI::sum(sum, r.get_mpi_communicator());
+      double        sum    = 0.;
+      const double *values = r.trilinos_vector()[0];
+      for (int i = 0; i < weight.MyLength(); ++i)
+        sum += values[i] * values[i] * weight[i];
+      return sum;
     }
   } // namespace
 
@@ -40,15 +33,29 @@ namespace mortise
     : system(system)
     , interface_present(system.owned_multiplier.size() > 0)
   {
-    inverse_diagonal_u = inverse_diagonal(system.owned_displacement,
-                                          system.stiffness,
-                                          interface_present ? &system.jump_penalty : nullptr,
-                                          system.communicator);
+    const auto &stiffness = system.stiffness.trilinos_matrix();
+    weight_u              = std::make_unique<Epetra_Vector>(stiffness.RowMap());
+    stiffness.ExtractDiagonalCopy(*weight_u);
+    for (int i = 0; i < weight_u->MyLength(); ++i)
+      (*weight_u)[i] = inverse((*weight_u)[i]);
     if (interface_present)
-      inverse_diagonal_lambda = inverse_diagonal(system.owned_multiplier,
-                                                 system.multiplier_norm,
-                                                 nullptr,
-                                                 system.communicator);
+      {
+        const auto   &coupling = system.coupling.trilinos_matrix();
+        Epetra_Vector on_columns(coupling.ColMap());
+        if (coupling.Importer() != nullptr)
+          on_columns.Import(*weight_u, *coupling.Importer(), Insert);
+        else
+          std::copy(weight_u->Values(), weight_u->Values() + weight_u->MyLength(), on_columns.Values());
+        weight_lambda = std::make_unique<Epetra_Vector>(coupling.RowMap());
+        for (int i = 0; i < weight_lambda->MyLength(); ++i)
+          {
+            const EpetraRow row(coupling, i);
+            double          sum = 0.;
+            for (int k = 0; k < row.length; ++k)
+              sum += row.values[k] * row.values[k] * on_columns[row.columns[k]];
+            (*weight_lambda)[i] = inverse(sum);
+          }
+      }
     rhs_norm = norm(system.load, system.coupling_rhs);
   }
 
@@ -68,9 +75,9 @@ namespace mortise
   double
   ScaledResidual::norm(const Vector &r_u, const Vector &r_lambda) const
   {
-    double square = weighted_square(r_u, inverse_diagonal_u);
+    double square = weighted_square(r_u, *weight_u);
     if (interface_present)
-      square += weighted_square(r_lambda, inverse_diagonal_lambda);
-    return std::sqrt(square);
+      square += weighted_square(r_lambda, *weight_lambda);
+    return std::sqrt(Utilities::MPI::sum(square, system.communicator));
   }
 } // namespace mortise

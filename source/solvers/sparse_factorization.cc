@@ -15,17 +15,17 @@ namespace mortise
   {
 #ifdef HAVE_AMESOS_MUMPS
     void
-    set_mumps_controls(Amesos_BaseSolver &solver)
+    set_mumps_controls(Amesos_BaseSolver &solver, const int workspace)
     {
       if (auto *mumps = dynamic_cast<Amesos_Mumps *>(&solver))
         {
           mumps->SetICNTL(6, 0);   // no column permutation: it would spoil the symmetric structure
-          mumps->SetICNTL(14, 60); // per cent of workspace beyond the estimate, for pivoting
+          mumps->SetICNTL(14, workspace); // per cent beyond the estimate, for pivoting
         }
     }
 #else
     void
-    set_mumps_controls(Amesos_BaseSolver &)
+    set_mumps_controls(Amesos_BaseSolver &, int)
     {}
 #endif
   } // namespace
@@ -36,20 +36,36 @@ namespace mortise
   bool
   SparseFactorization::initialize(const Epetra_CrsMatrix &matrix)
   {
-    Amesos factory;
+    Amesos     factory;
+    const bool has_mumps = factory.Query("Mumps");
+    // delayed pivots of a saddle point may need much more room than MUMPS estimates
+    for (const int workspace : {100, 1000, 5000})
+      if (has_mumps && factorize(factory, "Mumps", workspace, matrix))
+        {
+          name = "MUMPS";
+          return true;
+        }
+    name = "KLU";
+    return factorize(factory, "Klu", 0, matrix);
+  }
+
+  bool
+  SparseFactorization::factorize(Amesos                 &factory,
+                                 const std::string      &type,
+                                 const int               workspace,
+                                 const Epetra_CrsMatrix &matrix)
+  {
     solver.reset();
     problem = std::make_unique<Epetra_LinearProblem>();
     problem->SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix));
-
-    name = factory.Query("Mumps") ? "MUMPS" : "KLU";
-    solver.reset(factory.Create(name == "MUMPS" ? "Mumps" : "Klu", *problem));
+    solver.reset(factory.Create(type, *problem));
 
     Teuchos::ParameterList parameters;
     parameters.set("PrintTiming", false);
     parameters.set("PrintStatus", false);
     parameters.set("MaxProcs", -3); // all ranks
     solver->SetParameters(parameters);
-    set_mumps_controls(*solver);
+    set_mumps_controls(*solver, workspace);
     return solver->SymbolicFactorization() == 0 && solver->NumericFactorization() == 0;
   }
 

@@ -44,26 +44,30 @@ namespace mortise::testing
            "subsection Output\n  set Directory = unused\n  set Fields =\nend\n";
   }
 
-  /// A thick sphere or cylinder of two layers under pressure inside, with symmetry conditions.
+  /// A layer of a thick sphere or cylinder with symmetry conditions, under pressure inside if asked.
+  inline std::string
+  layer(const std::string &name, const std::string &radii, const bool sphere, const bool pressure)
+  {
+    std::string text = "subsection Body " + name + "\n  subsection Mesh\n    set Source = " +
+                       (sphere ? "shell octant" : "cylinder sector") + "\n    set Extent = " + radii +
+                       (sphere ? "" : ", 0.5") + "\n  end\n" +
+                       "  subsection Material\n    set Young modulus = 10\n  end\n"
+                       "  subsection Boundary xmin\n    set Displacement = 0, -, -\n  end\n"
+                       "  subsection Boundary ymin\n    set Displacement = -, 0, -\n  end\n"
+                       "  subsection Boundary zmin\n    set Displacement = -, -, 0\n  end\n";
+    if (!sphere)
+      text += "  subsection Boundary zmax\n    set Displacement = -, -, 0\n  end\n";
+    if (pressure)
+      text += "  subsection Boundary inside\n    set Pressure = 1\n  end\n";
+    return text + "end\n";
+  }
+
+  /// A thick sphere or cylinder of two layers under pressure inside.
   inline std::string
   two_layers(const bool sphere)
   {
-    const auto layer = [&](const std::string &name, const std::string &radii) {
-      std::string text = "subsection Body " + name + "\n  subsection Mesh\n    set Source = " +
-                         (sphere ? "shell octant" : "cylinder sector") + "\n    set Extent = " + radii +
-                         (sphere ? "" : ", 0.5") + "\n  end\n" +
-                         "  subsection Material\n    set Young modulus = 10\n  end\n"
-                         "  subsection Boundary xmin\n    set Displacement = 0, -, -\n  end\n"
-                         "  subsection Boundary ymin\n    set Displacement = -, 0, -\n  end\n"
-                         "  subsection Boundary zmin\n    set Displacement = -, -, 0\n  end\n";
-      if (!sphere)
-        text += "  subsection Boundary zmax\n    set Displacement = -, -, 0\n  end\n";
-      if (name == "inner")
-        text += "  subsection Boundary inside\n    set Pressure = 1\n  end\n";
-      return text + "end\n";
-    };
-    return "set Bodies = inner, outer\nset Interfaces = glue\n" + layer("inner", "1, 1.5") +
-           layer("outer", "1.5, 2") +
+    return "set Bodies = inner, outer\nset Interfaces = glue\n" +
+           layer("inner", "1, 1.5", sphere, true) + layer("outer", "1.5, 2", sphere, false) +
            "subsection Interface glue\n  set Slave = inner: outside\n  set Master = outer: inside\n"
            "end\nsubsection Exact solution\n  set Displacement = thick " +
            (sphere ? "sphere" : "cylinder") +

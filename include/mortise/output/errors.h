@@ -39,7 +39,7 @@ namespace mortise
                       const ExactSolution           &exact);
 
   /// |lambda - t| / |t| in L2 over the slave faces with a partner, t the exact traction, all
-  /// interfaces together; @p coefficients by interface, see multiplier_on_faces(). Collective.
+  /// interfaces together (over |sigma| there if t is zero); @p coefficients by interface, see multiplier_on_faces(). Collective.
   double
   multiplier_error(const Bodies                                         &bodies,
                    const std::vector<Coupling>                          &couplings,

@@ -35,7 +35,7 @@ namespace mortise
     struct Block
     {
       std::vector<int>    rows;
-      std::vector<double> cholesky; ///< column major
+      std::vector<double> inverse; ///< full, symmetric
     };
 
     void

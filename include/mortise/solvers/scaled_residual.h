@@ -3,14 +3,18 @@
 
 #include <mortise/operators/block_system.h>
 
+#include <Epetra_Vector.h>
+
+#include <memory>
+
 namespace mortise
 {
   /// The true residual of the whole system in a norm that does not depend on units:
   ///
   ///     |(r_u, r_lambda)|^2 = r_u . D_u^{-1} r_u + r_lambda . D_lambda^{-1} r_lambda
   ///
-  /// with D_u = diag(K + J) and D_lambda = diag(W). Both terms are energies, so that scaling the
-  /// lengths, the modulus or the load changes nothing in the relative residual.
+  /// with D_u = diag(K) and D_lambda = diag(B D_u^{-1} B^T). Both terms are energies, so that scaling
+  /// the lengths, the modulus or the load changes nothing in the relative residual.
   class ScaledResidual
   {
   public:
@@ -31,17 +35,24 @@ namespace mortise
       return rhs_norm;
     }
 
-    bool
-    has_interface() const
+    /// 1 / D_u, on the owned displacements.
+    const Epetra_Vector &
+    inverse_diagonal_u() const
     {
-      return interface_present;
+      return *weight_u;
+    }
+
+    /// 1 / D_lambda, on the owned multipliers; only with an interface.
+    const Epetra_Vector &
+    inverse_diagonal_lambda() const
+    {
+      return *weight_lambda;
     }
 
   private:
-    const BlockSystem &system;
-    Vector             inverse_diagonal_u;
-    Vector             inverse_diagonal_lambda;
-    double             rhs_norm          = 0.;
-    bool               interface_present = false;
+    const BlockSystem             &system;
+    std::unique_ptr<Epetra_Vector> weight_u, weight_lambda;
+    double                         rhs_norm          = 0.;
+    bool                           interface_present = false;
   };
 } // namespace mortise

@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+class Amesos;
 class Amesos_BaseSolver;
 
 namespace mortise
@@ -38,6 +39,13 @@ namespace mortise
     }
 
   private:
+    /// One attempt with the Amesos solver @p type.
+    bool
+    factorize(Amesos                 &factory,
+              const std::string      &type,
+              int                     workspace,
+              const Epetra_CrsMatrix &matrix);
+
     std::string                           name;
     std::unique_ptr<Epetra_LinearProblem> problem;
     std::unique_ptr<Amesos_BaseSolver>    solver;

@@ -1,0 +1,161 @@
+// Proves that the three methods give the same solution and multipliers, in any units, with prescribed jumps,
+// floating bodies, contrast, without an interface and on ranks without dofs; and that failure is reported.
+#include "spring_system.h"
+
+#include <mortise/base/error.h>
+#include <mortise/solvers/solve.h>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+using namespace mortise;
+using namespace dealii;
+
+namespace
+{
+  void
+  verdict(const std::string &what, const double got, const double allowed)
+  {
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        if (got <= allowed)
+          std::cout << "OK  " << what << std::endl;
+        else
+          std::cout << "FAILED  " << what << ": got " << got << ", allowed " << allowed << std::endl;
+      }
+  }
+
+  struct Result
+  {
+    SolveReport     report;
+    mortise::Vector u, lambda;
+  };
+
+  Result
+  run(const BlockSystem &system, const std::string &method, const unsigned int max_iterations = 500)
+  {
+    SolverOptions options;
+    options.method         = solver_method_from_name(method);
+    options.tolerance      = 1e-11;
+    options.max_iterations = max_iterations;
+    Result result;
+    result.report = solve(system, options, result.u, result.lambda);
+    return result;
+  }
+
+  double
+  difference(const mortise::Vector &a, const mortise::Vector &b)
+  {
+    mortise::Vector d(a);
+    d -= b;
+    return d.l2_norm() / std::max(b.l2_norm(), 1e-300);
+  }
+
+  void
+  check_agreement(const std::string &name, const springs::Options &scene)
+  {
+    const BlockSystem system = springs::Builder(scene, MPI_COMM_WORLD).build();
+    const Result      direct = run(system, "direct");
+    verdict(name + ": direct, residual 1e-12", direct.report.relative_residual, 1e-12);
+    for (const std::string method : {"condensed", "saddle point", "auto"})
+      {
+        const Result result = run(system, method);
+        verdict(name + ": " + method + ", converged", result.report.converged ? 0. : 1., 0.);
+        verdict(name + ": " + method + ", residual 1e-11", result.report.relative_residual, 1e-11);
+        verdict(name + ": " + method + ", displacements 1e-8", difference(result.u, direct.u), 1e-8);
+        if (system.owned_multiplier.size() > 0)
+          {
+            verdict(name + ": " + method + ", multipliers 1e-8",
+                    difference(result.lambda, direct.lambda),
+                    1e-8);
+            mortise::Vector jump(result.lambda);
+            system.coupling.vmult(jump, result.u);
+            jump -= system.coupling_rhs;
+            if (method == std::string("condensed"))
+              verdict(name + ": constraint to rounding", jump.linfty_norm() / result.u.linfty_norm(), 1e-13);
+          }
+      }
+  }
+
+  /// Iterations must not depend on units.
+  void
+  check_units()
+  {
+    springs::Options scene;
+    scene.gap               = 0.3;
+    const BlockSystem plain = springs::Builder(scene, MPI_COMM_WORLD).build();
+    scene.stiffness         = 1e9;
+    scene.length            = 1e-3;
+    const BlockSystem other = springs::Builder(scene, MPI_COMM_WORLD).build();
+    for (const std::string method : {"condensed", "saddle point"})
+      {
+        const double a = run(plain, method).report.iterations;
+        const double b = run(other, method).report.iterations;
+        verdict("units: " + method + ", iterations differ by at most 1", std::fabs(a - b), 1.);
+      }
+  }
+
+  void
+  check_failures()
+  {
+    springs::Options  scene;
+    const BlockSystem system = springs::Builder(scene, MPI_COMM_WORLD).build();
+    for (const std::string method : {"condensed", "saddle point"})
+      {
+        const Result result = run(system, method, 3);
+        verdict(method + ": three iterations do not converge", result.report.converged ? 1. : 0., 0.);
+        verdict(method + ": three iterations are reported",
+                std::fabs(result.report.iterations - 3.) + (result.report.relative_residual < 1. ? 0. : 1.),
+                0.);
+      }
+    scene.load             = 0.;
+    const BlockSystem zero = springs::Builder(scene, MPI_COMM_WORLD).build();
+    scene.load             = std::numeric_limits<double>::quiet_NaN();
+    const BlockSystem nan  = springs::Builder(scene, MPI_COMM_WORLD).build();
+    for (const std::string method : {"direct", "condensed", "saddle point"})
+      {
+        const Result result = run(zero, method);
+        verdict(method + ": no load, no displacement",
+                result.u.l2_norm() + result.lambda.l2_norm() + (result.report.converged ? 0. : 1.),
+                0.);
+        verdict(method + ": not a number stops", run(nan, method).report.converged ? 1. : 0., 0.);
+      }
+    bool thrown = false;
+    try
+      {
+        solver_method_from_name("dirct");
+      }
+    catch (const InputError &)
+      {
+        thrown = true;
+      }
+    verdict("unknown method is refused", thrown ? 0. : 1., 0.);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  springs::Options                 scene;
+  check_agreement("tied", scene);
+  scene.gap = 0.5;
+  check_agreement("jump", scene);
+  scene          = springs::Options();
+  scene.floating = true;
+  check_agreement("floating", scene);
+  scene.contrast = 1e4;
+  check_agreement("floating, contrast 1e4", scene);
+  scene          = springs::Options();
+  scene.contrast = 1e-4;
+  check_agreement("contrast 1e-4", scene);
+  scene      = springs::Options();
+  scene.tied = false;
+  check_agreement("no interface", scene);
+  scene             = springs::Options();
+  scene.first_ranks = 1;
+  check_agreement("one rank owns all", scene);
+  check_units();
+  check_failures();
+}
