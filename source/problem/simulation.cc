@@ -153,6 +153,7 @@ namespace mortise
           }
       }
     timers.add("interface_clipping", clipping);
+    timers.add("coupling", -clipping);
     log.stage_line("interface_clipping", Utilities::MPI::max(clipping, comm));
   }
 
@@ -206,6 +207,10 @@ namespace mortise
                                             coupling.interface->slave(),
                                             coupling.interface->coverage(),
                                             blocked_dofs(slave.body));
+        if (Utilities::MPI::sum(coupling.multipliers->n_owned(), comm) == 0)
+          log.warning("interface " + parameters.interfaces[i].name +
+                      ": no multipliers are left, since every displacement of the slave surface is "
+                      "prescribed; nothing is tied. Exchange slave and master or refine the slave");
         if (i + 1 < couplings.size())
           occupy(i);
       }
