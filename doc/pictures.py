@@ -30,13 +30,15 @@ def main(directory, picture):
         mesh.points = mesh.points + 0.08 * size / largest * mesh["displacement"] + apart
         surface = mesh.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=3)
         plotter.add_mesh(surface, scalars="displacement magnitude", clim=(0, largest), cmap="viridis",
-                         ambient=0.45, diffuse=0.6, scalar_bar_args={"color": "black", "fmt": "%.3g"})
+                         ambient=0.45, diffuse=0.6, scalar_bar_args={"title": "|u|", "color": "black", "fmt": "%.3g", "vertical": True,
+                                          "position_x": 0.91, "position_y": 0.2, "height": 0.6})
         edges = mesh.separate_cells().extract_surface(algorithm="dataset_surface", nonlinear_subdivision=3).extract_feature_edges(
             feature_angle=40, boundary_edges=True, manifold_edges=False, non_manifold_edges=False)
         if edges.n_points:
             plotter.add_mesh(edges, color="black", line_width=1)
     direction = numpy.array([-1.5, -2.2, 1.1])
     plotter.camera_position = [middle + direction * size * 0.7, middle, (0, 0, 1)]
+    plotter.reset_camera()  # keeps the direction and fits all bodies, pulled apart, into the window
     plotter.screenshot(picture)
 
 
