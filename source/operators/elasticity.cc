@@ -19,6 +19,13 @@ namespace mortise
 
   namespace
   {
+    /// Dofs of the cell without those of its interior, which come last.
+    unsigned int
+    n_boundary_dofs(const Body::CellIterator &cell)
+    {
+      return cell->get_fe().get_first_hex_index();
+    }
+
     std::vector<types::global_dof_index>
     scene_dofs(const Body &body, const Body::CellIterator &cell, const DisplacementNumbering &numbering)
     {
@@ -67,6 +74,8 @@ namespace mortise
       std::array<std::array<FullMatrix<double>, dim>, dim> products; ///< int dN_i/dx_c dN_j/dx_d
       FullMatrix<double>                                 matrix;
       dealii::Vector<double>                             load;
+      FullMatrix<double>                                 boundary_matrix; ///< without the interior
+      dealii::Vector<double>                             boundary_load;
     };
 
     /// K_(ic)(jd) = lambda H_cd + mu H_dc + delta_cd mu sum_e H_ee with
@@ -148,6 +157,34 @@ namespace mortise
                 }
             }
     }
+    /// Eliminate the interior of the cell in @p kernel and add the rest. Its own rows keep a
+    /// diagonal of the same size and couple with nothing.
+    void
+    add_condensed(Kernel                                     &kernel,
+                  std::vector<types::global_dof_index>        dofs,
+                  const unsigned int                          n_b,
+                  const AffineConstraints<double>            &constraints,
+                  CondensedInteriors                         &interiors,
+                  SparseMatrix                               &stiffness,
+                  Vector                                     &load)
+    {
+      if (n_b == dofs.size())
+        {
+          constraints.distribute_local_to_global(kernel.matrix, kernel.load, dofs, stiffness, load);
+          return;
+        }
+      for (unsigned int i = n_b; i < dofs.size(); ++i)
+        stiffness.add(dofs[i], dofs[i], kernel.matrix(i, i));
+      if (!interiors.eliminate(kernel.matrix, kernel.load, n_b))
+        throw std::runtime_error("the stiffness of a cell's interior is not positive definite");
+      kernel.boundary_matrix.reinit(n_b, n_b);
+      kernel.boundary_matrix.fill(kernel.matrix);
+      kernel.boundary_load.reinit(n_b);
+      std::copy_n(kernel.load.begin(), n_b, kernel.boundary_load.begin());
+      dofs.resize(n_b);
+      constraints.distribute_local_to_global(
+        kernel.boundary_matrix, kernel.boundary_load, dofs, stiffness, load);
+    }
   } // namespace
 
   void
@@ -158,10 +195,17 @@ namespace mortise
   {
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
-        constraints.add_entries_local_to_global(scene_dofs(body, cell, numbering), sparsity, false);
+        {
+          auto               dofs = scene_dofs(body, cell, numbering);
+          const unsigned int n_b  = n_boundary_dofs(cell);
+          for (unsigned int i = n_b; i < dofs.size(); ++i)
+            sparsity.add(dofs[i], dofs[i]);
+          dofs.resize(n_b);
+          constraints.add_entries_local_to_global(dofs, sparsity, false);
+        }
   }
 
-  void
+  CondensedInteriors
   assemble_elasticity(const Body                      &body,
                       const Loads                     &loads,
                       const DisplacementNumbering     &numbering,
@@ -170,6 +214,7 @@ namespace mortise
                       Vector                          &load)
   {
     std::map<unsigned int, std::unique_ptr<Kernel>> kernels;
+    CondensedInteriors                              interiors;
     std::string                                     tangled;
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -192,9 +237,10 @@ namespace mortise
           if (loads.body_force)
             add_body_force(loads, *kernel);
           add_tractions(cell, loads, *kernel);
-          constraints.distribute_local_to_global(
-            kernel->matrix, kernel->load, scene_dofs(body, cell, numbering), stiffness, load);
+          add_condensed(
+            *kernel, scene_dofs(body, cell, numbering), n_boundary_dofs(cell), constraints, interiors, stiffness, load);
         }
     throw_if_any(tangled, body.triangulation.get_communicator());
+    return interiors;
   }
 } // namespace mortise

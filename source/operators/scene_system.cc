@@ -32,7 +32,7 @@ namespace mortise
     return constraints;
   }
 
-  void
+  std::vector<CondensedInteriors>
   assemble_bodies(const Bodies                    &bodies,
                   const std::vector<Loads>        &loads,
                   const DisplacementNumbering     &numbering,
@@ -48,11 +48,68 @@ namespace mortise
       system.stiffness.reinit(owned, owned, sparsity, system.communicator, true);
     }
     system.load.reinit(owned, system.communicator);
+    std::vector<CondensedInteriors> interiors;
     for (const auto &body : bodies)
-      assemble_elasticity(
-        *body, loads[body->index], numbering, constraints, system.stiffness, system.load);
+      interiors.push_back(assemble_elasticity(
+        *body, loads[body->index], numbering, constraints, system.stiffness, system.load));
     system.stiffness.compress(VectorOperation::add);
     system.load.compress(VectorOperation::add);
+    return interiors;
+  }
+
+  namespace
+  {
+    /// @p vector has the ghost values of all but interior dofs, which no other rank's cells share.
+    void
+    recover_interiors(const Body &body, const CondensedInteriors &interiors, BodyVector &vector)
+    {
+      if (interiors.n_cells() == 0)
+        return;
+      unsigned int                         next = 0;
+      std::vector<types::global_dof_index> dofs;
+      std::vector<double>                  boundary_values;
+      for (const auto &cell : body.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned() && cell->get_fe().n_dofs_per_hex() > 0)
+          {
+            dofs.resize(cell->get_fe().n_dofs_per_cell());
+            cell->get_dof_indices(dofs);
+            boundary_values.resize(cell->get_fe().get_first_hex_index());
+            for (unsigned int i = 0; i < boundary_values.size(); ++i)
+              boundary_values[i] = vector(dofs[i]);
+            const auto values = interiors.recover(next++, boundary_values);
+            for (unsigned int i = 0; i < values.size(); ++i)
+              vector(dofs[boundary_values.size() + i]) = values[i];
+          }
+    }
+  } // namespace
+
+  std::vector<BodyVector>
+  body_displacements(const Bodies                          &bodies,
+                     const DisplacementNumbering           &numbering,
+                     const AffineConstraints<double>       &constraints,
+                     const std::vector<CondensedInteriors> &interiors,
+                     const Vector                          &displacement)
+  {
+    const IndexSet &owned = displacement.locally_owned_elements();
+    const MPI_Comm  comm  = bodies.front()->triangulation.get_communicator();
+    Vector          all(displacement), ghosted;
+    constraints.distribute(all);
+    ghosted.reinit(owned, constraints.get_local_lines(), comm);
+    ghosted = all;
+
+    // filled in place: a copy would lose the ghost values
+    std::vector<BodyVector> result(bodies.size());
+    for (const auto &body : bodies)
+      {
+        BodyVector &vector = result[body->index];
+        vector.reinit(body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
+        for (const auto dof : body->dof_handler.locally_owned_dofs())
+          vector(dof) = ghosted(numbering(body->index, dof));
+        vector.update_ghost_values();
+        recover_interiors(*body, interiors[body->index], vector);
+        vector.update_ghost_values();
+      }
+    return result;
   }
 
   namespace
@@ -126,7 +183,6 @@ namespace mortise
               take(fe.get_first_line_index() + l * fe.n_dofs_per_line(), fe.n_dofs_per_line());
             for (const unsigned int f : cell->face_indices())
               take(fe.get_first_quad_index(f), fe.n_dofs_per_quad(f));
-            take(fe.get_first_hex_index(), fe.n_dofs_per_hex());
           }
     system.max_degree = Utilities::MPI::max(system.max_degree, system.communicator);
   }

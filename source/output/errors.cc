@@ -97,32 +97,6 @@ namespace mortise
     using TriaCell = Triangulation<dim>::cell_iterator;
   } // namespace
 
-  std::vector<BodyVector>
-  body_displacements(const Bodies                    &bodies,
-                     const DisplacementNumbering     &numbering,
-                     const AffineConstraints<double> &constraints,
-                     const Vector                    &displacement)
-  {
-    const IndexSet &owned = displacement.locally_owned_elements();
-    const MPI_Comm  comm  = bodies.front()->triangulation.get_communicator();
-    Vector          all(displacement), ghosted;
-    constraints.distribute(all);
-    ghosted.reinit(owned, constraints.get_local_lines(), comm);
-    ghosted = all;
-
-    // filled in place: a copy would lose the ghost values
-    std::vector<BodyVector> result(bodies.size());
-    for (const auto &body : bodies)
-      {
-        BodyVector &vector = result[body->index];
-        vector.reinit(body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
-        for (const auto dof : body->dof_handler.locally_owned_dofs())
-          vector(dof) = ghosted(numbering(body->index, dof));
-        vector.update_ghost_values();
-      }
-    return result;
-  }
-
   DisplacementErrors
   displacement_errors(const Bodies                  &bodies,
                       const std::vector<BodyVector> &displacements,

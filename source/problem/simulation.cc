@@ -258,7 +258,7 @@ namespace mortise
     std::vector<Loads> loads;
     for (const auto &body : bodies)
       loads.push_back(make_loads(parameters, *body, exact));
-    assemble_bodies(bodies, loads, numbering, constraints, system);
+    interiors = assemble_bodies(bodies, loads, numbering, constraints, system);
     describe_structure(bodies, numbering, system);
     stage.details(std::to_string(system.stiffness.n_nonzero_elements()) + " entries");
   }

@@ -46,7 +46,6 @@ namespace mortise
     for (const auto i : system.vertex_dofs)
       vertex[block_of_dof[i - first] - first_block] = true;
     connect(system);
-    find_interiors(system);
     fetch_ghosts(system);
   }
 
@@ -89,51 +88,6 @@ namespace mortise
   }
 
   void
-  EntityGraph::find_interiors(const BlockSystem &system)
-  {
-    const auto       n_blocks = neighbors.size();
-    const auto       first    = first_displacement(system);
-    std::vector<int> candidate(block_of_dof.size(), 0);
-    interior.assign(n_blocks, false);
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      {
-        // What a block of another rank sees is not known here; the cell's own interior, vertices,
-        // edges and faces that are owned settle it.
-        interior[b] = !vertex[b] && std::all_of(neighbors[b].begin(), neighbors[b].end(), [&](const int o) {
-          return !is_owned(o) || contains(neighbors[o - first_block], neighbors[b]);
-        });
-        if (interior[b])
-          for (const auto i : system.entity_blocks[b])
-            candidate[i - first] = system.entity_blocks[b].size();
-      }
-
-    // A face on the boundary is seen by one cell only, too: of two neighbours the larger block is
-    // taken.
-    const std::vector<bool> is_candidate = interior;
-    for (const auto *matrix : summands_of_bulk(system))
-      {
-        const std::vector<int> column_block     = on_columns(*matrix, block_of_dof);
-        const std::vector<int> column_candidate = on_columns(*matrix, candidate);
-        for (unsigned int b = 0; b < n_blocks; ++b)
-          if (is_candidate[b])
-            for (const auto i : system.entity_blocks[b])
-              {
-                const EpetraRow row(*matrix, static_cast<int>(i - first));
-                const int       mine = first_block + static_cast<int>(b);
-                const int       size = static_cast<int>(system.entity_blocks[b].size());
-                for (int k = 0; k < row.length; ++k)
-                  {
-                    const int other      = column_block[row.columns[k]];
-                    const int other_size = column_candidate[row.columns[k]];
-                    if (other != mine && row.values[k] != 0. &&
-                        (other_size > size || (other_size == size && other < mine)))
-                      interior[b] = false;
-                  }
-              }
-      }
-  }
-
-  void
   EntityGraph::fetch_ghosts(const BlockSystem &system)
   {
     std::map<unsigned int, std::vector<int>> requests;
@@ -154,7 +108,7 @@ namespace mortise
         {
           const unsigned int b = o - first_block;
           answers[from.first].push_back(
-            {o, {system.entity_blocks[b], neighbors[b], jump_neighbors[b], interior[b]}});
+            {o, {system.entity_blocks[b], neighbors[b], jump_neighbors[b]}});
         }
     for (auto &from : Utilities::MPI::some_to_some(system.communicator, answers))
       for (auto &answer : from.second)
@@ -165,7 +119,7 @@ namespace mortise
   EntityGraph::patches(const BlockSystem &system) const
   {
     std::vector<std::vector<types::global_dof_index>> result;
-    std::vector<bool>                                 covered(interior);
+    std::vector<bool>                                 covered(neighbors.size(), false);
     const auto belongs = [&](const unsigned int      v,
                              const std::vector<int> &around,
                              const std::vector<int> &jump_around) {
@@ -181,7 +135,7 @@ namespace mortise
             if (is_owned(o))
               {
                 const unsigned int b = o - first_block;
-                if (!interior[b] && belongs(v, neighbors[b], jump_neighbors[b]))
+                if (belongs(v, neighbors[b], jump_neighbors[b]))
                   {
                     const auto &dofs = system.entity_blocks[b];
                     patch.insert(patch.end(), dofs.begin(), dofs.end());
@@ -189,7 +143,7 @@ namespace mortise
                   }
               }
             else if (const Ghost &ghost = ghosts.at(o);
-                     !ghost.interior && belongs(v, ghost.neighbors, ghost.jump_neighbors))
+                     belongs(v, ghost.neighbors, ghost.jump_neighbors))
               patch.insert(patch.end(), ghost.dofs.begin(), ghost.dofs.end());
         }
     for (unsigned int b = 0; b < neighbors.size(); ++b)

@@ -2,36 +2,67 @@
 #include <mortise/solvers/block_smoother.h>
 #include <mortise/solvers/entity_graph.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
-#include <mortise/solvers/interior_condensation.h>
 #include <mortise/solvers/vertex_solver.h>
 
 #include <deal.II/base/mpi.h>
+
+#include <EpetraExt_MatrixMatrix.h>
 
 namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// K + J; K itself without an interface.
+    class BulkMatrix
+    {
+    public:
+      explicit BulkMatrix(const BlockSystem &system)
+        : matrix(&system.stiffness.trilinos_matrix())
+      {
+        if (system.owned_multiplier.size() == 0)
+          return;
+        Epetra_CrsMatrix *result = nullptr;
+        EpetraExt::MatrixMatrix::Add(
+          *matrix, false, 1., system.jump_penalty.trilinos_matrix(), false, 1., result);
+        sum.reset(result);
+        sum->FillComplete(matrix->DomainMap(), matrix->RangeMap());
+        sum->OptimizeStorage();
+        matrix = sum.get();
+      }
+
+      const Epetra_CrsMatrix &
+      operator*() const
+      {
+        return *matrix;
+      }
+
+    private:
+      const Epetra_CrsMatrix           *matrix;
+      std::unique_ptr<Epetra_CrsMatrix> sum;
+    };
+  } // namespace
+
   struct HierarchicalPreconditioner::Implementation
   {
-    Implementation(const BlockSystem &system, const EntityGraph &graph)
-      : condensation(system, graph)
-      , r(condensation.schur_complement().RowMap())
+    explicit Implementation(const BlockSystem &system)
+      : bulk(system)
+      , r((*bulk).RowMap())
       , t(r)
-      , x(r)
       , y(r)
       , has_high_modes(system.max_degree > 1)
     {
-      const auto &schur = condensation.schur_complement();
-      valid             = coarse.initialize(system, schur) && condensation.is_valid();
-      if (has_high_modes && condensation.is_valid())
-        valid = smoother.initialize(schur, graph.patches(system)) && valid;
+      valid = coarse.initialize(system, *bulk);
+      if (has_high_modes)
+        valid = smoother.initialize(*bulk, EntityGraph(system).patches(system)) && valid;
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
     }
 
-    InteriorCondensation  condensation;
+    BulkMatrix            bulk;
     BlockSmoother         smoother;
     VertexSolver          coarse;
-    mutable Epetra_Vector r, t, x, y; ///< on the rows of the Schur complement
+    mutable Epetra_Vector r, t, y;
     bool                  has_high_modes;
     bool                  valid = true;
   };
@@ -42,38 +73,37 @@ namespace mortise
   bool
   HierarchicalPreconditioner::initialize(const BlockSystem &system)
   {
-    implementation = std::make_unique<Implementation>(system, EntityGraph(system));
+    implementation = std::make_unique<Implementation>(system);
     return implementation->valid;
   }
 
   void
   HierarchicalPreconditioner::vmult(Vector &dst, const Vector &src) const
   {
-    const auto   &data  = *implementation;
-    const auto   &schur = data.condensation.schur_complement();
-    const double *r     = src.trilinos_vector()[0];
+    const auto   &data   = *implementation;
+    const auto   &matrix = *data.bulk;
+    Epetra_Vector x(View, matrix.RowMap(), dst.trilinos_vector()[0]);
+    data.r = *src.trilinos_vector()(0);
 
-    // On S: Q + (I - Q S) M (I - S Q), positive definite for any positive definite M and any
-    // positive semi-definite Q, exact or not (Tang, Nabben, Vuik and Erlangga 2009, "BNN").
-    data.condensation.restrict_residual(data.r, r);
-    data.coarse.vmult(data.x, data.r);
+    // Q + (I - Q A) M (I - A Q), positive definite for any positive definite M and any positive
+    // semi-definite Q, exact or not (Tang, Nabben, Vuik and Erlangga 2009, "BNN").
+    data.coarse.vmult(x, data.r);
     if (data.has_high_modes)
       {
-        schur.Multiply(false, data.x, data.t);
+        matrix.Multiply(false, x, data.t);
         data.r.Update(-1., data.t, 1.);
         data.smoother.vmult(data.y, data.r);
-        data.x.Update(1., data.y, 1.);
-        schur.Multiply(false, data.y, data.t);
+        x.Update(1., data.y, 1.);
+        matrix.Multiply(false, data.y, data.t);
         data.coarse.vmult(data.y, data.t);
-        data.x.Update(-1., data.y, 1.);
+        x.Update(-1., data.y, 1.);
       }
-    data.condensation.extend_solution(const_cast<double *>(dst.trilinos_vector()[0]), data.x, r);
   }
 
   std::string
   HierarchicalPreconditioner::description() const
   {
-    return (implementation->has_high_modes ? "interiors condensed, vertex stars, " : "") +
+    return (implementation->has_high_modes ? "vertex stars, " : "") +
            implementation->coarse.description();
   }
 } // namespace mortise

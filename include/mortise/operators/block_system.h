@@ -23,8 +23,9 @@ namespace mortise
     dealii::IndexSet owned_displacement;
     dealii::IndexSet owned_multiplier;
 
-    /// K, symmetric; a constrained degree of freedom (Dirichlet, hanging node) has a row and a column that are
-    /// zero but for a positive diagonal, and zero in f. Singular when a body is held only by its interfaces.
+    /// K, symmetric, the interiors of cells eliminated; a constrained or eliminated degree of
+    /// freedom (Dirichlet, hanging node, interior of a cell) has a row and a column that are zero but
+    /// for a positive diagonal, and zero in f. Singular when a body is held only by its interfaces.
     SparseMatrix stiffness;
     Vector       load;
 
@@ -50,8 +51,8 @@ namespace mortise
     /// Body of each of those vertices (for rigid body modes per body if wanted).
     std::vector<unsigned int> vertex_body;
 
-    /// Owned displacement dofs grouped by mesh entity (a vertex, edge, face or cell interior with
-    /// its three components and all modes); each owned dof in exactly one block.
+    /// Owned displacement dofs grouped by mesh entity (a vertex, edge or face with its three
+    /// components and all modes); a dof of a cell's interior is in none and couples with nothing.
     std::vector<std::vector<dealii::types::global_dof_index>> entity_blocks;
 
     /// Largest polynomial degree in the scene.

@@ -6,6 +6,7 @@
 #include <mortise/body/body.h>
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/numbering.h>
+#include <mortise/operators/condensed_interiors.h>
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -30,10 +31,11 @@ namespace mortise
                      const dealii::AffineConstraints<double> &constraints,
                      dealii::DynamicSparsityPattern          &sparsity);
 
-  /// Add int sigma(u):eps(v) and int b.v + int t.v to @p stiffness and @p load, constraints
-  /// resolved; the caller compresses. Collective; throws InputError on all ranks for a cell of
-  /// negative volume.
-  void
+  /// Add int sigma(u):eps(v) and int b.v + int t.v to @p stiffness and @p load, interiors of cells
+  /// eliminated and constraints resolved; the caller compresses. The row of an interior dof has
+  /// nothing but its diagonal. Returns the interiors of the owned cells, in the order of iteration;
+  /// none at degree 1. Collective; throws InputError on all ranks for a cell of negative volume.
+  CondensedInteriors
   assemble_elasticity(const Body                              &body,
                       const Loads                             &loads,
                       const DisplacementNumbering             &numbering,

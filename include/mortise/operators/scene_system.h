@@ -5,6 +5,8 @@
 #include <mortise/operators/block_system.h>
 #include <mortise/operators/elasticity.h>
 
+#include <deal.II/lac/la_parallel_vector.h>
+
 #include <memory>
 #include <vector>
 
@@ -19,13 +21,26 @@ namespace mortise
                     const DisplacementNumbering                          &numbering,
                     const std::vector<dealii::AffineConstraints<double>> &body_constraints);
 
-  /// Assemble stiffness and load of @p system. Collective; throws InputError for tangled cells.
-  void
+  /// Assemble stiffness and load of @p system, the interiors of cells eliminated; these are returned
+  /// by body. Collective; throws InputError for tangled cells.
+  std::vector<CondensedInteriors>
   assemble_bodies(const Bodies                            &bodies,
                   const std::vector<Loads>                &loads,
                   const DisplacementNumbering             &numbering,
                   const dealii::AffineConstraints<double> &constraints,
                   BlockSystem                             &system);
+
+  /// The displacement of one body in the numbering of its DoFHandler, with ghost values.
+  using BodyVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /// The displacements of all bodies out of the solution of the system: constraints distributed,
+  /// interiors of cells recovered. Collective.
+  std::vector<BodyVector>
+  body_displacements(const Bodies                            &bodies,
+                     const DisplacementNumbering             &numbering,
+                     const dealii::AffineConstraints<double> &constraints,
+                     const std::vector<CondensedInteriors>   &interiors,
+                     const Vector                            &displacement);
 
   /// Fill vertex_dofs, vertex_points, vertex_body, entity_blocks and max_degree of @p system.
   void

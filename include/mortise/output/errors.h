@@ -6,25 +6,12 @@
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/scene_system.h>
 
-#include <deal.II/lac/la_parallel_vector.h>
-
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace mortise
 {
-  /// The displacement of one body in the numbering of its DoFHandler, with ghost values.
-  using BodyVector = dealii::LinearAlgebra::distributed::Vector<double>;
-
-  /// The displacements of all bodies out of the solution of the scene (owned entries, constraints not yet
-  /// distributed). Collective.
-  std::vector<BodyVector>
-  body_displacements(const Bodies                            &bodies,
-                     const DisplacementNumbering             &numbering,
-                     const dealii::AffineConstraints<double> &constraints,
-                     const Vector                            &displacement);
-
   /// Relative errors over the whole scene.
   struct DisplacementErrors
   {

@@ -86,6 +86,7 @@ namespace mortise
     std::vector<Coupling>                                   couplings;
     std::vector<std::vector<bool>>                          occupied; ///< by body, owned dofs
     BlockSystem                                             system;
+    std::vector<CondensedInteriors>                         interiors; ///< by body
     Vector                                                  displacement, multiplier;
     SolveReport                                             solve_report;
     std::vector<BodyVector>                                 displacements;

@@ -1,5 +1,5 @@
 // Which mesh entities of a rank couple with which others in A = K + J, found in the graph of the
-// matrices: interiors of cells, and the patches around vertices. It never looks at values.
+// matrices: the patches around vertices. It never looks at values.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -16,16 +16,8 @@ namespace mortise
     /// Collective.
     explicit EntityGraph(const BlockSystem &system);
 
-    /// Whether the block belongs to one cell only, so that eliminating it fills in nothing: all its
-    /// neighbours are neighbours of each other. No two interiors are neighbours.
-    bool
-    is_interior(const unsigned int block) const
-    {
-      return interior[block];
-    }
-
-    /// Overlapping groups of dofs that are not interior, those of other ranks included; the groups of
-    /// all ranks together hold all dofs that are not interior. A group is the star of an owned vertex v
+    /// Overlapping groups of dofs, those of other ranks included; the groups of all ranks together hold
+    /// all dofs that are in a block. A group is the star of an owned vertex v
     /// (every entity o with N(o) within N(v), N being the neighbours in A); on an interface with the
     /// entities of the other side that J couples with that star alone.
     std::vector<std::vector<dealii::types::global_dof_index>>
@@ -39,20 +31,17 @@ namespace mortise
     {
       std::vector<dealii::types::global_dof_index> dofs;
       std::vector<int>                             neighbors, jump_neighbors;
-      bool                                         interior = false;
 
       template <class Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &dofs &neighbors &jump_neighbors &interior;
+        archive &dofs &neighbors &jump_neighbors;
       }
     };
 
     void
     connect(const BlockSystem &system);
-    void
-    find_interiors(const BlockSystem &system);
     void
     fetch_ghosts(const BlockSystem &system);
     bool
@@ -64,9 +53,9 @@ namespace mortise
     std::vector<int>     rank_start;      ///< first block of each rank, and their number
     std::map<int, Ghost> ghosts;          ///< neighbours of owned vertices
     int               first_block = 0; ///< blocks of all ranks are numbered rank by rank
-    std::vector<int>  block_of_dof;    ///< owned dofs, by position
+    std::vector<int>  block_of_dof;    ///< owned dofs, by position; -1: interior of a cell
     Lists             neighbors;       ///< in A, sorted, itself included
     Lists             jump_neighbors;  ///< in J
-    std::vector<bool> vertex, interior;
+    std::vector<bool> vertex;
   };
 } // namespace mortise
