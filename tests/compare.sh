@@ -6,7 +6,7 @@ got=$(mktemp)
 trap 'rm -f "$got"' EXIT
 run=("$program")
 if [ "$ranks" -gt 1 ]; then
-  run=(mpirun -q -n "$ranks" --oversubscribe --bind-to none)
+  run=(mpirun -q --mca mpi_yield_when_idle 1 -n "$ranks" --oversubscribe --bind-to none)
   [ "$(id -u)" = 0 ] && run+=(--allow-run-as-root)
   run+=("$program")
 fi

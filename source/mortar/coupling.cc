@@ -153,74 +153,6 @@ namespace mortise
           if (!coupling.local[s].partners.empty())
             visit(coupling, s);
     }
-
-    void
-    assemble_penalty(const std::vector<Coupling> &couplings,
-                     const IndexSet              &owned_displacement,
-                     const MPI_Comm               comm,
-                     SparseMatrix                &penalty)
-    {
-      Assembler  assembler(owned_displacement, owned_displacement);
-      const auto for_each_block = [&](const auto &block) {
-        for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
-          const FaceTrace     &slave = coupling.interface->slave().traces[s];
-          const LocalCoupling &local = coupling.local[s];
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              block(component(slave, c), component(slave, c), local.mass, local.penalty, false);
-              for (const auto &partner : local.partners)
-                {
-                  const Expansion master =
-                    component(coupling.interface->master_traces()[partner.master], c);
-                  block(component(slave, c), master, partner.mixed, -local.penalty, false);
-                  block(master, component(slave, c), partner.mixed, -local.penalty, true);
-                  block(master, master, partner.mass, local.penalty, false);
-                }
-            }
-        });
-      };
-      for_each_block([&](const Expansion          &row,
-                         const Expansion          &column,
-                         const FullMatrix<double> &local,
-                         const double,
-                         const bool transposed) {
-        assembler.record(
-          row, transposed ? local.n() : local.m(), column, transposed ? local.m() : local.n());
-      });
-      assembler.create(penalty, comm);
-      for_each_block([&](const Expansion          &row,
-                         const Expansion          &column,
-                         const FullMatrix<double> &local,
-                         const double              factor,
-                         const bool                transposed) {
-        Assembler::add(row, column, local, factor, transposed, penalty);
-      });
-      penalty.compress(VectorOperation::add);
-    }
-
-    void
-    assemble_norm(const std::vector<Coupling> &couplings,
-                  const IndexSet              &owned_multiplier,
-                  const MPI_Comm               comm,
-                  SparseMatrix                &norm)
-    {
-      Assembler assembler(owned_multiplier, owned_multiplier);
-      for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
-        const auto        &rows = coupling.multipliers->rows()[s];
-        const unsigned int n    = coupling.local[s].mass.m();
-        for (unsigned int c = 0; c < dim; ++c)
-          assembler.record(component(rows, c), n, component(rows, c), n);
-      });
-      assembler.create(norm, comm);
-      for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
-        const auto          &rows  = coupling.multipliers->rows()[s];
-        const LocalCoupling &local = coupling.local[s];
-        for (unsigned int c = 0; c < dim; ++c)
-          Assembler::add(
-            component(rows, c), component(rows, c), local.mass, 1. / local.penalty, false, norm);
-      });
-      norm.compress(VectorOperation::add);
-    }
   } // namespace
 
   void
@@ -270,12 +202,45 @@ namespace mortise
   }
 
   void
-  assemble_norms(const std::vector<Coupling> &couplings,
-                 const CouplingPartition     &partition,
-                 SparseMatrix                &jump_penalty,
-                 SparseMatrix                &multiplier_norm)
+  assemble_jump_penalty(const std::vector<Coupling> &couplings,
+                        const CouplingPartition     &partition,
+                        SparseMatrix                &jump_penalty)
   {
-    assemble_penalty(couplings, partition.owned_displacement, partition.comm, jump_penalty);
-    assemble_norm(couplings, partition.owned_multiplier, partition.comm, multiplier_norm);
+    Assembler  assembler(partition.owned_displacement, partition.owned_displacement);
+    const auto for_each_block = [&](const auto &block) {
+      for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
+        const FaceTrace     &slave = coupling.interface->slave().traces[s];
+        const LocalCoupling &local = coupling.local[s];
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            block(component(slave, c), component(slave, c), local.mass, local.penalty, false);
+            for (const auto &partner : local.partners)
+              {
+                const Expansion master =
+                  component(coupling.interface->master_traces()[partner.master], c);
+                block(component(slave, c), master, partner.mixed, -local.penalty, false);
+                block(master, component(slave, c), partner.mixed, -local.penalty, true);
+                block(master, master, partner.mass, local.penalty, false);
+              }
+          }
+      });
+    };
+    for_each_block([&](const Expansion          &row,
+                       const Expansion          &column,
+                       const FullMatrix<double> &local,
+                       const double,
+                       const bool transposed) {
+      assembler.record(
+        row, transposed ? local.n() : local.m(), column, transposed ? local.m() : local.n());
+    });
+    assembler.create(jump_penalty, partition.comm);
+    for_each_block([&](const Expansion          &row,
+                       const Expansion          &column,
+                       const FullMatrix<double> &local,
+                       const double              factor,
+                       const bool                transposed) {
+      Assembler::add(row, column, local, factor, transposed, jump_penalty);
+    });
+    jump_penalty.compress(VectorOperation::add);
   }
 } // namespace mortise

@@ -86,6 +86,11 @@ namespace mortise
                                statistics.degree_max,
                                body->dof_handler.n_dofs()});
       }
+    unsigned int max_degree = 1;
+    for (const BodySummary &body : step.bodies)
+      max_degree = std::max(max_degree, body.degree_max);
+    method = choose_solver(parameters.solver.method, numbering.size(), max_degree).method;
+
     step.dofs.displacement = numbering.size();
     step.dofs.total        = numbering.size();
     stage.details(std::to_string(numbering.size()) + " displacement dofs");
@@ -125,7 +130,7 @@ namespace mortise
       {
         InterfaceHandler &interface = *couplings[i].interface;
         couplings[i].local =
-          integrate_coupling(interface, parameters.solver.method != SolverMethod::direct);
+          integrate_coupling(interface, method != SolverMethod::direct);
         const InterfaceReport &report = interface.report();
         clipping += report.clipping_seconds;
         if (report.pairs == 0)
@@ -244,8 +249,8 @@ namespace mortise
         number_multipliers();
         const CouplingPartition partition{system.owned_displacement, system.owned_multiplier, comm};
         assemble_constraint(couplings, partition, system.coupling, system.coupling_rhs);
-        if (parameters.solver.method != SolverMethod::direct)
-          assemble_norms(couplings, partition, system.jump_penalty, system.multiplier_norm);
+        if (method != SolverMethod::direct)
+          assemble_jump_penalty(couplings, partition, system.jump_penalty);
         for (unsigned int i = 0; i < couplings.size(); ++i)
           summarise_interface(i);
         stage.details(std::to_string(system.owned_multiplier.size()) + " multipliers");

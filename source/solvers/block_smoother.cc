@@ -7,7 +7,6 @@
 #include <Teuchos_LAPACK.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace mortise
@@ -16,7 +15,7 @@ namespace mortise
   BlockSmoother::initialize(const Epetra_CrsMatrix                                          &global,
                             const std::vector<std::vector<dealii::types::global_dof_index>> &block_rows)
   {
-    blocks.clear();
+    patches.clear();
     matrix = &global;
     if (global.Comm().NumProc() > 1)
       create_local_matrix(global, block_rows);
@@ -54,7 +53,7 @@ namespace mortise
           for (int i = 0; i < j; ++i)
             block.inverse[i + j * n] = block.inverse[j + i * n];
         valid = valid && info == 0;
-        blocks.push_back(std::move(block));
+        patches.push_back(std::move(block));
       }
     workspace.resize(2 * largest);
     return valid;
@@ -76,21 +75,12 @@ namespace mortise
     rows.insert(rows.end(), foreign.begin(), foreign.end());
     local_map =
       std::make_unique<Epetra_Map>(-1, static_cast<int>(rows.size()), rows.data(), 0, global.Comm());
-    importer = std::make_unique<Epetra_Import>(*local_map, global.RowMap());
+    to_local = std::make_unique<Epetra_Import>(*local_map, global.RowMap());
     x_local  = std::make_unique<Epetra_Vector>(*local_map);
     r_local  = std::make_unique<Epetra_Vector>(*local_map);
 
-    // Each row's weight is one over the root of the number of ranks that hold it.
-    Epetra_Vector count(global.RowMap());
-    weight = std::make_unique<Epetra_Vector>(*local_map);
-    weight->PutScalar(1.);
-    count.Export(*weight, *importer, Add);
-    weight->Import(count, *importer, Insert);
-    for (int i = 0; i < weight->MyLength(); ++i)
-      (*weight)[i] = 1. / std::sqrt((*weight)[i]);
-
     Epetra_CrsMatrix overlapping(Copy, *local_map, 0);
-    overlapping.Import(global, *importer, Insert);
+    overlapping.Import(global, *to_local, Insert);
     overlapping.FillComplete(global.DomainMap(), global.RangeMap());
 
     // The square part of it, as a matrix of this rank alone.
@@ -153,25 +143,53 @@ namespace mortise
   BlockSmoother::sweep(double *x, const double *r) const
   {
     std::fill(x, x + matrix->NumMyRows(), 0.);
-    for (const auto &block : blocks)
+    for (const auto &block : patches)
       relax(block, x, r);
-    for (auto block = blocks.rbegin(); block != blocks.rend(); ++block)
+    for (auto block = patches.rbegin(); block != patches.rend(); ++block)
       relax(*block, x, r);
+  }
+
+  void
+  BlockSmoother::solve_blocks(Epetra_Vector                   &x,
+                              const Epetra_Vector             &r,
+                              const std::vector<unsigned int> &selected) const
+  {
+    if (to_local)
+      r_local->Import(r, *to_local, Insert);
+    const double *source = to_local ? r_local->Values() : r.Values();
+    double       *target = to_local ? x_local->Values() : x.Values();
+    std::fill(target, target + matrix->NumMyRows(), 0.);
+    const Teuchos::BLAS<int, double> blas;
+    for (const unsigned int b : selected)
+      {
+        const Block &block = patches[b];
+        const int    n     = static_cast<int>(block.rows.size());
+        double      *y     = workspace.data() + n;
+        for (int i = 0; i < n; ++i)
+          workspace[i] = source[block.rows[i]];
+        blas.GEMV(
+          Teuchos::NO_TRANS, n, n, 1., block.inverse.data(), n, workspace.data(), 1, 0., y, 1);
+        for (int i = 0; i < n; ++i)
+          target[block.rows[i]] += y[i];
+      }
+    if (to_local)
+      {
+        x.PutScalar(0.);
+        x.Export(*x_local, *to_local, Add);
+      }
   }
 
   void
   BlockSmoother::vmult(Epetra_Vector &x, const Epetra_Vector &r) const
   {
-    if (!importer)
+    if (!to_local)
       {
         sweep(x.Values(), r.Values());
         return;
       }
-    r_local->Import(r, *importer, Insert);
-    r_local->Multiply(1., *weight, *r_local, 0.);
+    r_local->Import(r, *to_local, Insert);
     sweep(x_local->Values(), r_local->Values());
-    x_local->Multiply(1., *weight, *x_local, 0.);
     x.PutScalar(0.);
-    x.Export(*x_local, *importer, Add);
+    x.Export(*x_local, *to_local, Add);
   }
 } // namespace mortise

@@ -54,7 +54,7 @@ namespace mortise
       , has_high_modes(system.max_degree > 1)
     {
       valid = coarse.initialize(system, *bulk);
-      if (has_high_modes)
+      if (has_high_modes || system.owned_multiplier.size() > 0)
         valid = smoother.initialize(*bulk, EntityGraph(system).patches(system)) && valid;
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
     }
@@ -98,6 +98,12 @@ namespace mortise
         data.coarse.vmult(data.y, data.t);
         x.Update(-1., data.y, 1.);
       }
+  }
+
+  const BlockSmoother &
+  HierarchicalPreconditioner::smoother() const
+  {
+    return implementation->smoother;
   }
 
   std::string

@@ -1,13 +1,16 @@
 // See saddle_point.h.
 #include <mortise/solvers/condensed.h>
+#include <mortise/solvers/constraint_projector.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/saddle_point.h>
 #include <mortise/solvers/scaled_residual.h>
-#include <mortise/solvers/sparse_factorization.h>
 
 #include <deal.II/base/timer.h>
 
-#include <array>
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
 #include <cmath>
 
 namespace mortise
@@ -16,55 +19,93 @@ namespace mortise
 
   namespace
   {
-    /// (u, lambda) as one vector.
-    struct Pair
-    {
-      Vector u;
-      Vector l;
+    using BlockVector = TrilinosWrappers::MPI::BlockVector;
 
-      void
-      add(const double a, const Pair &x)
-      {
-        u.add(a, x.u);
-        l.add(a, x.l);
-      }
-
-      void
-      scale(const double a)
-      {
-        u *= a;
-        l *= a;
-      }
-
-      double
-      operator*(const Pair &x) const
-      {
-        return u * x.u + l * x.l;
-      }
-    };
-
-    /// diag(A^, W)^{-1} with A^ for K + J. Scaling W by 1/2 to 5 takes more iterations (measured).
-    class BlockDiagonalPreconditioner
+    /// W [K B^T; B 0] W with W^2 = diag(D_u, D_lambda)^{-1}: the Euclidean norm of its residual is the
+    /// norm that all solvers report.
+    class ScaledOperator
     {
     public:
-      explicit BlockDiagonalPreconditioner(const BlockSystem &system)
+      ScaledOperator(const BlockSystem &system, const ScaledResidual &residual)
+        : system(system)
+        , weight({system.owned_displacement, system.owned_multiplier}, system.communicator)
+        , scaled(weight)
       {
-        valid = bulk.initialize(system);
-        valid = multiplier.initialize(system.multiplier_norm.trilinos_matrix()) && valid;
+        set_root(residual.inverse_diagonal_u(), weight.block(0));
+        set_root(residual.inverse_diagonal_lambda(), weight.block(1));
+        inverse = weight;
+        for (unsigned int b = 0; b < 2; ++b)
+          for (unsigned int i = 0; i < inverse.block(b).locally_owned_size(); ++i)
+            epetra(inverse.block(b))[0][i] = 1. / epetra(inverse.block(b))[0][i];
       }
 
       void
-      vmult(Pair &z, const Pair &r) const
+      vmult(BlockVector &y, const BlockVector &x) const
       {
-        bulk.vmult(z.u, r.u);
-        multiplier.solve(const_cast<Epetra_FEVector &>(z.l.trilinos_vector()), r.l.trilinos_vector());
+        scaled = x;
+        scaled.scale(weight);
+        system.stiffness.vmult(y.block(0), scaled.block(0));
+        system.coupling.Tvmult_add(y.block(0), scaled.block(1));
+        system.coupling.vmult(y.block(1), scaled.block(0));
+        y.scale(weight);
+      }
+
+    private:
+      static void
+      set_root(const Epetra_Vector &square, Vector &root)
+      {
+        for (int i = 0; i < square.MyLength(); ++i)
+          epetra(root)[0][i] = std::sqrt(square[i]);
+      }
+
+      const BlockSystem &system;
+
+    public:
+      BlockVector weight, inverse; ///< W and W^{-1}
+
+    private:
+      mutable BlockVector scaled;
+    };
+
+    /// The block factorisation of [A^ B^T; B 0] with A^ for K + J, its Schur complement replaced by
+    /// C = B T B^T and A^{-1} B^T by T B^T: what it returns satisfies the constraint exactly.
+    class BlockPreconditioner
+    {
+    public:
+      BlockPreconditioner(const BlockSystem &system, const ScaledOperator &scaling)
+        : scaling(scaling)
+        , valid(bulk.initialize(system))
+      {
+        if (!valid)
+          return;
+        lifting   = std::make_unique<InterfaceLifting>(system, bulk.smoother());
+        projector = std::make_unique<ConstraintProjector>(system, *lifting);
+        valid     = projector->is_valid();
+      }
+
+      void
+      vmult(BlockVector &z, const BlockVector &r) const
+      {
+        BlockVector &t = scratch;
+        if (t.n_blocks() == 0)
+          t.reinit(r);
+        t = r;
+        t.scale(scaling.inverse);
+        Vector &z_u = z.block(0), &z_l = z.block(1);
+        // r_u - B^T y with y = C^{-1} B T r_u
+        z_l = 0.;
+        projector->project_residual(t.block(0), z_l);
+        bulk.vmult(z_u, t.block(0));
+        // z_u - T B^T y with y = C^{-1} (B z_u - r_lambda)
+        z_l += projector->project(z_u, &t.block(1));
+        z.scale(scaling.inverse);
       }
 
       std::string
       description() const
       {
-        return "block diagonal: " + bulk.description() + "; multiplier norm factorised (" +
-               multiplier.backend() + ")";
+        return "block factorisation: " + bulk.description() +
+               "; interface Schur complement factorised";
       }
 
       bool
@@ -74,103 +115,14 @@ namespace mortise
       }
 
     private:
-      bool                       valid = true;
-      HierarchicalPreconditioner bulk;
-      SparseFactorization        multiplier;
+      const ScaledOperator                &scaling;
+      HierarchicalPreconditioner           bulk;
+      std::unique_ptr<InterfaceLifting>    lifting;
+      std::unique_ptr<ConstraintProjector> projector;
+      bool                                 valid;
+      mutable BlockVector                  scratch;
     };
   } // namespace
-
-  /// MINRES as in Elman, Silvester and Wathen, Finite Elements and Fast Iterative Solvers (2014),
-  /// algorithm 4.1, with the residual vector carried along so that the stopping test is the
-  /// norm that all solvers report.
-  class Minres
-  {
-  public:
-    Minres(const BlockSystem                 &system,
-           const ScaledResidual              &residual,
-           const BlockDiagonalPreconditioner &preconditioner,
-           const SolverOptions               &options)
-      : system(system)
-      , residual(residual)
-      , preconditioner(preconditioner)
-      , options(options)
-    {}
-
-    /// Improve @p x until its residual is below @p target; counts in @p report.
-    void
-    run(Pair &x, const double target, SolveReport &report) const
-    {
-      const double rhs_norm = residual.right_hand_side_norm();
-      Pair         r{x.u, x.l};
-      residual.compute(x.u, x.l, r.u, r.l);
-      Pair   v_old = r, v = r, z = r, av = r, w_old = r, w = r, next = r;
-      v_old.scale(0.);
-      w_old.scale(0.);
-      w.scale(0.);
-      preconditioner.vmult(z, v);
-      double gamma = std::sqrt(z * v), gamma_old = 1.;
-      double eta = gamma;
-      double s_old = 0., s = 0., c_old = 1., c = 1.;
-      while (report.iterations < options.max_iterations && gamma > 0.)
-        {
-          z.scale(1. / gamma);
-          apply(av, z);
-          const double delta = av * z;
-          // Lanczos: v_{j+1} = A z_j - (delta/gamma_j) v_j - (gamma_j/gamma_{j-1}) v_{j-1}.
-          av.add(-delta / gamma, v);
-          av.add(-gamma / gamma_old, v_old);
-          std::swap(v_old, v);
-          std::swap(v, av);
-          next = z;
-          preconditioner.vmult(z, v);
-          const double gamma_new = std::sqrt(std::max(0., z * v));
-
-          const double a0 = c * delta - c_old * s * gamma;
-          const double a1 = std::sqrt(a0 * a0 + gamma_new * gamma_new);
-          const double a2 = s * delta + c_old * c * gamma;
-          const double a3 = s_old * gamma;
-          c_old           = c;
-          s_old           = s;
-          c               = a0 / a1;
-          s               = gamma_new / a1;
-          next.add(-a3, w_old);
-          next.add(-a2, w);
-          next.scale(1. / a1);
-          std::swap(w_old, w);
-          std::swap(w, next);
-          x.add(c * eta, w);
-          eta *= -s;
-          // r_j = s^2 r_{j-1} + eta_j c v_{j+1} / gamma_{j+1}
-          r.scale(s * s);
-          if (gamma_new > 0.)
-            r.add(eta * c / gamma_new, v);
-          gamma_old = gamma;
-          gamma     = gamma_new;
-
-          const double reached = residual.norm(r.u, r.l);
-          ++report.iterations;
-          report.history.push_back(reached / rhs_norm);
-          if (options.monitor)
-            options.monitor(report.iterations, reached / rhs_norm);
-          if (!(reached > target))
-            break;
-        }
-    }
-
-  private:
-    void
-    apply(Pair &y, const Pair &x) const
-    {
-      system.stiffness.vmult(y.u, x.u);
-      system.coupling.Tvmult_add(y.u, x.l);
-      system.coupling.vmult(y.l, x.u);
-    }
-
-    const BlockSystem                 &system;
-    const ScaledResidual              &residual;
-    const BlockDiagonalPreconditioner &preconditioner;
-    const SolverOptions               &options;
-  };
 
   SolveReport
   solve_saddle_point(const BlockSystem   &system,
@@ -181,33 +133,57 @@ namespace mortise
     if (system.owned_multiplier.size() == 0) // nothing indefinite about it
       return solve_condensed(system, options, u, lambda);
 
-    SolveReport report;
+    constexpr unsigned int max_basis = 60;
+    SolveReport            report;
     report.method = "saddle point";
-    Timer                             timer;
-    const BlockDiagonalPreconditioner preconditioner(system);
-    const ScaledResidual              residual(system);
+    Timer                     timer;
+    const ScaledResidual      residual(system);
+    const ScaledOperator      matrix(system, residual);
+    const BlockPreconditioner preconditioner(system, matrix);
     report.preconditioner = preconditioner.description();
     report.setup_seconds  = timer.wall_time();
     timer.restart();
 
     u.reinit(system.owned_displacement, system.communicator);
     lambda.reinit(system.owned_multiplier, system.communicator);
-    const double target = options.tolerance * residual.right_hand_side_norm();
-    const Minres minres(system, residual, preconditioner, options);
-    Pair         x{u, lambda}, r{u, lambda};
-    double       reached = residual.right_hand_side_norm();
-    // The carried residual drifts from the true one by rounding: start again from what was reached.
+    const double rhs_norm = residual.right_hand_side_norm();
+    const double target   = options.tolerance * rhs_norm;
+    double       reached  = rhs_norm;
+    BlockVector  x(matrix.weight), r(x);
+    // The recursive residual drifts from the true one by rounding: start again from what was reached.
     for (unsigned int start = 0; start < 3 && preconditioner.is_valid() && reached > target &&
                                  report.iterations < options.max_iterations;
          ++start)
       {
-        minres.run(x, 0.9 * target, report);
-        residual.compute(x.u, x.l, r.u, r.l);
-        reached = residual.norm(r.u, r.l);
+        residual.compute(u, lambda, r.block(0), r.block(1));
+        r.scale(matrix.weight);
+        x = 0.;
+        SolverControl control(options.max_iterations - report.iterations, 0.9 * target, false, false);
+        SolverGMRES<BlockVector> solver(
+          control, SolverGMRES<BlockVector>::AdditionalData(max_basis + 2, true));
+        solver.connect([&](const unsigned int iteration, const double value, const BlockVector &) {
+          if (iteration > 0)
+            {
+              report.history.push_back(value / rhs_norm);
+              if (options.monitor)
+                options.monitor(report.iterations + iteration, value / rhs_norm);
+            }
+          return SolverControl::success;
+        });
+        try
+          {
+            solver.solve(matrix, x, r, preconditioner);
+          }
+        catch (const SolverControl::NoConvergence &)
+          {}
+        report.iterations += control.last_step();
+        x.scale(matrix.weight);
+        u += x.block(0);
+        lambda += x.block(1);
+        residual.compute(u, lambda, r.block(0), r.block(1));
+        reached = residual.norm(r.block(0), r.block(1));
       }
-    u                        = x.u;
-    lambda                   = x.l;
-    report.relative_residual = reached == 0. ? 0. : reached / residual.right_hand_side_norm();
+    report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= target;
     report.solve_seconds     = timer.wall_time();
     return report;

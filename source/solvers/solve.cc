@@ -17,9 +17,6 @@ namespace mortise
     /// against 24 s; 94,776 of degree 6: 47 s against 142 s. Its memory sets the second limit.
     constexpr unsigned int direct_dofs     = 2500;
     constexpr unsigned int max_direct_dofs = 100000;
-
-    /// Above this degree MINRES takes fewer iterations than the condensed system.
-    constexpr unsigned int max_condensed_degree = 4;
   } // namespace
 
   std::vector<std::string>
@@ -38,39 +35,31 @@ namespace mortise
     throw InputError("Solver/Method: got \"" + name + "\"; allowed: " + join_names(names));
   }
 
+  SolverChoice
+  choose_solver(const SolverMethod                    asked,
+                const dealii::types::global_dof_index n_displacements,
+                const unsigned int                    max_degree)
+  {
+    if (asked != SolverMethod::automatic)
+      return {asked, ""};
+    const auto limit = std::min(direct_dofs * max_degree * max_degree, max_direct_dofs);
+    if (n_displacements <= limit)
+      return {SolverMethod::direct, "chosen for at most " + std::to_string(limit) + " dofs"};
+    return {SolverMethod::condensed, "chosen for more than " + std::to_string(limit) + " dofs"};
+  }
+
   SolveReport
   solve(const BlockSystem &system, const SolverOptions &options, Vector &u, Vector &lambda)
   {
-    switch (options.method)
-      {
-        case SolverMethod::direct:
-          return solve_direct(system, options, u, lambda);
-        case SolverMethod::saddle_point:
-          return solve_saddle_point(system, options, u, lambda);
-        case SolverMethod::condensed:
-          return solve_condensed(system, options, u, lambda);
-        case SolverMethod::automatic:
-          break;
-      }
-    const bool        has_interface = system.owned_multiplier.size() > 0;
-    const auto        size = system.owned_displacement.size() + system.owned_multiplier.size();
-    SolveReport       report;
-    const std::string degree = std::to_string(system.max_degree);
-    if (size <= std::min(direct_dofs * system.max_degree * system.max_degree, max_direct_dofs))
-      {
-        report = solve_direct(system, options, u, lambda);
-        report.preconditioner += "; chosen for few dofs";
-      }
-    else if (!has_interface || system.max_degree <= max_condensed_degree)
-      {
-        report = solve_condensed(system, options, u, lambda);
-        report.preconditioner += has_interface ? "; chosen for degree " + degree : "; no interface";
-      }
-    else
-      {
-        report = solve_saddle_point(system, options, u, lambda);
-        report.preconditioner += "; chosen for degree " + degree;
-      }
+    const SolverChoice choice =
+      choose_solver(options.method, system.owned_displacement.size(), system.max_degree);
+    SolveReport report = choice.method == SolverMethod::direct ?
+                           solve_direct(system, options, u, lambda) :
+                         choice.method == SolverMethod::saddle_point ?
+                           solve_saddle_point(system, options, u, lambda) :
+                           solve_condensed(system, options, u, lambda);
+    if (!choice.reason.empty())
+      report.preconditioner += "; " + choice.reason;
     return report;
   }
 } // namespace mortise

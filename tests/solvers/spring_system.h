@@ -164,7 +164,6 @@ namespace springs
       const double gamma  = o.stiffness * std::min(1., o.contrast) / (o.length * o.length);
       const auto   n_u = 6 * n * n * n, n_l = 3 * n * n;
       dealii::DynamicSparsityPattern b(n_l, n_u, system.owned_multiplier);
-      dealii::DynamicSparsityPattern w(n_l, n_l, system.owned_multiplier);
       dealii::DynamicSparsityPattern j(n_u, n_u, system.owned_displacement);
       for (unsigned int t = 0; t < n * n; ++t)
         for (unsigned int d = 0; d < 3; ++d)
@@ -174,7 +173,6 @@ namespace springs
               {
                 b.add(l, s);
                 b.add(l, m);
-                w.add(l, l);
               }
             for (const Index row : {s, m})
               if (system.owned_displacement.is_element(row))
@@ -184,7 +182,6 @@ namespace springs
       for (const Index i : system.owned_displacement)
         j.add(i, i);
       system.coupling.reinit(system.owned_multiplier, system.owned_displacement, b, comm);
-      system.multiplier_norm.reinit(system.owned_multiplier, system.owned_multiplier, w, comm);
       system.jump_penalty.reinit(system.owned_displacement, system.owned_displacement, j, comm);
       system.coupling_rhs.reinit(system.owned_multiplier, comm);
       for (unsigned int t = 0; t < n * n; ++t)
@@ -196,7 +193,6 @@ namespace springs
               {
                 system.coupling.set(l, s, area);
                 system.coupling.set(l, m, -area);
-                system.multiplier_norm.set(l, l, area * area / gamma);
                 system.coupling_rhs[l] = area * o.gap * o.length * (1. + d);
               }
             for (const Index row : {s, m})
@@ -204,7 +200,7 @@ namespace springs
                 for (const Index column : {s, m})
                   system.jump_penalty.set(row, column, row == column ? gamma : -gamma);
           }
-      for (auto *matrix : {&system.coupling, &system.multiplier_norm, &system.jump_penalty})
+      for (auto *matrix : {&system.coupling, &system.jump_penalty})
         matrix->compress(dealii::VectorOperation::insert);
       system.coupling_rhs.compress(dealii::VectorOperation::insert);
     }

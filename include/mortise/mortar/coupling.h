@@ -37,13 +37,12 @@ namespace mortise
                       SparseMatrix                &coupling,
                       Vector                      &coupling_rhs);
 
-  /// What preconditioners need: the jump penalty J and the norm W of the multipliers, see
-  /// BlockSystem; the couplings were integrated with the masters' masses. Collective.
+  /// What preconditioners need: the jump penalty J, see BlockSystem; the couplings were integrated with
+  /// the masters' masses. Collective.
   void
-  assemble_norms(const std::vector<Coupling> &couplings,
-                 const CouplingPartition     &partition,
-                 SparseMatrix                &jump_penalty,
-                 SparseMatrix                &multiplier_norm);
+  assemble_jump_penalty(const std::vector<Coupling> &couplings,
+                        const CouplingPartition     &partition,
+                        SparseMatrix                &jump_penalty);
 
   /// How exactly constant and linear fields pass an interface.
   struct TransferErrors

@@ -23,7 +23,7 @@ namespace mortise
     dealii::FullMatrix<double>             mass;       ///< int N_i^slave N_j^slave; empty: no partner
     std::vector<dealii::Tensor<1, dim>>    gap_moment; ///< int N_i^slave (x_master - x_slave)
     std::vector<Partner>                   partners;
-    double penalty = 0.; ///< E p^2 / h of the softer side, the scale of jump penalties
+    double penalty = 0.; ///< 2.5 E / h of the softer side, the scale of jump penalties
   };
 
   /// Clip @p interface and integrate; one entry per slave face. Collective.

@@ -34,14 +34,10 @@ namespace mortise
     SparseMatrix coupling;
     Vector       coupling_rhs;
 
-    /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E p^2 / h of the softer side: symmetric, positive
+    /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the softer side: symmetric, positive
     /// semi-definite, touches interface dofs only. K + J is regular even where K is not; it is for
     /// preconditioning and never part of the equations.
     SparseMatrix jump_penalty;
-
-    /// W = int lambda.mu / gamma on the multipliers: spectrally equivalent to the Schur complement
-    /// B (K + J)^{-1} B^T.
-    SparseMatrix multiplier_norm;
 
     /// Owned displacement dofs that belong to the degree-one subspace (vertex functions), three per
     /// vertex, x, y, z consecutive, constrained ones included.

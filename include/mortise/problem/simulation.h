@@ -11,6 +11,7 @@
 #include <mortise/output/summary.h>
 #include <mortise/problem/parameters.h>
 #include <mortise/solvers/solve_report.h>
+#include <mortise/solvers/solver_options.h>
 
 #include <memory>
 #include <vector>
@@ -83,6 +84,7 @@ namespace mortise
     std::vector<dealii::AffineConstraints<double>>          body_constraints;
     DisplacementNumbering                                   numbering;
     dealii::AffineConstraints<double>                       constraints;
+    SolverMethod                                            method = SolverMethod::automatic; ///< chosen
     std::vector<Coupling>                                   couplings;
     std::vector<std::vector<bool>>                          occupied; ///< by body, owned dofs
     BlockSystem                                             system;

@@ -14,9 +14,10 @@
 
 namespace mortise
 {
-  /// M^{-1} = sum over ranks of R^T w G w R: R takes the rows in this rank's blocks, G is a sweep
-  /// forward and one back over them, w^2 sums to one over the ranks. Symmetric and positive definite,
-  /// since each G is.
+  /// M^{-1} = sum over ranks of R^T G R: R takes the rows in this rank's blocks, G is a sweep forward and
+  /// one back over them. Symmetric and positive definite, since each G is. Weights that make the
+  /// shares of the ranks sum to one cut functions apart: on the thick sphere of degree 4 on two ranks
+  /// conjugate gradients take 30 iterations with them, 17 without (12 on one rank).
   class BlockSmoother
   {
   public:
@@ -31,12 +32,38 @@ namespace mortise
     void
     vmult(Epetra_Vector &x, const Epetra_Vector &r) const;
 
-  private:
     struct Block
     {
-      std::vector<int>    rows;
+      std::vector<int>    rows;    ///< positions in map()
       std::vector<double> inverse; ///< full, symmetric
     };
+
+    const std::vector<Block> &
+    blocks() const
+    {
+      return patches;
+    }
+
+    /// Global numbers of the rows that this rank works on: the owned ones, then those of other ranks
+    /// in its blocks.
+    const Epetra_Map &
+    map() const
+    {
+      return local_map ? *local_map : matrix->RowMap();
+    }
+
+    /// From the rows of the matrix to map(); null on one rank.
+    const Epetra_Import *
+    importer() const
+    {
+      return to_local.get();
+    }
+
+    /// x = sum over the blocks b in @p selected of all ranks of R_b^T A_b^{-1} R_b r. Collective.
+    void
+    solve_blocks(Epetra_Vector                   &x,
+                 const Epetra_Vector             &r,
+                 const std::vector<unsigned int> &selected) const;
 
     void
     create_local_matrix(const Epetra_CrsMatrix                                          &matrix,
@@ -46,12 +73,11 @@ namespace mortise
     void
     sweep(double *x, const double *r) const;
 
-    std::vector<Block>                blocks;
+    std::vector<Block>                patches;
     const Epetra_CrsMatrix           *matrix = nullptr; ///< what the sweeps run on
     std::unique_ptr<Epetra_CrsMatrix> local_matrix;     ///< with the rows of other ranks; none on one rank
     std::unique_ptr<Epetra_Map>       local_map;
-    std::unique_ptr<Epetra_Import>    importer;
-    std::unique_ptr<Epetra_Vector>    weight;
+    std::unique_ptr<Epetra_Import>    to_local;
     mutable std::vector<double>       workspace;
     std::unique_ptr<Epetra_Vector>    x_local, r_local; ///< scratch of vmult()
   };

@@ -2,23 +2,17 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/interface_lifting.h>
 #include <mortise/solvers/sparse_factorization.h>
-
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
-
-#include <memory>
 
 namespace mortise
 {
-  /// P = I - T B^T (B T B^T)^{-1} B with a diagonal T >= 0: P u is the point of the subspace that is nearest
-  /// to u in the norm of T^{-1}; a dof without weight in T stays as it is.
+  /// P = I - T B^T C^{-1} B with C = B T B^T and T the lifting given.
   class ConstraintProjector
   {
   public:
-    /// @p weights: diagonal of T on the owned displacements; positive wherever B has a column that
-    /// is not zero. Collective.
-    ConstraintProjector(const BlockSystem &system, const Vector &weights);
+    /// Both must stay alive. Collective.
+    ConstraintProjector(const BlockSystem &system, const InterfaceLifting &lifting);
 
     /// False when the multipliers are not independent of each other.
     bool
@@ -31,16 +25,15 @@ namespace mortise
     void
     project_residual(Vector &r, Vector &lambda) const;
 
-    /// u := P u, or with @p g the nearest vector with B u = g. Collective.
-    void
+    /// u := P u, or with @p g the projection onto B u = g: u - T B^T y. Returns y. Collective.
+    const Vector &
     project(Vector &u, const Vector *g = nullptr) const;
 
   private:
-    const BlockSystem                &system;
-    bool                              valid = true;
-    Vector                            weight;
-    mutable Vector                    jump, multiplier, correction;
-    std::unique_ptr<Epetra_CrsMatrix> inner_matrix;
-    SparseFactorization               inner;
+    const BlockSystem      &system;
+    const InterfaceLifting &lifting;
+    SparseFactorization     inner;
+    bool                    valid = true;
+    mutable Vector          jump, multiplier, force, correction;
   };
 } // namespace mortise

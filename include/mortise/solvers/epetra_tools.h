@@ -7,6 +7,7 @@
 #include <Epetra_IntVector.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace mortise
@@ -36,6 +37,17 @@ namespace mortise
       std::copy(owned.begin(), owned.end(), target.Values());
     return std::vector<int>(target.Values(), target.Values() + target.MyLength());
   }
+
+  /// The vector as Epetra's solvers take it.
+  inline Epetra_MultiVector &
+  epetra(Vector &v)
+  {
+    return const_cast<Epetra_FEVector &>(v.trilinos_vector());
+  }
+
+  /// The transposed matrix with its rows on @p rows. Collective.
+  std::unique_ptr<Epetra_CrsMatrix>
+  transpose(const Epetra_CrsMatrix &matrix, const Epetra_Map &rows);
 
   /// The matrices whose sum is A = K + J; only K without an interface.
   inline std::vector<const Epetra_CrsMatrix *>

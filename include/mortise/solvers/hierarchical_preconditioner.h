@@ -4,6 +4,7 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/block_smoother.h>
 
 #include <memory>
 #include <string>
@@ -25,6 +26,10 @@ namespace mortise
     /// dst = A^{-1} src, approximately; dst and src are distinct.
     void
     vmult(Vector &dst, const Vector &src) const;
+
+    /// The patches of A; only with an interface or above degree 1.
+    const BlockSmoother &
+    smoother() const;
 
     /// What was built, in words.
     std::string

@@ -7,6 +7,17 @@
 
 namespace mortise
 {
+  struct SolverChoice
+  {
+    SolverMethod method; ///< never automatic
+    std::string  reason; ///< empty when the method was asked for
+  };
+
+  /// The method for a scene of that many displacements: what was asked for, else the one that
+  /// measurements favour.
+  SolverChoice
+  choose_solver(SolverMethod asked, dealii::types::global_dof_index n_displacements, unsigned int max_degree);
+
   /// Solve the system by the method asked for. Collective.
   ///
   /// @p u and @p lambda are (re)initialised to the owned ranges of the system; what they held is
