@@ -132,10 +132,11 @@ namespace mortise
           all.add(line);
         }
 
-    IndexSet wanted = known;
-    wanted.subtract_set(owned);
     Dofs requested;
-    wanted.fill_index_vector(requested);
+    known.fill_index_vector(requested);
+    requested.insert(requested.end(), all.columns.begin(), all.columns.end());
+    requested = without_owned(requested, owned);
+    known.add_indices(requested.begin(), requested.end());
     while (Utilities::MPI::max(requested.size(), comm) > 0)
       {
         const auto questions =

@@ -155,6 +155,27 @@ namespace mortise
     }
   } // namespace
 
+  std::vector<PartnerState>
+  partner_states(const Coupling &coupling)
+  {
+    std::vector<PartnerState> states;
+    for (unsigned int s = 0; s < coupling.local.size(); ++s)
+      {
+        PartnerState state;
+        state.coverage = coupling.interface->coverage()[s];
+        for (const auto &partner : coupling.local[s].partners)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const FaceTrace &master = coupling.interface->master_traces()[partner.master];
+              const Expansion  dofs   = component(master, c);
+              if (dofs.begin[dofs.offset + master.n_functions()] > dofs.begin[dofs.offset])
+                state.can_follow[c] = true;
+            }
+        states.push_back(state);
+      }
+    return states;
+  }
+
   void
   assemble_constraint(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition,

@@ -53,6 +53,8 @@ namespace mortise
   TransferErrors
   transfer_errors(const Coupling &coupling, const IndexSet &owned_multiplier, const MPI_Comm comm)
   {
+    if (owned_multiplier.size() == 0)
+      return {};
     // the entries of a multiplier come from all faces around it, on any rank
     enum
     {
@@ -109,6 +111,13 @@ namespace mortise
   std::vector<std::vector<double>>
   multiplier_on_faces(const Coupling &coupling, const Vector &multiplier, const MPI_Comm comm)
   {
+    std::vector<std::vector<double>> coefficients;
+    if (multiplier.size() == 0)
+      {
+        for (const auto &rows : coupling.multipliers->rows())
+          coefficients.emplace_back(rows.begin.size() - 1, 0.);
+        return coefficients;
+      }
     IndexSet relevant = multiplier.locally_owned_elements();
     for (const auto &rows : coupling.multipliers->rows())
       relevant.add_indices(rows.index.begin(), rows.index.end());
@@ -116,7 +125,6 @@ namespace mortise
     Vector ghosted(multiplier.locally_owned_elements(), relevant, comm);
     ghosted = multiplier;
 
-    std::vector<std::vector<double>> coefficients;
     for (const auto &rows : coupling.multipliers->rows())
       {
         coefficients.emplace_back(rows.begin.size() - 1, 0.);

@@ -20,8 +20,9 @@ namespace mortise
     constexpr double none_below = 0.1;
     constexpr double full_above = 0.9;
 
-    /// What only the owner of a cell knows for sure, by face: 12 bits of rims, 2 of coverage.
-    using FaceBits = std::array<std::uint16_t, 6>;
+    /// What only the owner of a cell knows for sure, by face: 12 bits of rims, 2 of coverage, 3 of
+    /// what the partners can follow.
+    using FaceBits = std::array<std::uint32_t, 6>;
 
     class BlockedDofs
     {
@@ -61,11 +62,11 @@ namespace mortise
       return 4 * c + 2 * a + side;
     }
 
-    std::uint16_t
-    owner_bits(const MultiplierFace &face, const double coverage, const BlockedDofs &blocked)
+    std::uint32_t
+    owner_bits(const MultiplierFace &face, const PartnerState &partner, const BlockedDofs &blocked)
     {
       const unsigned int n    = face.degree + 1;
-      std::uint16_t      bits = 0;
+      std::uint32_t      bits = 0;
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int a = 0; a < 2; ++a)
           for (unsigned int side = 0; side < 2; ++side)
@@ -77,10 +78,13 @@ namespace mortise
               if (rim)
                 bits |= 1u << rim_bit(c, a, side);
             }
-      const auto status = coverage < none_below ? MultiplierFace::Status::none :
-                          coverage < full_above ? MultiplierFace::Status::partial :
+      const auto status = partner.coverage < none_below ? MultiplierFace::Status::none :
+                          partner.coverage < full_above ? MultiplierFace::Status::partial :
                                                   MultiplierFace::Status::full;
-      return bits | (static_cast<std::uint16_t>(status) << 12);
+      for (unsigned int c = 0; c < dim; ++c)
+        if (partner.can_follow[c])
+          bits |= 1u << (14 + c);
+      return bits | (static_cast<std::uint32_t>(status) << 12);
     }
 
     MultiplierFace
@@ -109,12 +113,13 @@ namespace mortise
     }
 
     void
-    apply_bits(const std::uint16_t bits, const Body &body, const BlockedDofs &blocked, MultiplierFace &face)
+    apply_bits(const std::uint32_t bits, const Body &body, const BlockedDofs &blocked, MultiplierFace &face)
     {
       const unsigned int n = face.degree + 1;
-      face.status          = static_cast<MultiplierFace::Status>(bits >> 12);
+      face.status          = static_cast<MultiplierFace::Status>((bits >> 12) & 3u);
       for (unsigned int c = 0; c < dim; ++c)
         {
+          face.can_follow[c] = bits & (1u << (14 + c));
           for (unsigned int a = 0; a < 2; ++a)
             for (unsigned int side = 0; side < 2; ++side)
               face.rim[c][a][side] = bits & (1u << rim_bit(c, a, side));
@@ -131,14 +136,14 @@ namespace mortise
   collect_multiplier_faces(const Body                &body,
                            const types::boundary_id   boundary,
                            const BodySurface         &slave,
-                           const std::vector<double> &coverage,
+                           const std::vector<PartnerState> &partners,
                            const std::vector<bool>   &blocked_owned)
   {
     const BlockedDofs              blocked(body, blocked_owned);
     std::map<CellId, FaceBits>     bits;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       bits[slave.cells[s]->id()][slave.face_numbers[s]] =
-        owner_bits(describe(body, slave.cells[s], slave.face_numbers[s]), coverage[s], blocked);
+        owner_bits(describe(body, slave.cells[s], slave.face_numbers[s]), partners[s], blocked);
 
     const auto pack = [&](const Body::CellIterator &cell) {
       const auto found = bits.find(cell->id());

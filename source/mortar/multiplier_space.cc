@@ -3,10 +3,14 @@
 #include <mortise/body/face_topology.h>
 #include <mortise/mortar/multiplier_faces.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace mortise
@@ -23,9 +27,18 @@ namespace mortise
       bool            vertex        = false;
       bool            on_rim        = false; ///< vertices: end of an edge across a rim ...
       bool            across_kept   = false; ///< ... that has modes left
+      bool            can_follow    = false; ///< the other side of some face around it is free
       std::set<types::global_dof_index> neighbours; ///< across the rim, off all rims
       std::set<types::global_dof_index> diagonal;   ///< other vertices, off all rims
       std::set<types::global_dof_index> merged;     ///< must have the same value
+
+      /// A vertex on a rim that finds no free one on the faces around it to take its value from.
+      bool
+      is_stranded() const
+      {
+        return vertex && on_rim && !across_kept && neighbours.empty() && merged.empty() &&
+               diagonal.empty();
+      }
     };
     using Records = std::map<types::global_dof_index, Record>;
 
@@ -51,6 +64,7 @@ namespace mortise
             {
               Record &record = records[dof(i, j)];
               record.on_full_face |= face.status == MultiplierFace::Status::full;
+              record.can_follow |= face.can_follow[c];
               if (i < 2 && j < 2)
                 vertex(i, j, record);
               else if (j < 2)
@@ -144,10 +158,104 @@ namespace mortise
         reduction.add_entry(dof, other, 1. / of.size());
     }
 
+    /// The patches of faces whose vertices are all stranded: one constant each.
+    class StrandedPatches
+    {
+    public:
+      StrandedPatches(const Body                        &body,
+                      const std::vector<MultiplierFace> &faces,
+                      const Records                     &records)
+        : owned(body.dof_handler.locally_owned_dofs())
+        , smallest(owned, body.relevant_dofs, body.triangulation.get_communicator())
+        , follow(smallest)
+      {
+        smallest = none;
+        for (const auto &[dof, record] : records)
+          if (owned.is_element(dof) && record.is_stranded() && !body.conformity.is_constrained(dof))
+            {
+              smallest(dof) = dof;
+              follow(dof)   = record.can_follow ? 1. : 0.;
+            }
+        const MPI_Comm comm = body.triangulation.get_communicator();
+        do
+          exchange();
+        while (Utilities::MPI::max(spread(faces) ? 1 : 0, comm) > 0);
+        exchange();
+      }
+
+      /// The dof that carries the constant of the patch that owned @p dof is in; nothing if the other
+      /// side cannot follow.
+      std::optional<types::global_dof_index>
+      representative(const types::global_dof_index dof) const
+      {
+        if (follow(dof) == 0.)
+          return {};
+        return static_cast<types::global_dof_index>(smallest(dof));
+      }
+
+    private:
+      static constexpr double none = -1.;
+
+      void
+      exchange()
+      {
+        smallest.update_ghost_values();
+        follow.update_ghost_values();
+        for (auto &[dof, state] : states)
+          state = {smallest(dof), follow(dof)};
+      }
+
+      /// Pass the smallest dof of each face to its stranded vertices; whether an owned one changed.
+      bool
+      spread(const std::vector<MultiplierFace> &faces)
+      {
+        const auto state = [&](const types::global_dof_index dof) -> std::pair<double, double> & {
+          return states.try_emplace(dof, smallest(dof), follow(dof)).first->second;
+        };
+        bool again = true, changed = false;
+        while (again)
+          {
+            again = false;
+            for (const MultiplierFace &face : faces)
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  std::pair<double, double> best(std::numeric_limits<double>::infinity(), 0.);
+                  const auto                visit = [&](const auto &action) {
+                    for (const unsigned int k : {0U, 1U, face.degree + 1, face.degree + 2})
+                      if (auto &s = state(face.dofs[c][k]); s.first != none)
+                        action(s);
+                  };
+                  visit([&](const auto &s) {
+                    best = {std::min(best.first, s.first), std::max(best.second, s.second)};
+                  });
+                  visit([&](auto &s) {
+                    again = again || s != best;
+                    s     = best;
+                  });
+                }
+            changed = changed || again;
+          }
+        smallest.zero_out_ghost_values();
+        follow.zero_out_ghost_values();
+        for (const auto &[dof, s] : states)
+          if (owned.is_element(dof))
+            {
+              smallest(dof) = s.first;
+              follow(dof)   = s.second;
+            }
+        return changed;
+      }
+
+      const IndexSet                                                &owned;
+      LinearAlgebra::distributed::Vector<double>                     smallest, follow;
+      std::map<types::global_dof_index, std::pair<double, double>>   states;
+    };
+
     /// The line of one dof without conformity constraints; none if it is a multiplier.
     void
     add_reduction(const types::global_dof_index dof,
                   const Records                &records,
+                  const StrandedPatches        &stranded,
                   AffineConstraints<double>    &reduction)
     {
       const auto found = records.find(dof);
@@ -158,6 +266,15 @@ namespace mortise
           return;
         }
       const Record &record = found->second;
+      if (record.is_stranded())
+        {
+          const auto constant = stranded.representative(dof);
+          if (!constant)
+            reduction.add_line(dof);
+          else if (*constant != dof)
+            add_mean(dof, {*constant}, reduction);
+          return;
+        }
       if (record.vertex && record.on_rim && !record.across_kept)
         {
           if (!record.neighbours.empty())
@@ -174,13 +291,13 @@ namespace mortise
   MultiplierSpace::MultiplierSpace(const Body               &body,
                                    const types::boundary_id  boundary,
                                    const BodySurface        &slave,
-                                   const std::vector<double> &coverage,
+                                   const std::vector<PartnerState> &partners,
                                    const std::vector<bool>   &blocked)
     : body(body)
     , reduction(body.relevant_dofs)
   {
     const std::vector<MultiplierFace> faces =
-      collect_multiplier_faces(body, boundary, slave, coverage, blocked);
+      collect_multiplier_faces(body, boundary, slave, partners, blocked);
 
     Records                           records;
     std::set<types::global_dof_index> on_surface;
@@ -192,11 +309,12 @@ namespace mortise
             FaceRules(face, c, records).apply();
         }
 
+    const StrandedPatches stranded(body, faces, records);
     for (const auto dof : on_surface)
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
         {
-          add_reduction(dof, records, reduction);
+          add_reduction(dof, records, stranded, reduction);
           if (!reduction.is_constrained(dof))
             owned_dofs.push_back(dof);
         }
@@ -217,7 +335,7 @@ namespace mortise
   MultiplierSpace::number(const BodySurface &slave, const Index first)
   {
     LinearAlgebra::distributed::Vector<double> numbers(body.dof_handler.locally_owned_dofs(),
-                                                       body.relevant_dofs,
+                                                       reduction.get_local_lines(),
                                                        body.triangulation.get_communicator());
     for (unsigned int i = 0; i < owned_dofs.size(); ++i)
       numbers(owned_dofs[i]) = first + i;

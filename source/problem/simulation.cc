@@ -210,12 +210,12 @@ namespace mortise
           std::make_unique<MultiplierSpace>(body,
                                             body.boundary_id(slave.boundary, ""),
                                             coupling.interface->slave(),
-                                            coupling.interface->coverage(),
+                                            partner_states(coupling),
                                             blocked_dofs(slave.body));
         if (Utilities::MPI::sum(coupling.multipliers->n_owned(), comm) == 0)
           log.warning("interface " + parameters.interfaces[i].name +
-                      ": no multipliers are left, since every displacement of the slave surface is "
-                      "prescribed; nothing is tied. Exchange slave and master or refine the slave");
+                      ": no multipliers are left, since every displacement of both surfaces is "
+                      "prescribed; nothing is tied");
         if (i + 1 < couplings.size())
           occupy(i);
       }
@@ -248,9 +248,12 @@ namespace mortise
         auto stage = log.stage(timers, "coupling");
         number_multipliers();
         const CouplingPartition partition{system.owned_displacement, system.owned_multiplier, comm};
-        assemble_constraint(couplings, partition, system.coupling, system.coupling_rhs);
-        if (method != SolverMethod::direct)
-          assemble_jump_penalty(couplings, partition, system.jump_penalty);
+        if (system.owned_multiplier.size() > 0)
+          {
+            assemble_constraint(couplings, partition, system.coupling, system.coupling_rhs);
+            if (method != SolverMethod::direct)
+              assemble_jump_penalty(couplings, partition, system.jump_penalty);
+          }
         for (unsigned int i = 0; i < couplings.size(); ++i)
           summarise_interface(i);
         stage.details(std::to_string(system.owned_multiplier.size()) + " multipliers");

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/timer.h>
 
+#include <cmath>
 #include <memory>
 
 namespace mortise
@@ -41,7 +42,7 @@ namespace mortise
     const double target   = options.tolerance * rhs_norm;
     Vector       r(u), r_lambda(lambda), z(u), d(u), kd(u);
     const bool   valid = bulk_is_valid && (!projector || projector->is_valid());
-    double       reached = rhs_norm;
+    double       reached = rhs_norm, energy_of_solution = 0.;
     for (unsigned int start = 0; start < 3 && valid && reached > target &&
                                  report.iterations < options.max_iterations;
          ++start)
@@ -61,12 +62,13 @@ namespace mortise
                 if (options.monitor)
                   options.monitor(report.iterations, reached / rhs_norm);
               }
-            if (!(reached > 0.9 * target))
-              break;
             preconditioner.vmult(z, r);
             if (projector)
               projector->project(z);
-            const double rho = r * z;
+            const double rho = r * z; // estimates the energy of the error
+            if (reached <= 0.9 * target &&
+                rho <= std::pow(options.energy_safety * options.tolerance, 2) * energy_of_solution)
+              break;
             if (first)
               d = z;
             else
@@ -79,6 +81,7 @@ namespace mortise
             const double alpha = rho / energy;
             u.add(alpha, d);
             r.add(-alpha, kd);
+            energy_of_solution += alpha * rho;
             ++report.iterations;
           }
         residual.compute(u, lambda, r, r_lambda);

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Errors of the thick scenes over degree and mesh, tied and conforming: rates.py [--quick] MORTISE
+"""Errors over degree and mesh: rates.py [--quick] MORTISE
 
-Writes doc/rates.csv and doc/rates.md beside it (and doc/rates.png if matplotlib is there). Tied: the
-inner layer has n cells per patch edge (or around), the outer one 3/2 n; conforming: n everywhere,
-so its cells have the size of the tied scene's coarser side."""
+Thick sphere and cylinder, tied (inner layer n cells per patch edge or around, outer one n times the ratio
+3/2 or 5/4) beside conforming twins (n cells everywhere, the size of the tied scene's coarser side),
+the manufactured solution with a clamped interface rim, and the errors 1e-4 and 1e-6 on meshes that
+do not nest. Writes doc/rates.csv, doc/rates.md and, with matplotlib, doc/rates.png."""
 import csv
 import json
 import math
@@ -24,44 +25,89 @@ def run(mortise, scene, settings):
         return json.load(open(os.path.join(work, "summary.json")))
 
 
-def settings(scene, n, p):
-    tail = ["Solver/Tolerance=1e-11"]
+def layers(scene, n, ratio):
+    """Subdivisions of the inner and the outer layer and of the conforming twin."""
+    m, outer = max(1, n // 2), n * ratio[1] // ratio[0]
     if scene == "thick_sphere":
-        inner, outer, whole = f"{n}, {max(1, n // 2)}", f"{3 * n // 2}, {max(1, n // 2)}", f"{n}, {2 * max(1, n // 2)}"
-    else:
-        inner, outer = f"{n}, {max(1, n // 2)}, 1", f"{3 * n // 2}, {max(1, n // 2)}, 2"
-        whole = f"{n}, {2 * max(1, n // 2)}, 1"
-    tied = [f"Body {b}/Degree={p}" for b in ("inner", "outer")]
-    tied += [f"Body inner/Mesh/Subdivisions={inner}", f"Body outer/Mesh/Subdivisions={outer}"]
-    return tied + tail, [f"Body shell/Degree={p}", f"Body shell/Mesh/Subdivisions={whole}"] + tail
+        return f"{n}, {m}", f"{outer}, {m}", f"{n}, {2 * m}"
+    return f"{n}, {m}, 1", f"{outer}, {m}, 2", f"{n}, {2 * m}, 1"
+
+
+def tied_settings(names, p, subdivisions):
+    return [f"Body {b}/Degree={p}" for b in names] + [
+        f"Body {b}/Mesh/Subdivisions={s}" for b, s in zip(names, subdivisions)]
+
+
+def row_of(scene, ratio, p, n, result, twin=None):
+    step = result["steps"][-1]
+    errors = step["errors"]
+    return {"scene": scene, "ratio": f"{ratio[0]}:{ratio[1]}", "degree": p, "n": n, "dofs": step["dofs"]["total"],
+            "l2": errors["displacement_l2"], "energy": errors["energy"], "multiplier": errors["multiplier_l2"],
+            "energy_over_conforming": errors["energy"] / twin["steps"][-1]["errors"]["energy"] if twin else None,
+            "iterations": step["solver"]["iterations"], "method": step["solver"]["method"],
+            "seconds": result["timings_s"]["total"]}
+
+
+def add_rates(row, before):
+    for key in ("l2", "energy", "multiplier"):
+        row[key + "_rate"] = math.log(before[key] / row[key]) / math.log(row["n"] / before["n"]) if before else None
+    return row
+
+
+def thick_rows(mortise, scene, ratio, meshes):
+    for p, ns in meshes.items():
+        before = None
+        for n in ns:
+            inner, outer, whole = layers(scene, n, ratio)
+            tied = run(mortise, scene, tied_settings(("inner", "outer"), p, (inner, outer)) + [TOLERANCE])
+            twin = run(mortise, scene + "_conforming", tied_settings(("shell",), p, (whole,)) + [TOLERANCE])
+            before = add_rates(row_of(scene, ratio, p, n, tied, twin), before)
+            yield before
+
+
+def manufactured_rows(mortise, meshes):
+    for p, ns in meshes.items():
+        before = None
+        for n in ns:
+            m = max(1, n // 2)
+            sizes = (f"{n}, {n}, {m}", f"{3 * n // 2}, {3 * n // 2}, {m}")
+            result = run(mortise, "manufactured", tied_settings(("lower", "upper"), p, sizes) + [TOLERANCE])
+            before = add_rates(row_of("manufactured", (2, 3), p, n, result), before)
+            yield before
+
+
+def target_rows(mortise):
+    """Small meshes of high degree that reach 1e-4 and 1e-6."""
+    for scene, p, inner, outer in (("thick_cylinder", 5, "2, 1, 1", "3, 1, 1"), ("thick_cylinder", 7, "2, 1, 1", "3, 1, 1"),
+                                   ("thick_sphere", 6, "2, 1", "3, 1"), ("thick_sphere", 8, "2, 1", "3, 1")):
+        result = run(mortise, scene, tied_settings(("inner", "outer"), p, (inner, outer)) + [TOLERANCE])
+        yield add_rates(row_of(scene, (2, 3), p, 2, result), None)
+
+
+TOLERANCE = "Solver/Tolerance=1e-11"
+SPHERE = {1: (4, 8, 16), 2: (2, 4, 8), 3: (2, 4, 8), 4: (2, 4), 5: (2, 4), 6: (2, 4)}
+CYLINDER = {1: (8, 16, 32), 2: (4, 8, 16), 3: (4, 8, 16), 4: (4, 8, 16), 5: (2, 4, 8), 6: (2, 4, 8)}
+MANUFACTURED = {1: (4, 8, 16), 2: (4, 8), 3: (2, 4, 8), 4: (2, 4), 5: (2, 4), 6: (2, 4)}
 
 
 def main():
     quick = "--quick" in sys.argv
     mortise = os.path.abspath([a for a in sys.argv[1:] if not a.startswith("-")][0])
-    meshes = {1: (4, 8, 16), 2: (2, 4, 8), 3: (2, 4, 8), 4: (2, 4), 5: (2, 4), 6: (2, 4)}
-    if quick:
-        meshes = {p: ns[:2] for p, ns in meshes.items() if p <= 4}
+    cut = (lambda meshes: {p: ns[:2] for p, ns in meshes.items() if p <= 4}) if quick else (lambda meshes: meshes)
+    four_five = {p: (4, 8) for p in range(1, 5)}
+    parts = [thick_rows(mortise, "thick_sphere", (2, 3), cut(SPHERE)),
+             thick_rows(mortise, "thick_cylinder", (2, 3), cut(CYLINDER)),
+             thick_rows(mortise, "thick_sphere", (4, 5), cut({1: (4, 8), 2: (4, 8), 3: (4,), 4: (4,)})),
+             thick_rows(mortise, "thick_cylinder", (4, 5), cut({**four_five, 5: (4, 8), 6: (4, 8)})),
+             manufactured_rows(mortise, cut(MANUFACTURED)), target_rows(mortise)]
     rows = []
-    for scene in ("thick_sphere", "thick_cylinder"):
-        for p, ns in meshes.items():
-            before = None
-            for n in ns:
-                tied, whole = settings(scene, n, p)
-                a = run(mortise, scene, tied)
-                b = run(mortise, scene + "_conforming", whole)
-                step = a["steps"][-1]
-                errors, twin = step["errors"], b["steps"][-1]["errors"]
-                row = {"scene": scene, "degree": p, "n": n, "dofs": step["dofs"]["total"],
-                       "l2": errors["displacement_l2"], "energy": errors["energy"],
-                       "multiplier": errors["multiplier_l2"], "energy_over_conforming": errors["energy"] / twin["energy"],
-                       "iterations": step["solver"]["iterations"], "method": step["solver"]["method"],
-                       "seconds": a["timings_s"]["total"]}
-                for key in ("l2", "energy", "multiplier"):
-                    row[key + "_rate"] = math.log2(before[key] / row[key]) if before else None
-                before = row
-                rows.append(row)
-                print(scene, p, n, *(f"{row[k]:.3g}" for k in ("l2", "energy", "multiplier", "energy_over_conforming")), flush=True)
+    for part in parts:
+        for row in part:
+            rows.append(row)
+            print(row["scene"], row["ratio"], row["degree"], row["n"], row["dofs"],
+                  *("-" if row[k] is None else f"{row[k]:.3g}" for k in
+                    ("l2", "l2_rate", "energy", "energy_rate", "multiplier", "multiplier_rate", "energy_over_conforming")),
+                  row["method"], row["iterations"], f"{row['seconds']:.1f} s", flush=True)
     write(rows)
 
 
@@ -71,15 +117,17 @@ def write(rows):
         table.writeheader()
         table.writerows(rows)
     with open(os.path.join(TOP, "doc", "rates.md"), "w") as file:
-        file.write("# Errors and rates of the tied thick scenes\n\nRegenerate: `tests/benchmarks/rates.py build/mortise` "
-                   "(writes this page and `rates.csv`).\n`n`: cells per patch edge (around) of the inner layer, 3/2 n of the outer; "
-                   "rates against the row above; last but one column:\nenergy error over that of the conforming mesh with n cells.\n\n"
-                   "| scene | p | n | dofs | L2 | rate | energy | rate | multiplier | rate | / conforming | iterations |\n"
-                   "|---|---|---|---|---|---|---|---|---|---|---|---|\n")
+        file.write("# Errors and rates\n\nRegenerate: `tests/benchmarks/rates.py build/mortise` "
+                   "(writes this page, `rates.csv` and `rates.png`).\n`n`: cells per patch edge (around, per side) of the inner or "
+                   "lower body, `ratio` its number to the other body's; rates\nagainst the row above; `/ conforming`: energy error "
+                   "over that of the conforming mesh with n cells.\n\n"
+                   "| scene | ratio | p | n | dofs | L2 | rate | energy | rate | multiplier | rate | / conforming | iterations |\n"
+                   "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n")
         for r in rows:
             rate = lambda key: "" if r[key + "_rate"] is None else f"{r[key + '_rate']:.2f}"
-            file.write(f"| {r['scene']} | {r['degree']} | {r['n']} | {r['dofs']} | {r['l2']:.2e} | {rate('l2')} | {r['energy']:.2e} | "
-                       f"{rate('energy')} | {r['multiplier']:.2e} | {rate('multiplier')} | {r['energy_over_conforming']:.3f} | "
+            ratio = "" if r["energy_over_conforming"] is None else f"{r['energy_over_conforming']:.3f}"
+            file.write(f"| {r['scene']} | {r['ratio']} | {r['degree']} | {r['n']} | {r['dofs']} | {r['l2']:.2e} | {rate('l2')} | "
+                       f"{r['energy']:.2e} | {rate('energy')} | {r['multiplier']:.2e} | {rate('multiplier')} | {ratio} | "
                        f"{r['iterations']} ({r['method']}) |\n")
     try:
         import matplotlib
@@ -87,8 +135,8 @@ def write(rows):
         import matplotlib.pyplot as plot
     except ImportError:
         return
-    for degree in sorted({r["degree"] for r in rows}):
-        part = [r for r in rows if r["degree"] == degree and r["scene"] == "thick_sphere"]
+    for degree in sorted({r["degree"] for r in rows if r["degree"] <= 6}):
+        part = [r for r in rows if r["degree"] == degree and r["scene"] == "thick_sphere" and r["ratio"] == "2:3" and r["energy_over_conforming"]]
         plot.loglog([r["dofs"] for r in part], [r["energy"] for r in part], "o-", label=f"p = {degree}")
     plot.xlabel("degrees of freedom")
     plot.ylabel("relative energy error")

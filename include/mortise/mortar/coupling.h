@@ -21,6 +21,10 @@ namespace mortise
     std::unique_ptr<MultiplierSpace>  multipliers;
   };
 
+  /// By slave face; after the integration.
+  std::vector<PartnerState>
+  partner_states(const Coupling &coupling);
+
   /// Who owns which rows and columns.
   struct CouplingPartition
   {

@@ -9,6 +9,13 @@
 
 namespace mortise
 {
+  /// What a slave face meets on the other side.
+  struct PartnerState
+  {
+    double                coverage = 0.;      ///< covered fraction of the face
+    std::array<bool, dim> can_follow{};       ///< by component: some displacement there is free
+  };
+
   /// A slave face of an owned or ghost cell. Edges are named by [a][side]: for degrees, the edge
   /// along face coordinate a at @p side of the other one; for rims, the edge at a = side.
   struct MultiplierFace
@@ -22,6 +29,7 @@ namespace mortise
 
     unsigned int degree = 1;
     Status       status = Status::full;
+    bool         can_follow[dim];        ///< as in PartnerState
     std::array<std::vector<dealii::types::global_dof_index>, dim> dofs; ///< [c][k] as in FaceTrace
     unsigned int                                                  edge_degree[2][2];
     unsigned int                                                  quad_degree = 1;
@@ -35,6 +43,6 @@ namespace mortise
   collect_multiplier_faces(const Body                &body,
                            dealii::types::boundary_id boundary,
                            const BodySurface         &slave,
-                           const std::vector<double> &coverage,
+                           const std::vector<PartnerState> &partners,
                            const std::vector<bool>   &blocked);
 } // namespace mortise

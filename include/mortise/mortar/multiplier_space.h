@@ -5,7 +5,8 @@
 // - rims: where all displacements of a slave face's edge are prescribed (Dirichlet, or the dofs of an
 //   earlier interface), the degree across the edge is one less in that face, so that there are
 //   as many multipliers as free displacements and constants stay representable; at degree 1 the
-//   vertex on the rim takes the mean of its neighbours off the rim;
+//   vertex on the rim takes the mean of its neighbours off the rim; where no vertex of a patch of faces
+//   is free, one constant is left on it, which the other side follows if it can;
 // - hanging nodes and mixed degrees: the conforming trace space, by the body's constraints;
 // - no partner: faces covered by less than a tenth have no multipliers of their own, faces covered
 //   by less than nine tenths only those of degree 1.
@@ -14,6 +15,7 @@
 
 #include <mortise/body/body.h>
 #include <mortise/interface/body_surface.h>
+#include <mortise/mortar/multiplier_faces.h>
 
 #include <deal.II/lac/affine_constraints.h>
 
@@ -38,11 +40,11 @@ namespace mortise
 
     /// Decide which multipliers there are. @p blocked: whether a locally owned displacement dof
     /// (position in the owned range) is prescribed by a boundary condition or belongs to an
-    /// earlier interface. @p coverage: covered fraction of the faces of @p slave. Collective.
+    /// earlier interface. @p partners: by face of @p slave. Collective.
     MultiplierSpace(const Body                &body,
                     dealii::types::boundary_id boundary,
                     const BodySurface         &slave,
-                    const std::vector<double> &coverage,
+                    const std::vector<PartnerState> &partners,
                     const std::vector<bool>   &blocked);
 
     /// Multipliers owned by this rank.
@@ -72,8 +74,6 @@ namespace mortise
     }
 
   private:
-
-
     const Body                       &body;
     std::vector<Index>                owned_dofs;
     dealii::AffineConstraints<double> reduction; ///< in the body's numbering; closed

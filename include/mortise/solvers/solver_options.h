@@ -18,8 +18,12 @@ namespace mortise
   struct SolverOptions
   {
     SolverMethod method         = SolverMethod::automatic;
-    double       tolerance      = 1e-10; ///< relative residual, see ScaledResidual
+    double       tolerance      = 1e-10; ///< of the relative residual, see ScaledResidual
     unsigned int max_iterations = 1000;
+
+    /// Iterative solvers go on until the estimated energy of the error, too, is below (energy_safety *
+    /// tolerance)^2 times that of the solution: on fine meshes a small residual alone says little.
+    static constexpr double energy_safety = 0.03;
 
     /// Called on every rank after each iteration with its number and the relative residual.
     std::function<void(unsigned int, double)> monitor;
