@@ -1,5 +1,6 @@
 #include <mortise/body/boundary_conditions.h>
 
+#include <mortise/body/boundary_faces.h>
 #include <mortise/body/face_topology.h>
 #include <mortise/body/fe_legendre.h>
 #include <mortise/body/legendre_basis.h>
@@ -184,17 +185,13 @@ namespace mortise
     if (conditions.empty())
       return;
     std::map<unsigned int, LineProjection> lines;
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial() && cell->at_boundary())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary())
-            for (const DirichletCondition &condition : conditions)
-              if (condition.boundary == cell->face(f)->boundary_id())
-                {
-                  const unsigned int p = body.degree(cell);
-                  const auto line      = lines.try_emplace(p, p).first;
-                  constrain_face(body, cell, f, condition, line->second, constraints);
-                }
+    for (const DirichletCondition &condition : conditions)
+      for (const auto &[cell, f] : boundary_faces(body, condition.boundary))
+        {
+          const unsigned int p    = body.degree(cell);
+          const auto         line = lines.try_emplace(p, p).first;
+          constrain_face(body, cell, f, condition, line->second, constraints);
+        }
     complete_constraints(body.dof_handler, constraints);
   }
 } // namespace mortise

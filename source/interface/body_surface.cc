@@ -1,5 +1,6 @@
 #include <mortise/interface/body_surface.h>
 
+#include <mortise/body/boundary_faces.h>
 #include <mortise/body/face_topology.h>
 #include <mortise/body/fe_legendre.h>
 
@@ -88,23 +89,20 @@ namespace mortise
     std::vector<SurfaceFace>                  faces;
     std::vector<std::array<std::uint64_t, 4>> vertices;
     std::vector<bool>                         owned;
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial() && cell->at_boundary())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
-            {
-              faces.push_back(face_geometry(body, cell, f));
-              std::array<std::uint64_t, 4> corners;
-              for (unsigned int v = 0; v < 4; ++v)
-                corners[v] = cell->vertex_index(face_topology::vertex(f, v % 2, v / 2));
-              vertices.push_back(corners);
-              owned.push_back(cell->is_locally_owned());
-              if (owned.back())
-                {
-                  surface.cells.push_back(cell);
-                  surface.face_numbers.push_back(f);
-                }
-            }
+    for (const auto &[cell, f] : boundary_faces(body, boundary))
+      {
+        faces.push_back(face_geometry(body, cell, f));
+        std::array<std::uint64_t, 4> corners;
+        for (unsigned int v = 0; v < 4; ++v)
+          corners[v] = cell->vertex_index(face_topology::vertex(f, v % 2, v / 2));
+        vertices.push_back(corners);
+        owned.push_back(cell->is_locally_owned());
+        if (owned.back())
+          {
+            surface.cells.push_back(cell);
+            surface.face_numbers.push_back(f);
+          }
+      }
     average_vertex_normals(faces, vertices);
 
     for (unsigned int i = 0; i < faces.size(); ++i)

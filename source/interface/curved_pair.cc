@@ -10,9 +10,6 @@ namespace mortise
 
   namespace
   {
-    // Overlaps below this fraction of the slave's reference square are rounding.
-    constexpr double empty_area = 1e-15;
-
     using Scratch = PairIntegrator::Scratch;
 
     void

@@ -8,9 +8,6 @@ namespace mortise
 
   namespace
   {
-    // Overlaps below this fraction of the slave's reference square are rounding.
-    constexpr double empty_area = 1e-15;
-
     /// A convex polygon with few corners.
     struct ConvexPolygon
     {

@@ -9,6 +9,9 @@
 
 namespace mortise
 {
+  /// Overlaps below this fraction of the slave's reference square are rounding.
+  constexpr double empty_area = 1e-15;
+
   struct PairIntegrator::Scratch
   {
     /// The rule for the present pair.

@@ -1,10 +1,14 @@
 #include <mortise/interface/search.h>
 
+#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
+
+#include <deal.II/numerics/rtree.h>
+
+#include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace mortise
 {
@@ -12,62 +16,24 @@ namespace mortise
 
   namespace
   {
-    struct Box
-    {
-      std::array<double, 3> lower{{1., 1., 1.}}, upper{{0., 0., 0.}}; ///< empty
-
-      bool
-      empty() const
-      {
-        return lower[0] > upper[0];
-      }
-
-      void
-      include(const Box &other)
-      {
-        if (empty())
-          *this = other;
-        else
-          for (unsigned int d = 0; d < 3; ++d)
-            {
-              lower[d] = std::min(lower[d], other.lower[d]);
-              upper[d] = std::max(upper[d], other.upper[d]);
-            }
-      }
-
-      bool
-      meets(const Box &other) const
-      {
-        return lower[0] <= other.upper[0] && other.lower[0] <= upper[0] &&
-               lower[1] <= other.upper[1] && other.lower[1] <= upper[1] &&
-               lower[2] <= other.upper[2] && other.lower[2] <= upper[2];
-      }
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          archive &lower[d] & upper[d];
-      }
-    };
+    using Box = BoundingBox<3>;
 
     // The face's box, extended along its normals to both sides by the distance at which it can
     // still have a partner.
     Box
     box_of_reach(const SurfaceFace &face, const double search_fraction)
     {
-      Box box;
+      Point<3> lower, upper;
       for (unsigned int d = 0; d < 3; ++d)
         {
           double component = 0;
           for (const auto &normal : face.vertex_normals)
             component = std::max(component, std::abs(normal[d]));
           const double reach = search_fraction * face.size * component + 1e-10 * face.size;
-          box.lower[d]       = face.lower[d] - reach;
-          box.upper[d]       = face.upper[d] + reach;
+          lower[d]           = face.lower[d] - reach;
+          upper[d]           = face.upper[d] + reach;
         }
-      return box;
+      return Box({lower, upper});
     }
 
     // The prism over the face's chart box: it contains the curved face.
@@ -140,9 +106,9 @@ namespace mortise
     {
       if (begin == end)
         return;
-      Box whole;
-      for (std::size_t i = begin; i < end; ++i)
-        whole.include(boxes[i]);
+      Box whole = boxes[begin];
+      for (std::size_t i = begin + 1; i < end; ++i)
+        whole.merge_with(boxes[i]);
       if (depth == 0 || end - begin == 1)
         {
           result.push_back(whole);
@@ -150,14 +116,15 @@ namespace mortise
         }
       unsigned int axis = 0;
       for (unsigned int d = 1; d < 3; ++d)
-        if (whole.upper[d] - whole.lower[d] > whole.upper[axis] - whole.lower[axis])
+        if (whole.side_length(d) > whole.side_length(axis))
           axis = d;
       const std::size_t middle = begin + (end - begin) / 2;
       std::nth_element(boxes.begin() + begin,
                        boxes.begin() + middle,
                        boxes.begin() + end,
                        [axis](const Box &a, const Box &b) {
-                         return a.lower[axis] + a.upper[axis] < b.lower[axis] + b.upper[axis];
+                         return a.lower_bound(axis) + a.upper_bound(axis) <
+                                b.lower_bound(axis) + b.upper_bound(axis);
                        });
       coarsen(boxes, begin, middle, depth - 1, result);
       coarsen(boxes, middle, end, depth - 1, result);
@@ -166,68 +133,9 @@ namespace mortise
 
 
 
-  // Boxes of the faces in the order of median splits, and above them a binary tree of boxes; a leaf
-  // holds at most leaf_size faces.
   struct FaceTree::Tree
   {
-    static constexpr std::size_t leaf_size = 4;
-
-    struct Node
-    {
-      Box         box;
-      std::size_t begin, end, left; ///< left: position of the first child; 0: a leaf
-    };
-
-    std::vector<Box>          face_box;
-    std::vector<Box>          box; ///< of the faces in the tree's order
-    std::vector<unsigned int> face;
-    std::vector<Node>         nodes;
-
-    void
-    build(const std::size_t node)
-    {
-      const std::size_t begin = nodes[node].begin, end = nodes[node].end;
-      for (std::size_t i = begin; i < end; ++i)
-        nodes[node].box.include(face_box[face[i]]);
-      if (end - begin <= leaf_size)
-        return;
-      const Box   &whole = nodes[node].box;
-      unsigned int axis  = 0;
-      for (unsigned int d = 1; d < 3; ++d)
-        if (whole.upper[d] - whole.lower[d] > whole.upper[axis] - whole.lower[axis])
-          axis = d;
-      const std::size_t middle = begin + (end - begin) / 2;
-      std::nth_element(face.begin() + begin,
-                       face.begin() + middle,
-                       face.begin() + end,
-                       [&](const unsigned int a, const unsigned int b) {
-                         const double x = face_box[a].lower[axis] + face_box[a].upper[axis];
-                         const double y = face_box[b].lower[axis] + face_box[b].upper[axis];
-                         return x != y ? x < y : a < b;
-                       });
-      nodes[node].left = nodes.size();
-      nodes.push_back({Box(), begin, middle, 0});
-      nodes.push_back({Box(), middle, end, 0});
-      build(nodes[node].left);
-      build(nodes[node].left + 1);
-    }
-
-    template <typename Function>
-    void
-    visit(const std::size_t node, const Box &query, const Function &function) const
-    {
-      if (!nodes[node].box.meets(query))
-        return;
-      if (nodes[node].left == 0)
-        {
-          for (std::size_t i = nodes[node].begin; i < nodes[node].end; ++i)
-            if (box[i].meets(query))
-              function(face[i]);
-          return;
-        }
-      visit(nodes[node].left, query, function);
-      visit(nodes[node].left + 1, query, function);
-    }
+    RTree<std::pair<Box, unsigned int>> boxes; ///< of reach, with positions of faces
   };
 
 
@@ -237,15 +145,10 @@ namespace mortise
     , search_fraction(search_fraction)
     , tree(std::make_unique<Tree>())
   {
-    for (const auto &master : masters)
-      tree->face_box.push_back(box_of_reach(master, search_fraction));
-    tree->face.resize(masters.size());
-    std::iota(tree->face.begin(), tree->face.end(), 0u);
-    tree->nodes.reserve(masters.size() + 1);
-    tree->nodes.push_back({Box(), 0, masters.size(), 0});
-    tree->build(0);
-    for (const unsigned int face : tree->face)
-      tree->box.push_back(tree->face_box[face]);
+    std::vector<std::pair<Box, unsigned int>> boxes;
+    for (unsigned int m = 0; m < masters.size(); ++m)
+      boxes.emplace_back(box_of_reach(masters[m], search_fraction), m);
+    tree->boxes = pack_rtree(boxes);
   }
 
 
@@ -259,13 +162,15 @@ namespace mortise
   {
     result.clear();
     const Prism prism = prism_of(slave);
-    tree->visit(0, box_of_reach(slave, search_fraction), [&](const unsigned int m) {
-      const SurfaceFace &master = masters[m];
+    const auto  test  = [&](const std::pair<Box, unsigned int> &entry) {
+      const SurfaceFace &master = masters[entry.second];
       const double       reach  = search_fraction * std::max(slave.size, master.size);
       if (normals_may_oppose(slave, master) && !beside(slave, prism_of(master), reach) &&
           !beside(master, prism, reach))
-        result.push_back(m);
-    });
+        result.push_back(entry.second);
+    };
+    tree->boxes.query(boost::geometry::index::intersects(box_of_reach(slave, search_fraction)),
+                      boost::make_function_output_iterator(test));
     std::sort(result.begin(), result.end());
   }
 
@@ -291,7 +196,7 @@ namespace mortise
         const Box reach = box_of_reach(master, search_fraction);
         for (unsigned int rank = 0; rank < all_boxes.size(); ++rank)
           if (std::any_of(all_boxes[rank].begin(), all_boxes[rank].end(), [&](const Box &box) {
-                return box.meets(reach);
+                return boost::geometry::intersects(box, reach);
               }))
             (rank == me ? result : to_send[rank]).push_back(master);
       }

@@ -1,5 +1,6 @@
 #include <mortise/mortar/multiplier_faces.h>
 
+#include <mortise/body/boundary_faces.h>
 #include <mortise/body/face_topology.h>
 #include <mortise/body/fe_legendre.h>
 
@@ -155,14 +156,11 @@ namespace mortise
     GridTools::exchange_cell_data_to_ghosts<FaceBits>(body.dof_handler, pack, unpack);
 
     std::vector<MultiplierFace> faces;
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial() && cell->at_boundary())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
-            {
-              faces.push_back(describe(body, cell, f));
-              apply_bits(bits[cell->id()][f], body, blocked, faces.back());
-            }
+    for (const auto &[cell, f] : boundary_faces(body, boundary))
+      {
+        faces.push_back(describe(body, cell, f));
+        apply_bits(bits[cell->id()][f], body, blocked, faces.back());
+      }
     return faces;
   }
 } // namespace mortise

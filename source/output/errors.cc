@@ -1,5 +1,6 @@
 #include <mortise/output/errors.h>
 
+#include <mortise/body/boundary_faces.h>
 #include <mortise/body/fe_legendre.h>
 
 #include <deal.II/base/mpi.h>
@@ -232,19 +233,17 @@ namespace mortise
     Tensor<1, dim>                    force;
     ValuesByDegree<FEFaceValues<dim>> by_degree(
       body, 2, update_gradients | update_normal_vectors | update_JxW_values);
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned() && cell->at_boundary())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
-            {
-              auto &values = by_degree(body.degree(cell));
-              values.reinit(TriaCell(cell), f);
-              const auto coefficients = cell_coefficients(cell, displacement);
-              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-                force += values.JxW(q) *
-                         (body.material.stress(symmetrize(gradient(values, coefficients, q))) *
-                          values.normal_vector(q));
-            }
+    for (const auto &[cell, f] : boundary_faces(body, boundary))
+      if (cell->is_locally_owned())
+        {
+          auto &values = by_degree(body.degree(cell));
+          values.reinit(TriaCell(cell), f);
+          const auto coefficients = cell_coefficients(cell, displacement);
+          for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+            force +=
+              values.JxW(q) * (body.material.stress(symmetrize(gradient(values, coefficients, q))) *
+                               values.normal_vector(q));
+        }
     return Utilities::MPI::sum(force, body.triangulation.get_communicator());
   }
 } // namespace mortise

@@ -1,6 +1,7 @@
 #include <mortise/problem/rigid_motions.h>
 
 #include <mortise/base/error.h>
+#include <mortise/body/boundary_faces.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -72,29 +73,24 @@ namespace mortise
                    const Extent                                       &where)
     {
       std::vector<double> sums(36, 0.);
+      const auto add = [&](const unsigned int c, const Tensor<1, dim> &r) {
+        Motion row{}; // component c of a + w x r
+        row[c]               = 1.;
+        row[3 + (c + 1) % 3] = r[(c + 2) % 3];
+        row[3 + (c + 2) % 3] = -r[(c + 1) % 3];
+        for (unsigned int i = 0; i < 6; ++i)
+          for (unsigned int j = 0; j < 6; ++j)
+            sums[6 * i + j] += row[i] * row[j];
+      };
       for (const auto &body : bodies)
         if (group[body->index] == g)
-          for (const auto &cell : body->dof_handler.active_cell_iterators())
-            if (cell->is_locally_owned() && cell->at_boundary())
-              for (const unsigned int f : cell->face_indices())
-                for (const DirichletCondition &condition : dirichlet[body->index])
-                  if (cell->face(f)->at_boundary() &&
-                      cell->face(f)->boundary_id() == condition.boundary)
-                    for (unsigned int v = 0; v < 4; ++v)
-                      for (unsigned int c = 0; c < dim; ++c)
-                        if (condition.fixed[c])
-                          {
-                            // component c of a + w x r
-                            const Tensor<1, dim> r =
-                              (cell->face(f)->vertex(v) - where.centre) / where.size;
-                            Motion row{};
-                            row[c]               = 1.;
-                            row[3 + (c + 1) % 3] = r[(c + 2) % 3];
-                            row[3 + (c + 2) % 3] = -r[(c + 1) % 3];
-                            for (unsigned int i = 0; i < 6; ++i)
-                              for (unsigned int j = 0; j < 6; ++j)
-                                sums[6 * i + j] += row[i] * row[j];
-                          }
+          for (const DirichletCondition &condition : dirichlet[body->index])
+            for (const auto &[cell, f] : boundary_faces(*body, condition.boundary))
+              if (cell->is_locally_owned())
+                for (unsigned int v = 0; v < 4; ++v)
+                  for (unsigned int c = 0; c < dim; ++c)
+                    if (condition.fixed[c])
+                      add(c, (cell->face(f)->vertex(v) - where.centre) / where.size);
       Utilities::MPI::sum(sums, bodies.front()->triangulation.get_communicator(), sums);
       LAPACKFullMatrix<double> matrix(6, 6);
       for (unsigned int i = 0; i < 6; ++i)

@@ -1,6 +1,7 @@
 #include <mortise/problem/simulation.h>
 
 #include <mortise/base/error.h>
+#include <mortise/body/boundary_faces.h>
 #include <mortise/problem/rigid_motions.h>
 #include <mortise/problem/scene_data.h>
 #include <mortise/solvers/solve.h>
@@ -188,14 +189,10 @@ namespace mortise
     for (const auto dof : couplings[i].multipliers->slave_dofs())
       mark(slave.body, dof);
     const Body &body = *bodies[master.body];
-    const auto id = body.boundary_id(master.boundary, "");
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (!cell->is_artificial() && cell->at_boundary())
-        for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == id)
-            for (const auto &component : face_dofs(body, cell, f))
-              for (const auto dof : component)
-                mark(master.body, dof);
+    for (const auto &[cell, f] : boundary_faces(body, body.boundary_id(master.boundary, "")))
+      for (const auto &component : face_dofs(body, cell, f))
+        for (const auto dof : component)
+          mark(master.body, dof);
   }
 
   void

@@ -17,9 +17,7 @@ namespace
     settings.emplace_back("Solver/Tolerance=1e-13");
     const Summary      summary = run_scene(text, settings);
     const StepSummary &step    = summary.steps.back();
-    verdict(what + ": displacement 1e-10", *step.errors->displacement_l2, 1e-10);
-    verdict(what + ": stress 1e-10", *step.errors->energy, 1e-10);
-    verdict(what + ": traction 1e-10", *step.errors->multiplier_l2, 1e-10);
+    exact_verdicts(what, *step.errors);
     for (const InterfaceSummary &interface : step.interfaces)
       {
         verdict(what + ": coverage 1e-12", *interface.worst_face_coverage_error, 1e-12);
@@ -37,13 +35,6 @@ namespace
             "Body upper/Mesh/Subdivisions=" + upper,
             "Body lower/Degree=" + std::to_string(degree),
             "Body upper/Degree=" + std::to_string(degree)};
-  }
-
-  Settings
-  operator+(Settings a, const Settings &b)
-  {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
   }
 } // namespace
 

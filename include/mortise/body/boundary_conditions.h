@@ -29,8 +29,9 @@ namespace mortise
 
   /// Constrain the displacements of @p body on its Dirichlet boundaries. The values are interpolated
   /// by projections: at vertices, then in L2 on edges, then on faces, up to the degree that
-  /// conformity leaves (Demkowicz, projection-based interpolation). @p constraints holds the body's
-  /// conformity constraints, is not closed, and stays so; dofs that it constrains are left alone.
+  /// conformity leaves (Demkowicz, projection-based interpolation). Where boundaries meet, the first
+  /// condition that prescribes a component counts. @p constraints holds the body's conformity
+  /// constraints, is not closed, and stays so; dofs that it constrains are left alone.
   /// Collective.
   void
   add_dirichlet_constraints(const Body                            &body,

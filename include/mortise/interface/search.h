@@ -1,4 +1,4 @@
-// Which master faces are near to a slave face: a bounding volume tree on one rank, and the
+// Which master faces are near to a slave face: boxes in a packed R-tree on one rank, and the
 // exchange of near faces between ranks. It never clips and never decides about contact.
 #pragma once
 

@@ -1,0 +1,21 @@
+// The faces of a body on one of its boundaries. It never looks at their geometry.
+#pragma once
+
+#include <mortise/body/body.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// Face @p number of @p cell.
+  struct BoundaryFace
+  {
+    Body::CellIterator cell;
+    unsigned int       number;
+  };
+
+  /// Faces of the owned and ghost cells of @p body on @p boundary, in the order of the cells. Who
+  /// sums over faces skips those of ghost cells.
+  std::vector<BoundaryFace>
+  boundary_faces(const Body &body, dealii::types::boundary_id boundary);
+} // namespace mortise
