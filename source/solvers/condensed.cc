@@ -67,7 +67,7 @@ namespace mortise
               projector->project(z);
             const double rho = r * z; // estimates the energy of the error
             if (reached <= 0.9 * target &&
-                rho <= std::pow(options.energy_safety * options.tolerance, 2) * energy_of_solution)
+                rho <= std::pow(options.energy_tolerance(), 2) * energy_of_solution)
               break;
             if (first)
               d = z;

@@ -199,7 +199,7 @@ namespace mortise
         const double energy = x.block(0) * u;
         accurate            = reached <= target &&
                    preconditioner.error_energy(r) <=
-                     std::pow(options.energy_safety * options.tolerance, 2) * energy;
+                     std::pow(options.energy_tolerance(), 2) * energy;
       }
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= target;

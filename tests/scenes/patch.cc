@@ -52,6 +52,13 @@ main(int argc, char *argv[])
     check("1:2, degree " + std::to_string(p), text, meshes("1, 1, 1", "2, 1, 1", p));
   check("7:11", text, meshes("7, 7, 1", "11, 11, 1", 1) + direct);
   check("1:20, fine slave", text, meshes("1, 1, 1", "20, 20, 1", 1) + direct + swapped);
+  check("1:20, every vertex of the slave prescribed", text, meshes("1, 1, 1", "20, 20, 1", 1) + direct);
+  check("1:20, the same by conjugate gradients",
+        text,
+        meshes("1, 1, 1", "20, 20, 1", 1) + Settings{"Solver/Method=condensed"});
+  check("1 x 5 against 4 x 7, every vertex of the slave prescribed",
+        text,
+        meshes("1, 5, 1", "4, 7, 1", 1) + direct);
   check("20:1, degree 2", text, meshes("20, 2, 1", "1, 1, 1", 2) + direct + swapped);
   check("slave and master exchanged", text, meshes("3, 3, 1", "4, 4, 1", 2) + direct + swapped);
 

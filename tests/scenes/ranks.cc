@@ -67,6 +67,13 @@ main(int argc, char *argv[])
                    "Body inner/Mesh/Refine near=0, 0, 1.5, 0.6, 1",
                    "Body outer/Mesh/Refine near=1.5, 0, 0, 0.5, 1"});
   check("sphere with hanging nodes and mixed degrees", two_layers(true), settings);
+  check("no vertex of the slave free along the axis",
+        two_layers(false),
+        {"Solver/Method=direct",
+         "Body inner/Degree=1",
+         "Body outer/Degree=1",
+         "Body inner/Mesh/Subdivisions=9, 1, 1",
+         "Body outer/Mesh/Subdivisions=11, 1, 2"});
   check("one cell each",
         two_layers(false),
         {"Solver/Method=direct",

@@ -1,6 +1,7 @@
 // What a caller may ask of a solver. It never solves and reads no file.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -21,9 +22,13 @@ namespace mortise
     double       tolerance      = 1e-10; ///< of the relative residual, see ScaledResidual
     unsigned int max_iterations = 1000;
 
-    /// Iterative solvers go on until the estimated energy of the error, too, is below (energy_safety *
-    /// tolerance)^2 times that of the solution: on fine meshes a small residual alone says little.
-    static constexpr double energy_safety = 0.03;
+    /// Iterative solvers go on until the root of the estimated energy of the error, too, is below this
+    /// fraction of the solution's: on fine meshes a small residual alone says little.
+    double
+    energy_tolerance() const
+    {
+      return std::max(0.03 * tolerance, 1e-12); // what rounding leaves
+    }
 
     /// Called on every rank after each iteration with its number and the relative residual.
     std::function<void(unsigned int, double)> monitor;
