@@ -6,10 +6,23 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdlib>
 #include <iostream>
+
+extern "C" void
+openblas_set_num_threads(int) __attribute__((weak));
 
 namespace
 {
+  /// Parallelism is between ranks: threads of BLAS would fight with them for the cores (the assembly of
+  /// a scene of degree 4 took four times as long). An OPENBLAS_NUM_THREADS of the user stays.
+  void
+  use_one_blas_thread()
+  {
+    if (openblas_set_num_threads != nullptr && std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
+      openblas_set_num_threads(1);
+  }
+
   void
   run_command(const mortise::CommandLine &command, const MPI_Comm comm)
   {
@@ -54,7 +67,7 @@ namespace
 int
 main(int argc, char *argv[])
 {
-  // one thread per rank: parallelism is between ranks
+  use_one_blas_thread();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const std::vector<std::string>           arguments(argv + 1, argv + argc);
   return mortise::run_guarded(

@@ -13,6 +13,96 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Conjugate gradients for (u, lambda) in the subspace of @p projector, or in the whole space without
+    /// one.
+    class ProjectedConjugateGradients
+    {
+    public:
+      ProjectedConjugateGradients(const BlockSystem                &system,
+                                  const ScaledResidual             &residual,
+                                  const HierarchicalPreconditioner &preconditioner,
+                                  const ConstraintProjector        *projector,
+                                  const SolverOptions              &options)
+        : system(system)
+        , residual(residual)
+        , preconditioner(preconditioner)
+        , projector(projector)
+        , options(options)
+        , r(system.owned_displacement, system.communicator)
+        , z(r)
+        , d(r)
+        , kd(r)
+        , r_lambda(system.owned_multiplier, system.communicator)
+      {}
+
+      /// Start from what @p u and @p lambda hold; the scaled residual at the end.
+      double
+      run(Vector &u, Vector &lambda, SolveReport &report)
+      {
+        const double rhs_norm = residual.right_hand_side_norm();
+        const double target   = 0.9 * options.tolerance * rhs_norm;
+        if (projector != nullptr)
+          projector->project(u, &system.coupling_rhs);
+        residual.compute(u, lambda, r, r_lambda);
+        double rho_old = 0.;
+        for (bool first = true; report.iterations < options.max_iterations; first = false)
+          {
+            if (projector != nullptr)
+              projector->project_residual(r, lambda);
+            const double reached = residual.norm(r, r_lambda);
+            if (!first)
+              {
+                report.history.push_back(reached / rhs_norm);
+                if (options.monitor)
+                  options.monitor(report.iterations, reached / rhs_norm);
+              }
+            preconditioner.vmult(z, r);
+            if (projector != nullptr)
+              projector->project(z);
+            const double rho = r * z; // estimates the energy of the error
+            if (reached <= target && rho <= std::pow(options.energy_tolerance(), 2) * energy_of_u)
+              break;
+            if (first)
+              d = z;
+            else
+              d.sadd(rho / rho_old, 1., z);
+            rho_old = rho;
+            if (!step(u, rho))
+              break;
+            ++report.iterations;
+          }
+        residual.compute(u, lambda, r, r_lambda);
+        return residual.norm(r, r_lambda);
+      }
+
+    private:
+      /// Move along d; false when the matrix is not positive definite there, or not a number.
+      bool
+      step(Vector &u, const double rho)
+      {
+        system.stiffness.vmult(kd, d);
+        const double energy = d * kd;
+        if (!(rho > 0. && energy > 0.))
+          return false;
+        const double alpha = rho / energy;
+        u.add(alpha, d);
+        r.add(-alpha, kd);
+        energy_of_u += alpha * rho;
+        return true;
+      }
+
+      const BlockSystem                &system;
+      const ScaledResidual             &residual;
+      const HierarchicalPreconditioner &preconditioner;
+      const ConstraintProjector        *projector;
+      const SolverOptions              &options;
+      Vector                            r, z, d, kd, r_lambda;
+      double                            energy_of_u = 0.; ///< gained so far
+    };
+  } // namespace
+
   SolveReport
   solve_condensed(const BlockSystem   &system,
                   const SolverOptions &options,
@@ -21,17 +111,18 @@ namespace mortise
   {
     SolveReport report;
     report.method = "condensed";
-    Timer                      timer;
-    HierarchicalPreconditioner preconditioner;
-    const bool                 bulk_is_valid = preconditioner.initialize(system);
+    Timer                                timer;
+    HierarchicalPreconditioner           preconditioner;
+    bool                                 valid = preconditioner.initialize(system);
     std::unique_ptr<InterfaceLifting>    lifting;
     std::unique_ptr<ConstraintProjector> projector;
-    if (bulk_is_valid && system.owned_multiplier.size() > 0)
+    if (valid && system.owned_multiplier.size() > 0)
       {
         lifting   = std::make_unique<InterfaceLifting>(system, preconditioner.smoother());
         projector = std::make_unique<ConstraintProjector>(system, *lifting);
+        valid     = projector->is_valid();
       }
-    const ScaledResidual      residual(system);
+    const ScaledResidual residual(system);
     report.preconditioner = preconditioner.description();
     report.setup_seconds  = timer.wall_time();
     timer.restart();
@@ -40,53 +131,13 @@ namespace mortise
     lambda.reinit(system.owned_multiplier, system.communicator);
     const double rhs_norm = residual.right_hand_side_norm();
     const double target   = options.tolerance * rhs_norm;
-    Vector       r(u), r_lambda(lambda), z(u), d(u), kd(u);
-    const bool   valid = bulk_is_valid && (!projector || projector->is_valid());
-    double       reached = rhs_norm, energy_of_solution = 0.;
-    for (unsigned int start = 0; start < 3 && valid && reached > target &&
-                                 report.iterations < options.max_iterations;
+    double       reached  = rhs_norm;
+    ProjectedConjugateGradients solver(system, residual, preconditioner, projector.get(), options);
+    // Rounding makes the carried residual drift from the true one: start again from what was reached.
+    for (unsigned int start = 0;
+         start < 3 && valid && reached > target && report.iterations < options.max_iterations;
          ++start)
-      {
-        if (projector)
-          projector->project(u, &system.coupling_rhs);
-        residual.compute(u, lambda, r, r_lambda);
-        double rho_old = 0.;
-        for (bool first = true; report.iterations < options.max_iterations; first = false)
-          {
-            if (projector)
-              projector->project_residual(r, lambda);
-            reached = residual.norm(r, r_lambda);
-            if (!first)
-              {
-                report.history.push_back(reached / rhs_norm);
-                if (options.monitor)
-                  options.monitor(report.iterations, reached / rhs_norm);
-              }
-            preconditioner.vmult(z, r);
-            if (projector)
-              projector->project(z);
-            const double rho = r * z; // estimates the energy of the error
-            if (reached <= 0.9 * target &&
-                rho <= std::pow(options.energy_tolerance(), 2) * energy_of_solution)
-              break;
-            if (first)
-              d = z;
-            else
-              d.sadd(rho / rho_old, 1., z);
-            rho_old = rho;
-            system.stiffness.vmult(kd, d);
-            const double energy = d * kd;
-            if (!(rho > 0. && energy > 0.)) // not positive definite, or not a number
-              break;
-            const double alpha = rho / energy;
-            u.add(alpha, d);
-            r.add(-alpha, kd);
-            energy_of_solution += alpha * rho;
-            ++report.iterations;
-          }
-        residual.compute(u, lambda, r, r_lambda);
-        reached = residual.norm(r, r_lambda);
-      }
+      reached = solver.run(u, lambda, report);
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= target;
     report.solve_seconds     = timer.wall_time();
