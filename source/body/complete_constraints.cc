@@ -142,11 +142,10 @@ namespace mortise
           all.add(line);
         }
 
+    IndexSet wanted = known;
+    wanted.subtract_set(owned);
     Dofs requested;
-    known.fill_index_vector(requested);
-    requested.insert(requested.end(), all.columns.begin(), all.columns.end());
-    requested = without_owned(requested, owned);
-    known.add_indices(requested.begin(), requested.end());
+    wanted.fill_index_vector(requested);
     while (Utilities::MPI::max(requested.size(), comm) > 0)
       {
         const auto questions =

@@ -119,7 +119,7 @@ namespace mortise
                   value *= factor * row.weight[e];
                 matrix.add(row.index[e],
                            scaled.size(),
-                           &column.index[first],
+                           column.index.data() + first,
                            scaled.data(),
                            false);
               }

@@ -210,6 +210,17 @@ namespace mortise
         return static_cast<types::global_dof_index>(smallest(dof));
       }
 
+      /// The dofs that lines of owned dofs may refer to, those of far ranks
+      /// too.
+      void
+      add_representatives(IndexSet &set) const
+      {
+        for (const auto dof : owned)
+          if (follow(dof) != 0.)
+            set.add_index(static_cast<types::global_dof_index>(smallest(dof)));
+        set.compress();
+      }
+
     private:
       static constexpr double none = -1.;
 
@@ -319,7 +330,6 @@ namespace mortise
                                    const std::vector<PartnerState> &partners,
                                    const std::vector<bool>         &blocked)
     : body(body)
-    , reduction(body.relevant_dofs)
   {
     const std::vector<MultiplierFace> faces =
       collect_multiplier_faces(body, boundary, slave, partners, blocked);
@@ -335,6 +345,9 @@ namespace mortise
         }
 
     const StrandedPatches stranded(body, faces, records);
+    IndexSet              known = body.relevant_dofs;
+    stranded.add_representatives(known);
+    reduction.reinit(known);
     for (const auto dof : on_surface)
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
