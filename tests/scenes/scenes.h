@@ -80,6 +80,27 @@ namespace mortise::testing
            box("upper", "0, 0, 0.5, 1, 1, 1", "xmin ymin ymax", "xmax zmax");
   }
 
+  /// Two halves of a block that meet in a curved surface, clamped where it
+  /// comes out at the sides, with a smooth displacement and what balances it.
+  inline std::string
+  manufactured()
+  {
+    const std::string sides  = "xmin xmax ymin ymax";
+    const std::string extent = "0, 0, 0, 1, 1, 1";
+    std::string       text =
+      tied("lower, upper", "lower: interface", "upper: interface") +
+      body("lower", "curved block", extent, sides + " zmin", "") +
+      body("upper", "curved block", extent, sides, "zmax");
+    for (const std::string half : {"lower", "upper"})
+      text += "subsection Body " + half + "\n  set Body force = auto\n" +
+              "  subsection Mesh\n    set Half = " + half +
+              "\n    set Amplitude = 0.1\n  end\nend\n";
+    return text +
+           "subsection Exact solution\n  set Displacement = 0.1*sin(x + "
+           "2*y)*cos(z); 0.1*cos(2*x)*sin(y + z); 0.1*exp(x/2)*sin(y)*cos(z)\n"
+           "end\n";
+  }
+
   /// A layer of a thick sphere or cylinder with symmetry conditions, under
   /// pressure inside if asked.
   inline std::string
