@@ -179,7 +179,8 @@ namespace mortise
                 }
             }
     }
-    /// Eliminate the interior of the cell in @p kernel and add the rest. Its own rows keep a
+
+    /// Eliminate the interior of the cell and add the rest. Its own rows keep a
     /// diagonal of the same size and couple with nothing.
     void
     add_condensed(Kernel                              &kernel,

@@ -139,8 +139,15 @@ namespace mortise
           a -= v[k] * x[j[k]];
         workspace[i] = (a + b) + (c + d);
       }
-    Teuchos::BLAS<int, double> blas;
-    double                    *y = workspace.data() + n;
+    add_solution(block, x);
+  }
+
+  void
+  BlockSmoother::add_solution(const Block &block, double *x) const
+  {
+    const Teuchos::BLAS<int, double> blas;
+    const int                        n = static_cast<int>(block.rows.size());
+    double                          *y = workspace.data() + n;
     blas.GEMV(Teuchos::NO_TRANS,
               n,
               n,
@@ -176,27 +183,12 @@ namespace mortise
     const double *source = to_local ? r_local->Values() : r.Values();
     double       *target = to_local ? x_local->Values() : x.Values();
     std::fill(target, target + matrix->NumMyRows(), 0.);
-    const Teuchos::BLAS<int, double> blas;
     for (const unsigned int b : selected)
       {
         const Block &block = patches[b];
-        const int    n     = static_cast<int>(block.rows.size());
-        double      *y     = workspace.data() + n;
-        for (int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < block.rows.size(); ++i)
           workspace[i] = source[block.rows[i]];
-        blas.GEMV(Teuchos::NO_TRANS,
-                  n,
-                  n,
-                  1.,
-                  block.inverse.data(),
-                  n,
-                  workspace.data(),
-                  1,
-                  0.,
-                  y,
-                  1);
-        for (int i = 0; i < n; ++i)
-          target[block.rows[i]] += y[i];
+        add_solution(block, target);
       }
     if (to_local)
       {

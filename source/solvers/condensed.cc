@@ -15,8 +15,8 @@ namespace mortise
 
   namespace
   {
-    /// Conjugate gradients for (u, lambda) in the subspace of @p projector, or in the whole space without
-    /// one.
+    /// Conjugate gradients for (u, lambda) in the subspace of the projector, or
+    /// in the whole space without one.
     class ProjectedConjugateGradients
     {
     public:

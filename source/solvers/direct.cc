@@ -11,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <memory>
 
 namespace mortise
 {
@@ -78,53 +78,6 @@ namespace mortise
       std::vector<Index> u_start, l_start;
     };
 
-    struct Entry
-    {
-      Index  row;
-      Index  column;
-      double value;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &row &column &value;
-      }
-    };
-
-    /// The rows of B^T that this rank owns, as (displacement, multiplier,
-    /// value), sorted by row.
-    std::vector<Entry>
-    transposed_coupling(const BlockSystem         &system,
-                        const MonolithicNumbering &numbering)
-    {
-      std::map<unsigned int, std::vector<Entry>> to_send;
-      // Rows by view: deal.II's iterators copy a row at each comparison with
-      // end().
-      const auto &coupling = system.coupling.trilinos_matrix();
-      int         local    = 0;
-      for (const auto k : system.owned_multiplier)
-        {
-          const EpetraRow row(coupling, local++);
-          for (int e = 0; e < row.length; ++e)
-            if (row.values[e] != 0.)
-              {
-                const Index i = coupling.ColMap().GID(row.columns[e]);
-                to_send[numbering.u_owner(i)].push_back({i, k, row.values[e]});
-              }
-        }
-      std::vector<Entry> entries;
-      for (const auto &from :
-           Utilities::MPI::some_to_some(system.communicator, to_send))
-        entries.insert(entries.end(), from.second.begin(), from.second.end());
-      std::sort(entries.begin(),
-                entries.end(),
-                [](const Entry &a, const Entry &b) {
-                  return a.row != b.row ? a.row < b.row : a.column < b.column;
-                });
-      return entries;
-    }
-
     /// Square roots of the inverse diagonals of the residual's norm, in the
     /// monolithic numbering: they make the matrix free of units, so that
     /// pivoting compares like with like.
@@ -156,20 +109,26 @@ namespace mortise
                            0,
                            system.stiffness.trilinos_matrix().Comm());
 
-      const auto transposed = transposed_coupling(system, numbering);
+      std::unique_ptr<Epetra_CrsMatrix> transposed;
+      if (system.owned_multiplier.size() > 0)
+        transposed = transpose(system.coupling.trilinos_matrix(),
+                               system.stiffness.trilinos_matrix().RowMap());
       auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
 
       std::vector<int>    columns;
       std::vector<double> values;
-      const auto add_row = [&](const Epetra_CrsMatrix &part, const int local) {
-        const EpetraRow row(part, local);
-        for (int e = 0; e < row.length; ++e)
-          {
-            columns.push_back(
-              static_cast<int>(numbering.u(part.ColMap().GID(row.columns[e]))));
-            values.push_back(row.values[e]);
-          }
-      };
+      const auto          add_row =
+        [&](const Epetra_CrsMatrix &part, const int local, const auto &number) {
+          const EpetraRow row(part, local);
+          for (int e = 0; e < row.length; ++e)
+            {
+              const Index column = part.ColMap().GID(row.columns[e]);
+              columns.push_back(static_cast<int>(number(column)));
+              values.push_back(row.values[e]);
+            }
+        };
+      const auto u      = [&](const Index i) { return numbering.u(i); };
+      const auto l      = [&](const Index k) { return numbering.l(k); };
       const auto insert = [&](const Index row) {
         matrix->InsertGlobalValues(static_cast<int>(row),
                                    static_cast<int>(columns.size()),
@@ -178,22 +137,19 @@ namespace mortise
         columns.clear();
         values.clear();
       };
-      auto t     = transposed.begin();
-      int  local = 0;
+      int local = 0;
       for (const auto i : system.owned_displacement)
         {
-          add_row(system.stiffness.trilinos_matrix(), local++);
-          for (; t != transposed.end() && t->row == i; ++t)
-            {
-              columns.push_back(static_cast<int>(numbering.l(t->column)));
-              values.push_back(t->value);
-            }
+          add_row(system.stiffness.trilinos_matrix(), local, u);
+          if (transposed)
+            add_row(*transposed, local, l);
+          ++local;
           insert(numbering.u(i));
         }
       local = 0;
       for (const auto k : system.owned_multiplier)
         {
-          add_row(system.coupling.trilinos_matrix(), local++);
+          add_row(system.coupling.trilinos_matrix(), local++, u);
           columns.push_back(static_cast<int>(numbering.l(k)));
           values.push_back(0.);
           insert(numbering.l(k));

@@ -27,9 +27,9 @@ namespace mortise
     {
     public:
       ScaledOperator(const BlockSystem &system, const ScaledResidual &residual)
-        : system(system)
-        , weight({system.owned_displacement, system.owned_multiplier},
+        : weight({system.owned_displacement, system.owned_multiplier},
                  system.communicator)
+        , system(system)
         , scaled(weight)
       {
         set_root(residual.inverse_diagonal_u(), weight.block(0));
@@ -53,6 +53,8 @@ namespace mortise
         y.scale(weight);
       }
 
+      BlockVector weight, inverse; ///< W and W^{-1}
+
     private:
       static void
       set_root(const Epetra_Vector &square, Vector &root)
@@ -61,12 +63,7 @@ namespace mortise
           epetra(root)[0][i] = std::sqrt(square[i]);
       }
 
-      const BlockSystem &system;
-
-    public:
-      BlockVector weight, inverse; ///< W and W^{-1}
-
-    private:
+      const BlockSystem  &system;
       mutable BlockVector scaled;
     };
 
@@ -106,7 +103,8 @@ namespace mortise
         z.scale(scaling.inverse);
       }
 
-      /// An estimate of e . K e for the error e that belongs to the residual @p r, not scaled.
+      /// An estimate of e . K e for the error e that belongs to the residual,
+      /// which is not scaled.
       double
       error_energy(const BlockVector &r) const
       {

@@ -75,6 +75,9 @@ namespace mortise
       const std::vector<std::vector<dealii::types::global_dof_index>> &blocks);
     void
     relax(const Block &block, double *x, const double *r) const;
+    /// x += A_b^{-1} times the right hand side of the block in the workspace.
+    void
+    add_solution(const Block &block, double *x) const;
     void
     sweep(double *x, const double *r) const;
 
