@@ -273,7 +273,7 @@ main(int argc, char **argv)
         for (const bool mixed : {false, true})
           {
             const unsigned int seed        = random();
-            const bool         distributed = !serial || random() % 2 == 0;
+            const bool         distributed = random() % 2 == 0 || !serial;
             const unsigned int last = mixed ? std::min(p + 3, 8u) : p;
             if (mixed && last == p)
               continue;

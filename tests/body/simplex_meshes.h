@@ -100,13 +100,17 @@ namespace simplex_test
     return triangulation;
   }
 
-  /// A number that depends on the cell only, not on the rank.
+  /// A number that depends on the place of the cell only, not on the rank.
   template <typename CellIterator>
   unsigned int
   cell_number(const CellIterator &cell, const unsigned int seed)
   {
-    std::mt19937 random(std::hash<std::string>()(cell->id().to_string()) +
-                        7919 * seed);
+    const Point<3>     center = cell->center();
+    std::seed_seq      seeds{seed,
+                        unsigned(1000. * (center[0] + 7.)),
+                        unsigned(1000. * (center[1] + 7.)),
+                        unsigned(1000. * (center[2] + 7.))};
+    std::mt19937 random(seeds);
     random.discard(3);
     return random();
   }
