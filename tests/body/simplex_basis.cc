@@ -252,7 +252,8 @@ check_fe_values(const unsigned int p)
   simplex_test::create_shape("ball", p, false, triangulation);
   if (p == 1)
     check_entities(triangulation);
-  const unsigned int    n_components = p == 3 ? 3 : 1;
+  // FESystem of a higher degree does not pass deal.II 9.4's assertions
+  const unsigned int    n_components = p == 2 ? 3 : 1;
   const SimplexElements elements({p}, n_components, all_vertex_orders());
   const MappingFE<3>    affine{FE_SimplexP<3>(1)};
   const UpdateFlags     flags =

@@ -10,6 +10,7 @@
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/manifold.h>
 #include <deal.II/grid/tria_description.h>
 
 #include <algorithm>
@@ -75,13 +76,61 @@ namespace simplex_test
     auto [vertices, cells, faces] =
       GridTools::get_coarse_mesh_description(coarse);
     std::mt19937 random(seed);
+    for (CellData<3> &cell : cells)
+      cell.manifold_id = numbers::flat_manifold_id;
     number_at_random(vertices, cells, random);
     if (ordered)
       mortise::order_vertices(vertices, cells);
     triangulation.create_triangulation(vertices, cells, SubCellData());
   }
 
-  /// The same spread over all ranks.
+  /// A quarter of a thick cylinder in coordinates of the unit cube.
+  class Quarter : public ChartManifold<3>
+  {
+  public:
+    Point<3>
+    push_forward(const Point<3> &y) const override
+    {
+      const double phi = y[1] * numbers::PI_2;
+      return {(1. + y[0]) * std::cos(phi), (1. + y[0]) * std::sin(phi), y[2]};
+    }
+
+    Point<3>
+    pull_back(const Point<3> &x) const override
+    {
+      return {std::hypot(x[0], x[1]) - 1.,
+              std::atan2(x[1], x[0]) / numbers::PI_2,
+              x[2]};
+    }
+
+    std::unique_ptr<Manifold<3>>
+    clone() const override
+    {
+      return std::make_unique<Quarter>();
+    }
+  };
+
+  inline void
+  create_quarter(const unsigned int n,
+                 const bool         ordered,
+                 Triangulation<3>  &triangulation)
+  {
+    Triangulation<3> coarse;
+    GridGenerator::subdivided_hyper_cube_with_simplices(coarse, n);
+    auto [vertices, cells, faces] =
+      GridTools::get_coarse_mesh_description(coarse);
+    for (Point<3> &x : vertices)
+      x = Quarter().push_forward(x);
+    std::mt19937 random(3);
+    number_at_random(vertices, cells, random);
+    if (ordered)
+      mortise::order_vertices(vertices, cells);
+    triangulation.create_triangulation(vertices, cells, SubCellData());
+    triangulation.set_all_manifold_ids(0);
+    triangulation.set_manifold(0, Quarter());
+  }
+
+  /// Triangulation of create_shape() spread over all ranks.
   inline std::unique_ptr<Triangulation<3>>
   create_distributed(const std::string &shape,
                      const unsigned int seed,
