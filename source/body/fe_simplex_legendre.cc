@@ -207,6 +207,41 @@ namespace mortise
       }
   }
 
+  std::array<unsigned int, 3>
+  ascending_face_vertices(const VertexOrder &order, const unsigned int face)
+  {
+    AssertIndexRange(face, 4);
+    const VertexOrder           ranks    = vertex_ranks(order);
+    std::array<unsigned int, 3> vertices = {{tetrahedron_faces[face][0],
+                                             tetrahedron_faces[face][1],
+                                             tetrahedron_faces[face][2]}};
+    std::sort(vertices.begin(),
+              vertices.end(),
+              [&](const unsigned int v, const unsigned int w) {
+                return ranks[v] < ranks[w];
+              });
+    return vertices;
+  }
+
+  std::vector<unsigned int>
+  trace_dof_indices(const FE_SimplexLegendre &element, const unsigned int face)
+  {
+    const auto vertices = ascending_face_vertices(element.order, face);
+    std::vector<unsigned int> dofs(vertices.begin(), vertices.end());
+    const unsigned int        n = n_line_modes(element.degree);
+    for (const auto &[v, w] : {std::make_pair(vertices[0], vertices[1]),
+                               std::make_pair(vertices[0], vertices[2]),
+                               std::make_pair(vertices[1], vertices[2])})
+      for (unsigned int l = 0; l < 6; ++l)
+        if (std::minmax(tetrahedron_lines[l][0], tetrahedron_lines[l][1]) ==
+            std::minmax(v, w))
+          for (unsigned int i = 0; i < n; ++i)
+            dofs.push_back(element.get_first_line_index() + l * n + i);
+    for (unsigned int i = 0; i < n_face_modes(element.degree); ++i)
+      dofs.push_back(element.get_first_quad_index(face) + i);
+    return dofs;
+  }
+
   namespace
   {
     /// For FESystem of deal.II 9.4 only.

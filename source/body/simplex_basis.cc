@@ -1,3 +1,4 @@
+#include <mortise/body/jet.h>
 #include <mortise/body/simplex_basis.h>
 
 #include <algorithm>
@@ -9,58 +10,6 @@ namespace mortise
 
   namespace
   {
-    /// A function at a point: value, gradient, second derivatives.
-    struct Jet
-    {
-      Jet(const double value = 0.)
-        : value(value)
-      {}
-
-      double       value;
-      Tensor<1, 3> gradient;
-      Tensor<2, 3> hessian;
-    };
-
-    Jet
-    operator+(Jet a, const Jet &b)
-    {
-      a.value += b.value;
-      a.gradient += b.gradient;
-      a.hessian += b.hessian;
-      return a;
-    }
-
-    Jet
-    operator*(const double factor, Jet a)
-    {
-      a.value *= factor;
-      a.gradient *= factor;
-      a.hessian *= factor;
-      return a;
-    }
-
-    Jet
-    operator-(const Jet &a, const Jet &b)
-    {
-      return a + (-1.) * b;
-    }
-
-    Jet
-    operator*(const Jet &a, const Jet &b)
-    {
-      Jet product(a.value * b.value);
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          product.gradient[d] =
-            a.value * b.gradient[d] + a.gradient[d] * b.value;
-          for (unsigned int e = 0; e < 3; ++e)
-            product.hessian[d][e] =
-              a.value * b.hessian[d][e] + a.hessian[d][e] * b.value +
-              a.gradient[d] * b.gradient[e] + a.gradient[e] * b.gradient[d];
-        }
-      return product;
-    }
-
     std::array<double, 4>
     barycentric_coordinates(const Point<3> &x)
     {
@@ -106,6 +55,20 @@ namespace mortise
                         2. * (n + alpha) * (n + beta) * (c + 2.) * (t * t) *
                           values[n - 1]);
         }
+    }
+
+    /// Modes 2..degree of the line from a to b, degree >= 2.
+    template <typename Number>
+    void
+    evaluate_line(const unsigned int degree,
+                  const Number      &a,
+                  const Number      &b,
+                  Number            *values)
+    {
+      evaluate_jacobi(degree - 2, 1., 1., b - a, a + b, values);
+      for (unsigned int k = 2; k <= degree; ++k)
+        values[k - 2] = (-std::sqrt(2. * k - 1.) / (k - 1.)) *
+                        ((a * b) * values[k - 2]);
     }
 
     /// Integral of (P_n^(alpha,beta))^2 ((1-s)/2)^alpha ((1+s)/2)^beta over
@@ -240,17 +203,15 @@ namespace mortise
     if (p < 2)
       return;
 
-    Number kernel[max_simplex_degree];
     for (const auto &line : tetrahedron_lines)
       {
         // from the lower to the higher vertex
-        const bool    ascending = ranks[line[0]] < ranks[line[1]];
-        const Number &a         = lambda[line[ascending ? 0 : 1]],
-                     &b         = lambda[line[ascending ? 1 : 0]];
-        evaluate_jacobi(p - 2, 1., 1., b - a, a + b, kernel);
-        for (unsigned int k = 2; k <= p; ++k)
-          *next++ =
-            (-std::sqrt(2. * k - 1.) / (k - 1.)) * ((a * b) * kernel[k - 2]);
+        const bool ascending = ranks[line[0]] < ranks[line[1]];
+        evaluate_line(p,
+                      lambda[line[ascending ? 0 : 1]],
+                      lambda[line[ascending ? 1 : 0]],
+                      next);
+        next += n_line_modes(p);
       }
     if (p >= 3)
       for (const auto &face : tetrahedron_faces)
@@ -270,6 +231,39 @@ namespace mortise
                         lambda[order[2]],
                         lambda[order[3]],
                         next);
+  }
+
+  void
+  SimplexLegendrePolynomials::evaluate_trace(
+    const std::array<double, 3> &lambda,
+    std::vector<double>         &values,
+    std::vector<Tensor<1, 2>>   &derivatives) const
+  {
+    const unsigned int p = this->degree();
+    Jet                a(lambda[0]), b(lambda[1]), c(lambda[2]);
+    a.gradient[0] = a.gradient[1] = -1.;
+    b.gradient[0]                 = 1.;
+    c.gradient[1]                 = 1.;
+    std::vector<Jet> jets(3 + 3 * n_line_modes(p) + n_face_modes(p));
+    jets[0] = a;
+    jets[1] = b;
+    jets[2] = c;
+    if (p >= 2)
+      {
+        evaluate_line(p, a, b, &jets[3]);
+        evaluate_line(p, a, c, &jets[3 + n_line_modes(p)]);
+        evaluate_line(p, b, c, &jets[3 + 2 * n_line_modes(p)]);
+      }
+    if (p >= 3)
+      evaluate_face(a, b, c, &jets[3 + 3 * n_line_modes(p)]);
+    values.resize(jets.size());
+    derivatives.resize(jets.size());
+    for (unsigned int i = 0; i < jets.size(); ++i)
+      {
+        values[i]         = jets[i].value;
+        derivatives[i][0] = jets[i].gradient[0];
+        derivatives[i][1] = jets[i].gradient[1];
+      }
   }
 
   void

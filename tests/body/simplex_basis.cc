@@ -155,6 +155,44 @@ check_traces(const unsigned int p, const VertexOrder &order)
   verdict(at(p) + "supports on faces", supports, 1e-12);
 }
 
+/// Functions of a face against those of the cell on it.
+void
+check_faces(const unsigned int p, const VertexOrder &order)
+{
+  const FE_SimplexLegendre         fe(p, order);
+  const SimplexLegendrePolynomials polynomials(p, order);
+  const double                     t = 0.21, s = 0.34;
+  double                           values_error = 0., derivatives_error = 0.;
+  for (unsigned int f = 0; f < 4; ++f)
+    {
+      const auto     vertices = ascending_face_vertices(order, f);
+      const Point<3> origin   = unit_vertex(vertices[0]);
+      const Tensor<1, 3> along[2] = {unit_vertex(vertices[1]) - origin,
+                                     unit_vertex(vertices[2]) - origin};
+      const ModesAtPoint cell(fe, origin + (t * along[0] + s * along[1]));
+      std::vector<double>       values;
+      std::vector<Tensor<1, 2>> derivatives;
+      polynomials.evaluate_trace({{1. - t - s, t, s}}, values, derivatives);
+      const auto dofs = trace_dof_indices(fe, f);
+      if (dofs.size() != values.size() || dofs.size() != fe.n_dofs_per_face(f))
+        values_error = 1.;
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        {
+          if (!fe.has_support_on_face(dofs[i], f))
+            values_error = 1.;
+          values_error =
+            std::max(values_error, std::abs(values[i] - cell.values[dofs[i]]));
+          for (unsigned int d = 0; d < 2; ++d)
+            derivatives_error =
+              std::max(derivatives_error,
+                       std::abs(derivatives[i][d] -
+                                along[d] * cell.gradients[dofs[i]]));
+        }
+    }
+  verdict(at(p) + "functions of faces", values_error, 1e-12);
+  verdict(at(p) + "their derivatives", derivatives_error, 1e-11);
+}
+
 void
 check_hierarchy(const unsigned int p, const VertexOrder &order)
 {
@@ -296,6 +334,7 @@ main()
       const VertexOrder order = all_vertex_orders()[(7 * p) % 24];
       check_derivatives(p, order);
       check_traces(p, order);
+      check_faces(p, order);
       if (p < max_simplex_degree)
         check_hierarchy(p, order);
       check_fe_values(p);

@@ -183,6 +183,15 @@ main(int argc, char **argv)
                              1.),
                   1e-12);
         }
+      if (p == 1)
+        {
+          // scaled to one: 1/2 beside the diagonal of the mass, hence
+          // (1 + 3/2) / (1 - 1/2)
+          verdict(at + " mass: condition 5, 1e-12",
+                  std::abs(mass - 5.),
+                  1e-12);
+        }
+      // algebraic growth; the factors are those of p = 2..8 and half as much
       verdict(at + " mass: condition <= 40 p^4", mass, 40. * std::pow(p, 4));
       verdict(at + " stiffness: condition <= 12 p^3",
               stiffness,

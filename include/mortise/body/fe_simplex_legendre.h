@@ -84,6 +84,15 @@ namespace mortise
     mutable dealii::FullMatrix<double> nodes_to_modes; ///< made on first use
   };
 
+  /// Local degrees of freedom of face @p face of @p element in the order of
+  /// SimplexLegendrePolynomials::evaluate_trace().
+  std::vector<unsigned int>
+  trace_dof_indices(const FE_SimplexLegendre &element, unsigned int face);
+
+  /// Local vertices of face @p face in ascending order.
+  std::array<unsigned int, 3>
+  ascending_face_vertices(const VertexOrder &order, unsigned int face);
+
   /// FESystem of @p n_components copies of @p element. To be made only here:
   /// FESystem of deal.II 9.4.1 copies 8 columns of the tables of face
   /// orientations, of which triangles have 6, and writes past the end of the
