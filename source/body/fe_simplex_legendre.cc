@@ -1,8 +1,8 @@
-#include <mortise/body/fe_simplex_legendre.h>
-
 #include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/fe/fe_system.h>
+
+#include <mortise/body/fe_simplex_legendre.h>
 
 #include <algorithm>
 #include <type_traits>
@@ -297,7 +297,7 @@ namespace mortise
             std::vector<unsigned int> rest(index);
             rest.erase(rest.begin() + i);
             const double weight = lobatto[degree][degree - index[i]];
-            const auto   face = recursive_node(lobatto, degree - index[i], rest);
+            const auto face = recursive_node(lobatto, degree - index[i], rest);
             for (unsigned int j = 0; j < face.size(); ++j)
               node[j < i ? j : j + 1] += weight * face[j];
             sum += weight;

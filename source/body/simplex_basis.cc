@@ -67,8 +67,8 @@ namespace mortise
     {
       evaluate_jacobi(degree - 2, 1., 1., b - a, a + b, values);
       for (unsigned int k = 2; k <= degree; ++k)
-        values[k - 2] = (-std::sqrt(2. * k - 1.) / (k - 1.)) *
-                        ((a * b) * values[k - 2]);
+        values[k - 2] =
+          (-std::sqrt(2. * k - 1.) / (k - 1.)) * ((a * b) * values[k - 2]);
     }
 
     /// Integral of (P_n^(alpha,beta))^2 ((1-s)/2)^alpha ((1+s)/2)^beta over
@@ -148,7 +148,7 @@ namespace mortise
         for (unsigned int j = 0; i + j + 1 <= p; ++j)
           {
             const unsigned int mode = face_mode(i, j);
-            values[mode] = face_scale[mode] * (bubble * across[j]);
+            values[mode]            = face_scale[mode] * (bubble * across[j]);
           }
       }
   }
@@ -190,9 +190,8 @@ namespace mortise
 
   template <typename Number>
   void
-  SimplexLegendrePolynomials::evaluate_all(
-    const std::array<Number, 4> &lambda,
-    std::vector<Number>         &values) const
+  SimplexLegendrePolynomials::evaluate_all(const std::array<Number, 4> &lambda,
+                                           std::vector<Number> &values) const
   {
     const unsigned int p     = this->degree();
     const VertexOrder  ranks = vertex_ranks(order);

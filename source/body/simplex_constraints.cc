@@ -1,8 +1,8 @@
+#include <deal.II/dofs/dof_tools.h>
+
 #include <mortise/body/hp_constraints.h>
 #include <mortise/body/simplex_constraints.h>
 #include <mortise/body/simplex_elements.h>
-
-#include <deal.II/dofs/dof_tools.h>
 
 #include <limits>
 #include <utility>
@@ -111,7 +111,9 @@ namespace mortise
           fill(fe.get_first_line_index() + l * n_components * n,
                n,
                n_line_modes(dof_handler.get_fe(element).degree),
-               [&](const unsigned int i) { return line->dof_index(i, element); });
+               [&](const unsigned int i) {
+                 return line->dof_index(i, element);
+               });
         }
       for (const unsigned int f : cell->face_indices())
         {
@@ -120,7 +122,9 @@ namespace mortise
           fill(fe.get_first_quad_index(f),
                n_face_modes(fe.degree),
                n_face_modes(dof_handler.get_fe(element).degree),
-               [&](const unsigned int i) { return face->dof_index(i, element); });
+               [&](const unsigned int i) {
+                 return face->dof_index(i, element);
+               });
         }
     }
 

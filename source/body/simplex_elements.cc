@@ -7,8 +7,8 @@ namespace mortise
   using namespace dealii;
 
   SimplexElements::SimplexElements(const std::vector<unsigned int> &degrees,
-                                   const unsigned int               n_components,
-                                   const std::vector<VertexOrder>  &orders)
+                                   const unsigned int              n_components,
+                                   const std::vector<VertexOrder> &orders)
     : degrees(degrees)
     , orders(orders)
   {

@@ -1,9 +1,9 @@
-#include <mortise/body/fe_simplex_legendre.h>
-#include <mortise/body/simplex_mapping.h>
-
 #include <deal.II/fe/fe_poly.h>
 
 #include <deal.II/grid/manifold.h>
+
+#include <mortise/body/fe_simplex_legendre.h>
+#include <mortise/body/simplex_mapping.h>
 
 #include <algorithm>
 
@@ -55,7 +55,7 @@ namespace mortise
       double
       compute_value(const unsigned int i, const Point<3> &x) const override
       {
-        double sum = 0.;
+        double                    sum = 0.;
         std::vector<double>       values(this->n());
         std::vector<Tensor<1, 3>> no_1;
         std::vector<Tensor<2, 3>> no_2;
@@ -91,19 +91,22 @@ namespace mortise
 
       // What a mapping never asks for one by one.
       Tensor<2, 3>
-      compute_2nd_derivative(const unsigned int, const Point<3> &) const override
+      compute_2nd_derivative(const unsigned int,
+                             const Point<3> &) const override
       {
         AssertThrow(false, ExcNotImplemented());
         return {};
       }
       Tensor<3, 3>
-      compute_3rd_derivative(const unsigned int, const Point<3> &) const override
+      compute_3rd_derivative(const unsigned int,
+                             const Point<3> &) const override
       {
         AssertThrow(false, ExcNotImplemented());
         return {};
       }
       Tensor<4, 3>
-      compute_4th_derivative(const unsigned int, const Point<3> &) const override
+      compute_4th_derivative(const unsigned int,
+                             const Point<3> &) const override
       {
         AssertThrow(false, ExcNotImplemented());
         return {};
@@ -230,14 +233,13 @@ namespace mortise
                 vertices.push_back(cell->vertex(v));
                 weights.push_back(lambda[v]);
               }
-          points.push_back(
-            parts.size() == 1 ?
-              vertices[0] :
-              manifold_of(cell, parts)
-                .get_new_point(make_array_view(vertices.cbegin(),
-                                               vertices.cend()),
-                               make_array_view(weights.cbegin(),
-                                               weights.cend())));
+          points.push_back(parts.size() == 1 ?
+                             vertices[0] :
+                             manifold_of(cell, parts)
+                               .get_new_point(make_array_view(vertices.cbegin(),
+                                                              vertices.cend()),
+                                              make_array_view(weights.cbegin(),
+                                                              weights.cend())));
         }
       return points;
     }
@@ -248,7 +250,7 @@ namespace mortise
     : MappingFE<3>(FE_Positions(degree))
   {
     const auto nodes = simplex_interpolation_points(degree);
-    auto all = std::make_shared<Points>(triangulation.n_active_cells());
+    auto       all   = std::make_shared<Points>(triangulation.n_active_cells());
     for (const auto &cell : triangulation.active_cell_iterators())
       if (!cell->is_artificial())
         (*all)[cell->active_cell_index()] = cell_points(cell, nodes);

@@ -1,6 +1,6 @@
-#include <mortise/body/simplex_quadrature.h>
-
 #include <deal.II/base/quadrature_lib.h>
+
+#include <mortise/body/simplex_quadrature.h>
 
 #include <algorithm>
 #include <vector>

@@ -4,18 +4,18 @@
 // faces are the ones that the functions belong to, and that FEValues and
 // FEFaceValues give them on cells whose vertices come in any order.
 
-#include "simplex_meshes.h"
+#include <deal.II/fe/fe_simplex_p.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_fe.h>
 
 #include <mortise/body/legendre_basis.h>
 #include <mortise/body/simplex_elements.h>
 #include <mortise/body/simplex_quadrature.h>
 
-#include <deal.II/fe/fe_simplex_p.h>
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_fe.h>
-
 #include <iostream>
 #include <set>
+
+#include "simplex_meshes.h"
 
 using namespace dealii;
 using namespace mortise;
@@ -83,23 +83,23 @@ check_derivatives(const unsigned int p, const VertexOrder &order)
           for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
             {
               // relative to the size of the derivatives
-              first = std::max(first,
+              first  = std::max(first,
                                std::abs(difference(&ModesAtPoint::values, i) -
                                         here.gradients[i][d]) /
                                  (1. + here.gradients[i].norm()));
-              second =
-                std::max(second,
-                         (difference(&ModesAtPoint::gradients, i) -
-                          here.hessians[i][d])
-                             .norm() /
-                           (1. + here.hessians[i].norm()));
+              second = std::max(second,
+                                (difference(&ModesAtPoint::gradients, i) -
+                                 here.hessians[i][d])
+                                    .norm() /
+                                  (1. + here.hessians[i].norm()));
             }
         }
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
-        value = std::max({value,
-                          std::abs(fe.shape_value(i, x) - here.values[i]),
-                          (fe.shape_grad(i, x) - here.gradients[i]).norm(),
-                          (fe.shape_grad_grad(i, x) - here.hessians[i]).norm()});
+        value =
+          std::max({value,
+                    std::abs(fe.shape_value(i, x) - here.values[i]),
+                    (fe.shape_grad(i, x) - here.gradients[i]).norm(),
+                    (fe.shape_grad_grad(i, x) - here.hessians[i]).norm()});
     }
   verdict(at(p) + "gradients against differences", first, 1e-6);
   verdict(at(p) + "second derivatives against differences", second, 1e-5);
@@ -124,9 +124,10 @@ check_traces(const unsigned int p, const VertexOrder &order)
         unsigned int a = tetrahedron_lines[l][0], b = tetrahedron_lines[l][1];
         if (ranks[a] > ranks[b])
           std::swap(a, b);
-        const ModesAtPoint functions(
-          fe, unit_vertex(a) + t * (unit_vertex(b) - unit_vertex(a)));
-        double lobatto[max_lobatto_degree + 1];
+        const ModesAtPoint functions(fe,
+                                     unit_vertex(a) +
+                                       t * (unit_vertex(b) - unit_vertex(a)));
+        double             lobatto[max_lobatto_degree + 1];
         evaluate_lobatto(p, t, lobatto);
         for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
           {
@@ -141,7 +142,8 @@ check_traces(const unsigned int p, const VertexOrder &order)
     {
       Point<3> x;
       for (unsigned int v = 0; v < 3; ++v)
-        x += (0.21 + v * (0.13 - 0.01 * (v - 1))) * unit_vertex(tetrahedron_faces[f][v]);
+        x += (0.21 + v * (0.13 - 0.01 * (v - 1))) *
+             unit_vertex(tetrahedron_faces[f][v]);
       const ModesAtPoint functions(fe, x);
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
         if (!fe.has_support_on_face(i, f))
@@ -165,12 +167,12 @@ check_faces(const unsigned int p, const VertexOrder &order)
   double                           values_error = 0., derivatives_error = 0.;
   for (unsigned int f = 0; f < 4; ++f)
     {
-      const auto     vertices = ascending_face_vertices(order, f);
-      const Point<3> origin   = unit_vertex(vertices[0]);
-      const Tensor<1, 3> along[2] = {unit_vertex(vertices[1]) - origin,
-                                     unit_vertex(vertices[2]) - origin};
-      const ModesAtPoint cell(fe, origin + (t * along[0] + s * along[1]));
-      std::vector<double>       values;
+      const auto          vertices = ascending_face_vertices(order, f);
+      const Point<3>      origin   = unit_vertex(vertices[0]);
+      const Tensor<1, 3>  along[2] = {unit_vertex(vertices[1]) - origin,
+                                      unit_vertex(vertices[2]) - origin};
+      const ModesAtPoint  cell(fe, origin + (t * along[0] + s * along[1]));
+      std::vector<double> values;
       std::vector<Tensor<1, 2>> derivatives;
       polynomials.evaluate_trace({{1. - t - s, t, s}}, values, derivatives);
       const auto dofs = trace_dof_indices(fe, f);
@@ -198,14 +200,15 @@ check_hierarchy(const unsigned int p, const VertexOrder &order)
 {
   const FE_SimplexLegendre fe(p, order), next(p + 1, order);
   const Point<3>           x(0.23, 0.31, 0.17);
-  const ModesAtPoint          low(fe, x), high(next, x);
-  double                   worst = 0.;
-  const auto               compare =
-    [&](const unsigned int i, const unsigned int j, const unsigned int n) {
-      for (unsigned int mode = 0; mode < n; ++mode)
-        worst = std::max(worst,
-                         std::abs(low.values[i + mode] - high.values[j + mode]));
-    };
+  const ModesAtPoint       low(fe, x), high(next, x);
+  double                   worst   = 0.;
+  const auto               compare = [&](const unsigned int i,
+                           const unsigned int j,
+                           const unsigned int n) {
+    for (unsigned int mode = 0; mode < n; ++mode)
+      worst =
+        std::max(worst, std::abs(low.values[i + mode] - high.values[j + mode]));
+  };
   compare(0, 0, 4);
   for (unsigned int l = 0; l < 6; ++l)
     compare(4 + l * n_line_modes(p), 4 + l * n_line_modes(p + 1), p - 1);
@@ -253,11 +256,11 @@ check_entities(const Triangulation<3> &triangulation)
 /// What @p values gives for scalar or vector-valued shape functions against
 /// the functions at the points of the reference cell.
 double
-compare_values(const FEValuesBase<3>                                &values,
+compare_values(const FEValuesBase<3>                                 &values,
                const typename Triangulation<3>::active_cell_iterator &cell)
 {
-  const auto &fe    = SimplexElements::base(values.get_fe());
-  double      worst = 0.;
+  const auto  &fe    = SimplexElements::base(values.get_fe());
+  double       worst = 0.;
   Tensor<2, 3> jacobian;
   for (unsigned int d = 0; d < 3; ++d)
     for (unsigned int e = 0; e < 3; ++e)
@@ -271,13 +274,13 @@ compare_values(const FEValuesBase<3>                                &values,
         {
           const unsigned int base =
             values.get_fe().system_to_component_index(i).second;
-          worst = std::max({worst,
-                            std::abs(values.shape_value(i, q) -
-                                     functions.values[base]),
-                            (values.shape_grad(i, q) -
-                             transpose(inverse) * functions.gradients[base])
-                                .norm() /
-                              (1. + functions.gradients[base].norm())});
+          worst = std::max(
+            {worst,
+             std::abs(values.shape_value(i, q) - functions.values[base]),
+             (values.shape_grad(i, q) -
+              transpose(inverse) * functions.gradients[base])
+                 .norm() /
+               (1. + functions.gradients[base].norm())});
         }
     }
   return worst;

@@ -4,9 +4,6 @@
 // or better where deal.II has them. With the argument "table" it prints the
 // conditions.
 
-#include <mortise/body/fe_simplex_legendre.h>
-#include <mortise/body/simplex_quadrature.h>
-
 #include <deal.II/dofs/dof_handler.h>
 
 #include <deal.II/fe/fe_simplex_p.h>
@@ -16,6 +13,9 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
+
+#include <mortise/body/fe_simplex_legendre.h>
+#include <mortise/body/simplex_quadrature.h>
 
 #include <cstdio>
 #include <iostream>
@@ -61,10 +61,10 @@ cell_matrices(const FiniteElement<3> &fe)
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         {
-          matrices.mass(i, j) += values.shape_value(i, q) *
-                                 values.shape_value(j, q) * values.JxW(q);
-          matrices.stiffness(i, j) += values.shape_grad(i, q) *
-                                      values.shape_grad(j, q) * values.JxW(q);
+          matrices.mass(i, j) +=
+            values.shape_value(i, q) * values.shape_value(j, q) * values.JxW(q);
+          matrices.stiffness(i, j) +=
+            values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
         }
   return matrices;
 }
@@ -74,8 +74,8 @@ cell_matrices(const FiniteElement<3> &fe)
 double
 face_deviation(const mortise::FE_SimplexLegendre &fe)
 {
-  const auto   rule = mortise::simplex_quadrature<2>(2 * fe.degree);
-  const double n    = fe.n_dofs_per_quad();
+  const auto   rule  = mortise::simplex_quadrature<2>(2 * fe.degree);
+  const double n     = fe.n_dofs_per_quad();
   double       worst = 0.;
   for (unsigned int f = 0; f < 4; ++f)
     for (unsigned int i = 0; i < n; ++i)
@@ -126,8 +126,7 @@ nodal_matrix(const mortise::FE_SimplexLegendre &fe,
 }
 
 double
-interior_deviation(const FiniteElement<3>   &fe,
-                   const FullMatrix<double> &mass)
+interior_deviation(const FiniteElement<3> &fe, const FullMatrix<double> &mass)
 {
   double worst = 0.;
   for (unsigned int i = fe.get_first_hex_index(); i < mass.m(); ++i)
@@ -187,9 +186,7 @@ main(int argc, char **argv)
         {
           // scaled to one: 1/2 beside the diagonal of the mass, hence
           // (1 + 3/2) / (1 - 1/2)
-          verdict(at + " mass: condition 5, 1e-12",
-                  std::abs(mass - 5.),
-                  1e-12);
+          verdict(at + " mass: condition 5, 1e-12", std::abs(mass - 5.), 1e-12);
         }
       // algebraic growth; the factors are those of p = 2..8 and half as much
       verdict(at + " mass: condition <= 40 p^4", mass, 40. * std::pow(p, 4));

@@ -4,11 +4,6 @@
 // with the minimum-rule constraints, and polynomials of the lowest degree are
 // in the space.
 
-#include "simplex_meshes.h"
-
-#include <mortise/body/simplex_constraints.h>
-#include <mortise/body/simplex_elements.h>
-
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/function.h>
 
@@ -23,7 +18,12 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
+#include <mortise/body/simplex_constraints.h>
+#include <mortise/body/simplex_elements.h>
+
 #include <iostream>
+
+#include "simplex_meshes.h"
 
 using namespace dealii;
 using namespace simplex_test;
@@ -92,8 +92,7 @@ largest_jump(const DoFHandler<3> &dof_handler, const DistributedVector &u)
           const CellIterator          neighbor = cell->neighbor(f);
           std::array<unsigned int, 3> vertices;
           for (unsigned int v = 0; v < 3; ++v)
-            vertices[v] =
-              cell->vertex_index(mortise::tetrahedron_faces[f][v]);
+            vertices[v] = cell->vertex_index(mortise::tetrahedron_faces[f][v]);
           std::vector<Point<3>> here, there;
           for (unsigned int i = 0; i <= 4; ++i)
             for (unsigned int j = 0; i + j <= 4; ++j)
@@ -158,9 +157,8 @@ largest_error(const DoFHandler<3>     &dof_handler,
               const DistributedVector &u,
               const Function<3>       &f)
 {
-  const std::vector<Point<3>> points =
-    mortise::simplex_interpolation_points(5);
-  double error = 0.;
+  const std::vector<Point<3>> points = mortise::simplex_interpolation_points(5);
+  double                      error  = 0.;
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       {
@@ -188,15 +186,17 @@ check(const Triangulation<3> &triangulation,
   std::vector<unsigned int> degrees;
   for (unsigned int p = first; p <= last; ++p)
     degrees.push_back(p);
-  const mortise::SimplexElements elements(
-    degrees,
-    n_components,
-    ordered ? mortise::standard_vertex_orders() : mortise::all_vertex_orders());
-  DoFHandler<3> dof_handler(triangulation);
+  const mortise::SimplexElements elements(degrees,
+                                          n_components,
+                                          ordered ?
+                                            mortise::standard_vertex_orders() :
+                                            mortise::all_vertex_orders());
+  DoFHandler<3>                  dof_handler(triangulation);
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())
       cell->set_active_fe_index(
-        elements.index(cell, degrees[cell_number(cell, seed) % degrees.size()]));
+        elements.index(cell,
+                       degrees[cell_number(cell, seed) % degrees.size()]));
   dof_handler.distribute_dofs(elements.collection);
 
   AffineConstraints<double> constraints;
@@ -232,9 +232,9 @@ check(const Triangulation<3> &triangulation,
   u.update_ghost_values();
   result.jump = largest_jump(dof_handler, u);
 
-  const TestPolynomial       f(n_components, first);
-  const MappingFE<3>         affine{FE_SimplexP<3>(1)};
-  hp::MappingCollection<3>   mapping(affine);
+  const TestPolynomial     f(n_components, first);
+  const MappingFE<3>       affine{FE_SimplexP<3>(1)};
+  hp::MappingCollection<3> mapping(affine);
   DistributedVector v(dof_handler.locally_owned_dofs(), relevant, comm), w(v);
   VectorTools::interpolate(mapping, dof_handler, f, v);
   v.update_ghost_values();
@@ -274,7 +274,7 @@ main(int argc, char **argv)
           {
             const unsigned int seed        = random();
             const bool         distributed = random() % 2 == 0 || !serial;
-            const unsigned int last = mixed ? std::min(p + 3, 8u) : p;
+            const unsigned int last        = mixed ? std::min(p + 3, 8u) : p;
             if (mixed && last == p)
               continue;
             std::unique_ptr<Triangulation<3>> triangulation;
@@ -295,7 +295,9 @@ main(int argc, char **argv)
               std::to_string(n) + " components, " +
               std::to_string(triangulation->n_global_active_cells()) +
               " cells, " + std::to_string(result.n_free) + " free";
-            verdict(result.jump <= 1e-12, what + ": jump <= 1e-12", result.jump);
+            verdict(result.jump <= 1e-12,
+                    what + ": jump <= 1e-12",
+                    result.jump);
             verdict(result.consistent, what + ": the same on every rank", 0.);
             verdict(result.interpolation <= 1e-12,
                     what + ": polynomials are interpolated, 1e-12",

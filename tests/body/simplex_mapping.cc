@@ -1,18 +1,18 @@
 // Proves that SimplexMapping curves tetrahedra at the rate of its degree, with
 // no gap between cells however vertices are numbered.
 
-#include "simplex_meshes.h"
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/fe/fe_values.h>
 
 #include <mortise/body/fe_simplex_legendre.h>
 #include <mortise/body/simplex_mapping.h>
 #include <mortise/body/simplex_quadrature.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <deal.II/fe/fe_values.h>
-
 #include <cmath>
 #include <iostream>
+
+#include "simplex_meshes.h"
 
 using namespace dealii;
 using namespace simplex_test;
@@ -23,11 +23,11 @@ volume(const Mapping<3>       &mapping,
        const unsigned int      degree)
 {
   const mortise::FE_SimplexLegendre fe(1);
-  FEValues<3> values(mapping,
+  FEValues<3>                       values(mapping,
                      fe,
                      mortise::simplex_quadrature<3>(3 * degree),
                      update_JxW_values);
-  double      sum = 0.;
+  double                            sum = 0.;
   for (const auto &cell : triangulation.active_cell_iterators())
     {
       values.reinit(cell);
@@ -45,16 +45,16 @@ largest_leak(const Mapping<3>       &mapping,
              const unsigned int      degree)
 {
   const mortise::FE_SimplexLegendre fe(1);
-  FEValues<3>     values(mapping,
+  FEValues<3>                       values(mapping,
                      fe,
                      mortise::simplex_quadrature<3>(3 * degree),
                      update_JxW_values);
-  FEFaceValues<3> face_values(mapping,
+  FEFaceValues<3>                   face_values(mapping,
                               fe,
                               mortise::simplex_quadrature<2>(3 * degree),
                               update_quadrature_points | update_JxW_values |
                                 update_normal_vectors);
-  double          leak = 0.;
+  double                            leak = 0.;
   for (const auto &cell : triangulation.active_cell_iterators())
     {
       double inside = 0., flux = 0.;
@@ -75,8 +75,7 @@ largest_leak(const Mapping<3>       &mapping,
 
 /// Largest distance of the same point of a face seen from both cells.
 double
-largest_gap(const Mapping<3>       &mapping,
-            const Triangulation<3> &triangulation)
+largest_gap(const Mapping<3> &mapping, const Triangulation<3> &triangulation)
 {
   double gap = 0.;
   for (const auto &cell : triangulation.active_cell_iterators())
@@ -84,9 +83,9 @@ largest_gap(const Mapping<3>       &mapping,
       {
         if (cell->at_boundary(f))
           continue;
-        const auto     neighbor = cell->neighbor(f);
-        const double   weights[3] = {0.2, 0.31, 0.49};
-        Point<3>       here, there;
+        const auto   neighbor   = cell->neighbor(f);
+        const double weights[3] = {0.2, 0.31, 0.49};
+        Point<3>     here, there;
         for (unsigned int v = 0; v < 3; ++v)
           {
             const unsigned int local = mortise::tetrahedron_faces[f][v];
@@ -98,9 +97,8 @@ largest_gap(const Mapping<3>       &mapping,
           }
         gap = std::max(gap,
                        mapping.transform_unit_to_real_cell(cell, here)
-                         .distance(
-                           mapping.transform_unit_to_real_cell(neighbor,
-                                                               there)));
+                         .distance(mapping.transform_unit_to_real_cell(neighbor,
+                                                                       there)));
       }
   return gap;
 }
@@ -118,8 +116,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const double     exact = 0.75 * numbers::PI;
-  Triangulation<3> coarse, fine;
+  const double                     exact = 0.75 * numbers::PI;
+  Triangulation<3>                 coarse, fine;
   create_quarter(2, false, coarse);
   create_quarter(4, false, fine);
   for (unsigned int degree = 1; degree <= 8; ++degree)

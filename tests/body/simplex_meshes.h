@@ -2,8 +2,6 @@
 // in cells are numbered at random. It never checks anything.
 #pragma once
 
-#include <mortise/body/vertex_order.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/distributed/fully_distributed_tria.h>
@@ -12,6 +10,8 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold.h>
 #include <deal.II/grid/tria_description.h>
+
+#include <mortise/body/vertex_order.h>
 
 #include <algorithm>
 #include <memory>
@@ -154,12 +154,12 @@ namespace simplex_test
   unsigned int
   cell_number(const CellIterator &cell, const unsigned int seed)
   {
-    const Point<3>     center = cell->center();
-    std::seed_seq      seeds{seed,
+    const Point<3> center = cell->center();
+    std::seed_seq  seeds{seed,
                         unsigned(1000. * (center[0] + 7.)),
                         unsigned(1000. * (center[1] + 7.)),
                         unsigned(1000. * (center[2] + 7.))};
-    std::mt19937 random(seeds);
+    std::mt19937   random(seeds);
     random.discard(3);
     return random();
   }

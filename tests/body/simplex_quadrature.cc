@@ -57,14 +57,14 @@ check(const unsigned int max_degree)
       const auto         rule      = mortise::simplex_quadrature<dim>(degree);
       const auto         collapsed = mortise::collapsed_quadrature<dim>(degree);
       const double       errors[2] = {largest_error(rule, degree),
-                                largest_error(collapsed, degree)};
+                                      largest_error(collapsed, degree)};
       const unsigned int sizes[2]  = {rule.size(), collapsed.size()};
       for (const unsigned int which : {0, 1})
         {
-          const std::string what =
-            shape + ", degree " + std::to_string(degree) + ", " +
-            (which == 0 ? "best" : "collapsed") + ", " +
-            std::to_string(sizes[which]) + " points";
+          const std::string what = shape + ", degree " +
+                                   std::to_string(degree) + ", " +
+                                   (which == 0 ? "best" : "collapsed") + ", " +
+                                   std::to_string(sizes[which]) + " points";
           if (errors[which] <= 1e-12)
             std::cout << "OK  " << what << ": exact, 1e-12" << std::endl;
           else

@@ -3,13 +3,6 @@
 // in H1 and h^(p+1) in L2, on straight cells and on cells curved by
 // SimplexMapping of the same degree.
 
-#include "simplex_meshes.h"
-
-#include <mortise/body/simplex_constraints.h>
-#include <mortise/body/simplex_elements.h>
-#include <mortise/body/simplex_mapping.h>
-#include <mortise/body/simplex_quadrature.h>
-
 #include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/hp/fe_values.h>
@@ -19,7 +12,14 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/sparse_matrix.h>
 
+#include <mortise/body/simplex_constraints.h>
+#include <mortise/body/simplex_elements.h>
+#include <mortise/body/simplex_mapping.h>
+#include <mortise/body/simplex_quadrature.h>
+
 #include <iostream>
+
+#include "simplex_meshes.h"
 
 using namespace dealii;
 
@@ -43,9 +43,7 @@ struct Errors
 };
 
 Errors
-projection_errors(const unsigned int p,
-                  const unsigned int n,
-                  const bool         curved)
+projection_errors(const unsigned int p, const unsigned int n, const bool curved)
 {
   Triangulation<3> triangulation;
   if (curved)
@@ -79,13 +77,14 @@ projection_errors(const unsigned int p,
 
   const hp::MappingCollection<3> mapping(
     mortise::SimplexMapping(curved ? p : 1, triangulation));
-  const hp::QCollection<3> rule(mortise::simplex_quadrature<3>(2 * p + (curved ? p : 2)));
-  hp::FEValues<3>          fe_values(mapping,
+  const hp::QCollection<3> rule(
+    mortise::simplex_quadrature<3>(2 * p + (curved ? p : 2)));
+  hp::FEValues<3>    fe_values(mapping,
                             elements.collection,
                             rule,
                             update_values | update_gradients |
                               update_quadrature_points | update_JxW_values);
-  const unsigned int       size = elements.collection[0].n_dofs_per_cell();
+  const unsigned int size = elements.collection[0].n_dofs_per_cell();
   std::vector<types::global_dof_index> dofs(size);
   for (const auto &cell : dof_handler.active_cell_iterators())
     {
@@ -131,7 +130,8 @@ projection_errors(const unsigned int p,
         {
           const Point<3> x = values.quadrature_point(q);
           errors.l2 += std::pow(at_points[q] - value(x), 2) * values.JxW(q);
-          errors.h1 += (gradients[q] - gradient(x)).norm_square() * values.JxW(q);
+          errors.h1 +=
+            (gradients[q] - gradient(x)).norm_square() * values.JxW(q);
         }
     }
   return {std::sqrt(errors.l2), std::sqrt(errors.h1)};
@@ -147,10 +147,10 @@ main(int argc, char **argv)
         // subdivisions of the coarser mesh; high degrees reach rounding soon
         const unsigned int n =
           curved ? (p == 1 ? 8 : 4) : (p <= 2 ? 4 : (p <= 5 ? 2 : 1));
-        const Errors       coarse = projection_errors(p, n, curved),
-                     fine         = projection_errors(p, 2 * n, curved);
-        const double l2 = std::log2(coarse.l2 / fine.l2),
-                     h1 = std::log2(coarse.h1 / fine.h1);
+        const Errors coarse = projection_errors(p, n, curved),
+                     fine   = projection_errors(p, 2 * n, curved);
+        const double l2     = std::log2(coarse.l2 / fine.l2),
+                     h1     = std::log2(coarse.h1 / fine.h1);
         const std::string at =
           "p=" + std::to_string(p) + (curved ? ", curved" : "");
         if (argc > 1)

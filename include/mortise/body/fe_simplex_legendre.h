@@ -4,9 +4,9 @@
 // simplex_constraints.h) and knows no refinement.
 #pragma once
 
-#include <mortise/body/simplex_basis.h>
-
 #include <deal.II/fe/fe_poly.h>
+
+#include <mortise/body/simplex_basis.h>
 
 #include <memory>
 #include <mutex>
@@ -80,7 +80,7 @@ namespace mortise
     const VertexOrder order;
 
   private:
-    mutable std::mutex                          mutex; ///< guards the next
+    mutable std::mutex                 mutex;          ///< guards the next
     mutable dealii::FullMatrix<double> nodes_to_modes; ///< made on first use
   };
 

@@ -14,7 +14,7 @@ namespace mortise
       : value(value)
     {}
 
-    double       value;
+    double               value;
     dealii::Tensor<1, 3> gradient;
     dealii::Tensor<2, 3> hessian;
   };
@@ -49,8 +49,7 @@ namespace mortise
     Jet product(a.value * b.value);
     for (unsigned int d = 0; d < 3; ++d)
       {
-        product.gradient[d] =
-          a.value * b.gradient[d] + a.gradient[d] * b.value;
+        product.gradient[d] = a.value * b.gradient[d] + a.gradient[d] * b.value;
         for (unsigned int e = 0; e < 3; ++e)
           product.hessian[d][e] =
             a.value * b.hessian[d][e] + a.hessian[d][e] * b.value +

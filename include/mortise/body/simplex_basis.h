@@ -3,9 +3,9 @@
 // It never knows a mesh or a numbering of degrees of freedom.
 #pragma once
 
-#include <mortise/body/vertex_order.h>
-
 #include <deal.II/base/scalar_polynomials_base.h>
+
+#include <mortise/body/vertex_order.h>
 
 #include <memory>
 #include <string>
@@ -58,20 +58,19 @@ namespace mortise
   public:
     /// 1 <= @p degree <= max_simplex_degree; @p order holds the local
     /// vertices in ascending order.
-    SimplexLegendrePolynomials(unsigned int       degree,
-                               const VertexOrder &order);
+    SimplexLegendrePolynomials(unsigned int degree, const VertexOrder &order);
 
     /// Values and first and second derivatives of all functions; those whose
     /// vectors are empty are not computed. Third and fourth derivatives: an
     /// exception.
     void
     evaluate(
-      const dealii::Point<3>               &point,
-      std::vector<double>                  &values,
-      std::vector<dealii::Tensor<1, 3>>    &gradients,
-      std::vector<dealii::Tensor<2, 3>>    &hessians,
-      std::vector<dealii::Tensor<3, 3>>    &third_derivatives,
-      std::vector<dealii::Tensor<4, 3>>    &fourth_derivatives) const override;
+      const dealii::Point<3>            &point,
+      std::vector<double>               &values,
+      std::vector<dealii::Tensor<1, 3>> &gradients,
+      std::vector<dealii::Tensor<2, 3>> &hessians,
+      std::vector<dealii::Tensor<3, 3>> &third_derivatives,
+      std::vector<dealii::Tensor<4, 3>> &fourth_derivatives) const override;
 
     /// Functions on a face: those of its vertices in ascending order, of the
     /// lines between the first and second, first and third, second and third,
@@ -84,8 +83,7 @@ namespace mortise
                    std::vector<dealii::Tensor<1, 2>> &derivatives) const;
 
     double
-    compute_value(unsigned int            i,
-                  const dealii::Point<3> &point) const override;
+    compute_value(unsigned int i, const dealii::Point<3> &point) const override;
     dealii::Tensor<1, 3>
     compute_1st_derivative(unsigned int            i,
                            const dealii::Point<3> &point) const override;
@@ -99,8 +97,7 @@ namespace mortise
     compute_4th_derivative(unsigned int            i,
                            const dealii::Point<3> &point) const override;
     dealii::Tensor<1, 3>
-    compute_grad(unsigned int            i,
-                 const dealii::Point<3> &point) const override;
+    compute_grad(unsigned int i, const dealii::Point<3> &point) const override;
     dealii::Tensor<2, 3>
     compute_grad_grad(unsigned int            i,
                       const dealii::Point<3> &point) const override;

@@ -3,11 +3,11 @@
 // freedom and never makes constraints.
 #pragma once
 
-#include <mortise/body/fe_simplex_legendre.h>
-
 #include <deal.II/dofs/dof_handler.h>
 
 #include <deal.II/hp/fe_collection.h>
+
+#include <mortise/body/fe_simplex_legendre.h>
 
 #include <vector>
 
@@ -22,7 +22,7 @@ namespace mortise
     SimplexElements(
       const std::vector<unsigned int> &degrees,
       unsigned int                     n_components = 1,
-      const std::vector<VertexOrder>  &orders = standard_vertex_orders());
+      const std::vector<VertexOrder>  &orders       = standard_vertex_orders());
 
     /// Place in collection of the element of degree @p degree for @p cell.
     /// An exception if the cell has another order or the degree is missing.

@@ -25,8 +25,10 @@ namespace mortise
   /// Local vertices of the lines and faces of deal.II's tetrahedron.
   constexpr unsigned int tetrahedron_lines[6][2] =
     {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}};
-  constexpr unsigned int tetrahedron_faces[4][3] =
-    {{0, 1, 2}, {1, 0, 3}, {0, 2, 3}, {2, 1, 3}};
+  constexpr unsigned int tetrahedron_faces[4][3] = {{0, 1, 2},
+                                                    {1, 0, 3},
+                                                    {0, 2, 3},
+                                                    {2, 1, 3}};
 
   /// Order of four different points.
   VertexOrder
@@ -53,6 +55,6 @@ namespace mortise
   /// ascending order, with the last two swapped where the volume would be
   /// negative: then two of the 24 orders are left, whatever the mesh.
   void
-  order_vertices(const std::vector<dealii::Point<3>>   &vertices,
-                 std::vector<dealii::CellData<3>>      &cells);
+  order_vertices(const std::vector<dealii::Point<3>> &vertices,
+                 std::vector<dealii::CellData<3>>    &cells);
 } // namespace mortise
