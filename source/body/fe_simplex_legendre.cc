@@ -14,7 +14,7 @@ namespace mortise
   namespace
   {
     FiniteElementData<3>
-    element_data(const unsigned int degree)
+    simplex_element_data(const unsigned int degree)
     {
       AssertThrow(degree >= 1 && degree <= max_simplex_degree,
                   ExcMessage("FE_SimplexLegendre: the degree is " +
@@ -54,10 +54,11 @@ namespace mortise
                                          const VertexOrder &order)
     : FE_Poly<3>(
         SimplexLegendrePolynomials(degree, order),
-        element_data(degree),
-        std::vector<bool>(element_data(degree).n_dofs_per_cell(), true),
-        std::vector<ComponentMask>(element_data(degree).n_dofs_per_cell(),
-                                   std::vector<bool>(1, true)))
+        simplex_element_data(degree),
+        std::vector<bool>(simplex_element_data(degree).n_dofs_per_cell(), true),
+        std::vector<ComponentMask>(
+          simplex_element_data(degree).n_dofs_per_cell(),
+          std::vector<bool>(1, true)))
     , order(order)
   {
     this->generalized_support_points = simplex_interpolation_points(degree);
@@ -170,8 +171,8 @@ namespace mortise
 
   void
   FE_SimplexLegendre::convert_generalized_support_point_values_to_dof_values(
-    const std::vector<Vector<double>> &values,
-    std::vector<double>               &dof_values) const
+    const std::vector<dealii::Vector<double>> &values,
+    std::vector<double>                       &dof_values) const
   {
     const unsigned int n = this->n_dofs_per_cell();
     AssertDimension(values.size(), n);
