@@ -1,10 +1,10 @@
 // The program: command line, parameters, one run.
+#include <deal.II/base/mpi.h>
+
 #include <mortise/problem/command_line.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/parameter_schema.h>
 #include <mortise/problem/simulation.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <cstdlib>
 #include <iostream>
@@ -14,19 +14,21 @@ openblas_set_num_threads(int) __attribute__((weak));
 
 namespace
 {
-  /// Parallelism is between ranks: threads of BLAS would fight with them for the cores (the assembly of
-  /// a scene of degree 4 took four times as long). An OPENBLAS_NUM_THREADS of the user stays.
+  /// Parallelism is between ranks: threads of BLAS would fight with them for
+  /// the cores (the assembly of a scene of degree 4 took four times as long).
+  /// An OPENBLAS_NUM_THREADS of the user stays.
   void
   use_one_blas_thread()
   {
-    if (openblas_set_num_threads != nullptr && std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
+    if (openblas_set_num_threads != nullptr &&
+        std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
       openblas_set_num_threads(1);
   }
 
   void
   run_command(const mortise::CommandLine &command, const MPI_Comm comm)
   {
-    using Action     = mortise::CommandLine::Action;
+    using Action      = mortise::CommandLine::Action;
     const bool prints = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     switch (command.action)
       {
@@ -72,6 +74,8 @@ main(int argc, char *argv[])
   const std::vector<std::string>           arguments(argv + 1, argv + argc);
   return mortise::run_guarded(
     MPI_COMM_WORLD,
-    [&] { run_command(mortise::parse_command_line(arguments), MPI_COMM_WORLD); },
+    [&] {
+      run_command(mortise::parse_command_line(arguments), MPI_COMM_WORLD);
+    },
     std::cerr);
 }

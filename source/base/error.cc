@@ -1,6 +1,6 @@
-#include <mortise/base/error.h>
-
 #include <deal.II/base/mpi.h>
+
+#include <mortise/base/error.h>
 
 #include <algorithm>
 #include <cctype>
@@ -11,11 +11,13 @@ namespace mortise
   void
   throw_if_any(const std::string &message, const MPI_Comm comm)
   {
-    const int n_ranks  = dealii::Utilities::MPI::n_mpi_processes(comm);
-    const int me       = dealii::Utilities::MPI::this_mpi_process(comm);
-    const int reporter = dealii::Utilities::MPI::min(message.empty() ? n_ranks : me, comm);
+    const int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    const int me      = dealii::Utilities::MPI::this_mpi_process(comm);
+    const int reporter =
+      dealii::Utilities::MPI::min(message.empty() ? n_ranks : me, comm);
     if (reporter < n_ranks)
-      throw InputError(dealii::Utilities::MPI::broadcast(comm, message, reporter));
+      throw InputError(
+        dealii::Utilities::MPI::broadcast(comm, message, reporter));
   }
 
   namespace
@@ -32,8 +34,9 @@ namespace mortise
           row[0]               = i;
           for (std::size_t j = 1; j <= b.size(); ++j)
             {
-              const bool same = std::tolower(static_cast<unsigned char>(a[i - 1])) ==
-                                std::tolower(static_cast<unsigned char>(b[j - 1]));
+              const bool same =
+                std::tolower(static_cast<unsigned char>(a[i - 1])) ==
+                std::tolower(static_cast<unsigned char>(b[j - 1]));
               const std::size_t substituted = diagonal + (same ? 0 : 1);
               diagonal                      = row[j];
               row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});

@@ -1,9 +1,9 @@
-#include <mortise/base/error.h>
-#include <mortise/base/expression.h>
-
 #include <deal.II/base/utilities.h>
 
 #include <boost/container/small_vector.hpp>
+
+#include <mortise/base/error.h>
+#include <mortise/base/expression.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,8 @@ namespace mortise
       if (!(std::fabs(n) <= 16.) || n != std::floor(n))
         return std::pow(a, n);
       double result = 1., square = a;
-      for (unsigned int k = static_cast<unsigned int>(std::fabs(n)); k > 0; k /= 2)
+      for (unsigned int k = static_cast<unsigned int>(std::fabs(n)); k > 0;
+           k /= 2)
         {
           if (k % 2 == 1)
             result *= square;
@@ -99,7 +100,8 @@ namespace mortise
         for (unsigned int j = i; j < 3; ++j)
           r.hessian[i][j] = d.a * a.hessian[i][j] + d.b * b.hessian[i][j] +
                             d.aa * a.gradient[i] * a.gradient[j] +
-                            d.ab * (a.gradient[i] * b.gradient[j] + b.gradient[i] * a.gradient[j]) +
+                            d.ab * (a.gradient[i] * b.gradient[j] +
+                                    b.gradient[i] * a.gradient[j]) +
                             d.bb * b.gradient[i] * b.gradient[j];
       return r;
     }
@@ -123,17 +125,22 @@ namespace mortise
     combine_power(const Jet &a, const Jet &b, const double f)
     {
       const double n = b.value;
-      // An exponent that does not vary must not meet log(a), which a negative base does not have;
-      // coefficients 0 must not meet a negative power of 0.
-      const double first  = n == 0. ? 0. : n * power(a.value, n - 1.);
-      const double second = n == 0. || n == 1. ? 0. : n * (n - 1.) * power(a.value, n - 2.);
+      // An exponent that does not vary must not meet log(a), which a negative
+      // base does not have; coefficients 0 must not meet a negative power of 0.
+      const double first = n == 0. ? 0. : n * power(a.value, n - 1.);
+      const double second =
+        n == 0. || n == 1. ? 0. : n * (n - 1.) * power(a.value, n - 2.);
       if (b.gradient.norm_square() == 0. && b.hessian.norm() == 0.)
         return compose(a, f, {first, second});
       const double l = std::log(a.value);
       return combine(a,
                      b,
                      f,
-                     {first, f * l, second, power(a.value, n - 1.) * (1. + n * l), f * l * l});
+                     {first,
+                      f * l,
+                      second,
+                      power(a.value, n - 1.) * (1. + n * l),
+                      f * l * l});
     }
 
     Jet
@@ -159,7 +166,10 @@ namespace mortise
             {
               const double s = 1. / (a.value * a.value + b.value * b.value);
               const double u = a.value * s, v = b.value * s;
-              return combine(a, b, f, {v, -u, -2. * u * v, u * u - v * v, 2. * u * v});
+              return combine(a,
+                             b,
+                             f,
+                             {v, -u, -2. * u * v, u * u - v * v, 2. * u * v});
             }
           case Operation::min:
             return a.value <= b.value ? a : b;
@@ -175,7 +185,10 @@ namespace mortise
     }
 
     double
-    apply(const Operation operation, const double a, const double b, const double c)
+    apply(const Operation operation,
+          const double    a,
+          const double    b,
+          const double    c)
     {
       return Expression::apply(operation, a, b, c);
     }
@@ -205,9 +218,12 @@ namespace mortise
       Number                                    *result = results.data();
       for (const Node &node : nodes)
         {
-          const int direction = static_cast<int>(node.operation) - static_cast<int>(Operation::x);
+          const int direction =
+            static_cast<int>(node.operation) - static_cast<int>(Operation::x);
           if (direction < 3)
-            set(*result, direction < 0 ? node.constant : p[direction], direction);
+            set(*result,
+                direction < 0 ? node.constant : p[direction],
+                direction);
           else // operands that do not exist point to the first result
             *result = apply(node.operation,
                             results[node.operands[0]],
@@ -221,13 +237,11 @@ namespace mortise
 
   Expression::Expression()
     : nodes(1)
-  {
-  }
+  {}
 
   Expression::Expression(const std::string &text, const std::string &where)
     : nodes(parse(text, where))
-  {
-  }
+  {}
 
   unsigned int
   Expression::n_operands(const Operation operation)
@@ -239,7 +253,10 @@ namespace mortise
   }
 
   double
-  Expression::apply(const Operation operation, const double a, const double b, const double c)
+  Expression::apply(const Operation operation,
+                    const double    a,
+                    const double    b,
+                    const double    c)
   {
     // clang-format off
     switch (operation)
@@ -313,13 +330,16 @@ namespace mortise
     return nodes.size() == 1 && nodes[0].operation == Operation::constant;
   }
 
-  VectorExpression::VectorExpression(const std::string &text, const std::string &where)
+  VectorExpression::VectorExpression(const std::string &text,
+                                     const std::string &where)
   {
-    const std::vector<std::string> parts = Utilities::split_string_list(text, ';');
+    const std::vector<std::string> parts =
+      Utilities::split_string_list(text, ';');
     if (parts.size() != 3)
-      throw InputError((where.empty() ? "" : where + ": ") +
-                       "a vector needs 3 expressions separated by ';', as in \"0; 0; 2*x\"; got " +
-                       std::to_string(parts.size()) + " in \"" + text + "\"");
+      throw InputError(
+        (where.empty() ? "" : where + ": ") +
+        "a vector needs 3 expressions separated by ';', as in \"0; 0; 2*x\"; got " +
+        std::to_string(parts.size()) + " in \"" + text + "\"");
     for (unsigned int c = 0; c < 3; ++c)
       components[c] = Expression(parts[c], where);
   }
@@ -345,7 +365,9 @@ namespace mortise
   std::array<SymmetricTensor<2, 3>, 3>
   VectorExpression::hessian(const Point<3> &p) const
   {
-    return {{components[0].hessian(p), components[1].hessian(p), components[2].hessian(p)}};
+    return {{components[0].hessian(p),
+             components[1].hessian(p),
+             components[2].hessian(p)}};
   }
 
   bool

@@ -1,9 +1,10 @@
-// Recursive descent over the grammar in expression.h, folding constants on the way.
+// Recursive descent over the grammar in expression.h, folding constants on the
+// way.
+
+#include <deal.II/base/numbers.h>
 
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <cctype>
 #include <charconv>
@@ -22,7 +23,9 @@ namespace mortise
       Operation   operation;
     };
 
-    constexpr Name variables[] = {{"x", Operation::x}, {"y", Operation::y}, {"z", Operation::z}};
+    constexpr Name variables[] = {{"x", Operation::x},
+                                  {"y", Operation::y},
+                                  {"z", Operation::z}};
 
     constexpr Name functions[] = {{"sin", Operation::sin},
                                   {"cos", Operation::cos},
@@ -44,17 +47,18 @@ namespace mortise
                                   {"if", Operation::select}};
 
     /// Binary operators by level, weakest first; all group from left to right.
-    constexpr Name         operators[][6] = {{{"||", Operation::either}},
-                                             {{"&&", Operation::both}},
-                                             {{"<=", Operation::less_equal},
-                                              {">=", Operation::greater_equal},
-                                              {"==", Operation::equal},
-                                              {"!=", Operation::not_equal},
-                                              {"<", Operation::less},
-                                              {">", Operation::greater}},
-                                             {{"+", Operation::add}, {"-", Operation::subtract}},
-                                             {{"*", Operation::multiply}, {"/", Operation::divide}}};
-    constexpr unsigned int n_levels       = sizeof(operators) / sizeof(operators[0]);
+    constexpr Name operators[][6] = {
+      {{"||", Operation::either}},
+      {{"&&", Operation::both}},
+      {{"<=", Operation::less_equal},
+       {">=", Operation::greater_equal},
+       {"==", Operation::equal},
+       {"!=", Operation::not_equal},
+       {"<", Operation::less},
+       {">", Operation::greater}},
+      {{"+", Operation::add}, {"-", Operation::subtract}},
+      {{"*", Operation::multiply}, {"/", Operation::divide}}};
+    constexpr unsigned int n_levels = sizeof(operators) / sizeof(operators[0]);
 
     class Parser
     {
@@ -62,8 +66,7 @@ namespace mortise
       Parser(const std::string &text, const std::string &where)
         : text(text)
         , where(where)
-      {
-      }
+      {}
 
       std::vector<Node>
       parse()
@@ -82,15 +85,18 @@ namespace mortise
       {
         std::string got = "the end";
         if (at < text.size())
-          got = "'" + text.substr(at, 12) + (at + 12 < text.size() ? "...'" : "'");
-        throw InputError((where.empty() ? "" : where + ": ") + "in the expression \"" + text +
-                         "\", at character " + std::to_string(at + 1) + " (" + got + "): " + what);
+          got =
+            "'" + text.substr(at, 12) + (at + 12 < text.size() ? "...'" : "'");
+        throw InputError((where.empty() ? "" : where + ": ") +
+                         "in the expression \"" + text + "\", at character " +
+                         std::to_string(at + 1) + " (" + got + "): " + what);
       }
 
       void
       skip_space()
       {
-        while (position < text.size() && std::isspace(static_cast<unsigned char>(text[position])))
+        while (position < text.size() &&
+               std::isspace(static_cast<unsigned char>(text[position])))
           ++position;
       }
 
@@ -131,18 +137,22 @@ namespace mortise
         double             numbers[3] = {0., 0., 0.};
         for (unsigned int i = 0; i < n; ++i)
           {
-            foldable   = foldable && nodes[operands[i]].operation == Operation::constant;
+            foldable =
+              foldable && nodes[operands[i]].operation == Operation::constant;
             numbers[i] = nodes[operands[i]].constant;
           }
         if (foldable)
           {
-            const double value = Expression::apply(operation, numbers[0], numbers[1], numbers[2]);
+            const double value =
+              Expression::apply(operation, numbers[0], numbers[1], numbers[2]);
             if (!std::isfinite(value))
-              fail(at, "the value of this constant part is not a finite number");
+              fail(at,
+                   "the value of this constant part is not a finite number");
             return constant(value);
           }
         // A condition that is constant leaves its branch.
-        if (operation == Operation::select && nodes[operands[0]].operation == Operation::constant)
+        if (operation == Operation::select &&
+            nodes[operands[0]].operation == Operation::constant)
           return numbers[0] != 0. ? operands[1] : operands[2];
         nodes.emplace_back();
         nodes.back().operation = operation;
@@ -163,7 +173,7 @@ namespace mortise
             const unsigned int yes = conditional();
             expect(":");
             const unsigned int no = conditional();
-            node                  = make(Operation::select, {{node, yes, no}}, at);
+            node = make(Operation::select, {{node, yes, no}}, at);
           }
         --depth;
         return node;
@@ -184,7 +194,8 @@ namespace mortise
               if (!found && name.text != nullptr && accept(name.text))
                 {
                   found = true;
-                  node  = make(name.operation, {{node, binary(level + 1), 0}}, at);
+                  node =
+                    make(name.operation, {{node, binary(level + 1), 0}}, at);
                 }
           }
         return node;
@@ -209,7 +220,8 @@ namespace mortise
             node = primary();
             skip_space();
             const std::size_t hat = position;
-            if (accept("^")) // binds tighter than a sign before it, looser than one after it
+            if (accept("^")) // binds tighter than a sign before it, looser than
+                             // one after it
               node = make(Operation::power, {{node, unary(), 0}}, hat);
           }
         --depth;
@@ -237,9 +249,10 @@ namespace mortise
       unsigned int
       number()
       {
-        double      value       = 0.;
-        const char *begin       = text.data() + position;
-        const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+        double      value = 0.;
+        const char *begin = text.data() + position;
+        const auto [end, error] =
+          std::from_chars(begin, text.data() + text.size(), value);
         if (error != std::errc())
           fail(position, "this is not a number that can be represented");
         position += end - begin;
@@ -251,7 +264,8 @@ namespace mortise
       {
         const std::size_t at = position;
         while (position < text.size() &&
-               (std::isalnum(static_cast<unsigned char>(text[position])) || text[position] == '_'))
+               (std::isalnum(static_cast<unsigned char>(text[position])) ||
+                text[position] == '_'))
           ++position;
         const std::string word = text.substr(at, position - at);
         if (word == "pi")
@@ -268,7 +282,7 @@ namespace mortise
       std::array<unsigned int, 3>
       arguments(const Name &function)
       {
-        const unsigned int          n = Expression::n_operands(function.operation);
+        const unsigned int n = Expression::n_operands(function.operation);
         std::array<unsigned int, 3> operands{};
         expect("(");
         for (unsigned int i = 0; i < n; ++i)
@@ -281,8 +295,9 @@ namespace mortise
           }
         if (!accept(")"))
           fail(position,
-               "')' is expected here; " + std::string(function.text) + " takes " +
-                 std::to_string(n) + (n == 1 ? " argument" : " arguments"));
+               "')' is expected here; " + std::string(function.text) +
+                 " takes " + std::to_string(n) +
+                 (n == 1 ? " argument" : " arguments"));
         return operands;
       }
 
@@ -307,7 +322,8 @@ namespace mortise
       compact(const unsigned int node)
       {
         Node copy = nodes[node];
-        for (unsigned int i = 0; i < Expression::n_operands(copy.operation); ++i)
+        for (unsigned int i = 0; i < Expression::n_operands(copy.operation);
+             ++i)
           copy.operands[i] = compact(copy.operands[i]);
         result.push_back(copy);
         return result.size() - 1;

@@ -1,6 +1,6 @@
-#include <mortise/base/run_log.h>
-
 #include <deal.II/base/mpi.h>
+
+#include <mortise/base/run_log.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -20,7 +20,8 @@ namespace mortise
 
   RunLog::Stage::~Stage()
   {
-    // A stage that ends by an error was not done: the message says what happened.
+    // A stage that ends by an error was not done: the message says what
+    // happened.
     if (open && std::uncaught_exceptions() == exceptions)
       log.stage_line(name, scope->seconds(), text);
   }
@@ -52,13 +53,16 @@ namespace mortise
   }
 
   void
-  RunLog::stage_line(const std::string &name, const double seconds, const std::string &details)
+  RunLog::stage_line(const std::string &name,
+                     const double       seconds,
+                     const std::string &details)
   {
     std::string readable = name; // "interface_search" of the summary
     std::replace(readable.begin(), readable.end(), '_', ' ');
     std::ostringstream text;
-    text << "  " << std::left << std::setw(19) << readable << std::right << std::fixed
-         << std::setprecision(2) << std::setw(8) << seconds << " s";
+    text << "  " << std::left << std::setw(19) << readable << std::right
+         << std::fixed << std::setprecision(2) << std::setw(8) << seconds
+         << " s";
     if (!details.empty())
       text << "   " << details;
     line(text.str());
@@ -100,7 +104,8 @@ namespace mortise
       {
         std::ostringstream text;
         for (std::size_t c = 0; c < row.size(); ++c)
-          text << "  " << (c == 0 ? std::left : std::right) << std::setw(widths[c]) << row[c];
+          text << "  " << (c == 0 ? std::left : std::right)
+               << std::setw(widths[c]) << row[c];
         std::string trimmed = text.str();
         trimmed.erase(trimmed.find_last_not_of(' ') + 1);
         line(trimmed);

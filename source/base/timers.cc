@@ -1,9 +1,9 @@
-#include <mortise/base/timers.h>
-
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 #include <boost/serialization/utility.hpp>
+
+#include <mortise/base/timers.h>
 
 #include <algorithm>
 
@@ -14,7 +14,8 @@ namespace mortise
     double
     seconds_since(const Timers::Clock::time_point start)
     {
-      return std::chrono::duration<double>(Timers::Clock::now() - start).count();
+      return std::chrono::duration<double>(Timers::Clock::now() - start)
+        .count();
     }
   } // namespace
 
@@ -90,7 +91,9 @@ namespace mortise
   {
     dealii::Utilities::System::MemoryStats stats;
     dealii::Utilities::System::get_memory_stats(stats);
-    const double mib = static_cast<double>(stats.VmHWM) / 1024.; // VmHWM is in kB
-    return {dealii::Utilities::MPI::sum(mib, comm), dealii::Utilities::MPI::max(mib, comm)};
+    const double mib =
+      static_cast<double>(stats.VmHWM) / 1024.; // VmHWM is in kB
+    return {dealii::Utilities::MPI::sum(mib, comm),
+            dealii::Utilities::MPI::max(mib, comm)};
   }
 } // namespace mortise

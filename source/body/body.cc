@@ -1,12 +1,11 @@
-#include <mortise/body/body.h>
-
-#include <mortise/base/error.h>
-#include <mortise/body/fe_legendre.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
+
+#include <mortise/base/error.h>
+#include <mortise/body/body.h>
+#include <mortise/body/fe_legendre.h>
 
 #include <set>
 
@@ -33,9 +32,10 @@ namespace mortise
   }
 
   void
-  Body::create_space(const unsigned int                           degree,
-                     const std::map<types::material_id, unsigned> &degree_by_region,
-                     const std::string                           &where)
+  Body::create_space(
+    const unsigned int                            degree,
+    const std::map<types::material_id, unsigned> &degree_by_region,
+    const std::string                            &where)
   {
     for (const auto &region : degree_by_region)
       if (names.materials.count(region.first) == 0)
@@ -44,7 +44,8 @@ namespace mortise
           for (const auto &material_id : names.materials)
             existing.push_back(std::to_string(material_id.first));
           throw InputError(where + ": Degree by region names the material id " +
-                           std::to_string(region.first) + ", which the mesh does not have; it has " +
+                           std::to_string(region.first) +
+                           ", which the mesh does not have; it has " +
                            join_names(existing));
         }
 
@@ -63,7 +64,8 @@ namespace mortise
         {
           const auto region = degree_by_region.find(cell->material_id());
           cell->set_active_fe_index(
-            fe_index[region == degree_by_region.end() ? degree : region->second]);
+            fe_index[region == degree_by_region.end() ? degree :
+                                                        region->second]);
         }
     dof_handler.distribute_dofs(fe);
 
@@ -85,8 +87,8 @@ namespace mortise
     std::vector<std::string> existing;
     for (const auto &entry : names.boundaries)
       existing.push_back(entry.first);
-    throw InputError(where + ": body '" + name + "' has no boundary '" + boundary +
-                     "'; it has: " + join_names(existing));
+    throw InputError(where + ": body '" + name + "' has no boundary '" +
+                     boundary + "'; it has: " + join_names(existing));
   }
 
   Body::Statistics

@@ -9,7 +9,8 @@ namespace mortise
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (!cell->is_artificial() && cell->at_boundary())
         for (const unsigned int f : cell->face_indices())
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == boundary)
+          if (cell->face(f)->at_boundary() &&
+              cell->face(f)->boundary_id() == boundary)
             faces.push_back({cell, f});
     return faces;
   }

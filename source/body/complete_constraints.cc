@@ -1,6 +1,6 @@
-#include <mortise/body/hp_constraints.h>
-
 #include <deal.II/base/mpi.h>
+
+#include <mortise/body/hp_constraints.h>
 
 #include <algorithm>
 #include <map>
@@ -19,8 +19,8 @@ namespace mortise
       Dofs                      dofs;            ///< constrained
       std::vector<double>       inhomogeneities; ///< of each
       std::vector<unsigned int> n_entries;       ///< of each
-      Dofs                      columns;         ///< of all entries, one line after the other
-      std::vector<double>       weights;         ///< of all entries
+      Dofs                columns; ///< of all entries, one line after the other
+      std::vector<double> weights; ///< of all entries
 
       void
       add(const AffineConstraints<double>::ConstraintLine &line)
@@ -71,9 +71,10 @@ namespace mortise
 
     /// The lines of @p constraints for those of @p requested that are constrained.
     FlatLines
-    find_lines(const std::map<types::global_dof_index,
-                              const AffineConstraints<double>::ConstraintLine *> &lines,
-               const Dofs                                                        &requested)
+    find_lines(
+      const std::map<types::global_dof_index,
+                     const AffineConstraints<double>::ConstraintLine *> &lines,
+      const Dofs &requested)
     {
       FlatLines found;
       for (const types::global_dof_index dof : requested)
@@ -87,7 +88,9 @@ namespace mortise
 
     /// Requested degrees of freedom by the rank that owns them.
     std::map<unsigned int, Dofs>
-    sort_by_owner(const Dofs &requested, const IndexSet &owned, const MPI_Comm comm)
+    sort_by_owner(const Dofs     &requested,
+                  const IndexSet &owned,
+                  const MPI_Comm  comm)
     {
       IndexSet set(owned.size());
       set.add_indices(requested.begin(), requested.end());
@@ -99,7 +102,8 @@ namespace mortise
         by_owner[owners[place++]].push_back(dof);
       return by_owner;
     }
-    /// Sorted, each once, without those that this rank owns (which it knows anyway).
+    /// Sorted, each once, without those that this rank owns (which it knows
+    /// anyway).
     Dofs
     without_owned(Dofs dofs, const IndexSet &owned)
     {
@@ -107,14 +111,17 @@ namespace mortise
       dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
       dofs.erase(std::remove_if(dofs.begin(),
                                 dofs.end(),
-                                [&](const auto dof) { return owned.is_element(dof); }),
+                                [&](const auto dof) {
+                                  return owned.is_element(dof);
+                                }),
                  dofs.end());
       return dofs;
     }
   } // namespace
 
   void
-  complete_constraints(const DoFHandler<3> &dof_handler, AffineConstraints<double> &constraints)
+  complete_constraints(const DoFHandler<3>       &dof_handler,
+                       AffineConstraints<double> &constraints)
   {
     const MPI_Comm comm = dof_handler.get_communicator();
     if (Utilities::MPI::n_mpi_processes(comm) == 1)
@@ -122,9 +129,12 @@ namespace mortise
     const IndexSet &owned = dof_handler.locally_owned_dofs();
     IndexSet        known = constraints.get_local_lines();
 
-    // What owners say is final: it replaces what this rank had found for the same line.
-    std::map<types::global_dof_index, const AffineConstraints<double>::ConstraintLine *> own;
-    FlatLines                                                                            all;
+    // What owners say is final: it replaces what this rank had found for the
+    // same line.
+    std::map<types::global_dof_index,
+             const AffineConstraints<double>::ConstraintLine *>
+              own;
+    FlatLines all;
     for (const auto &line : constraints.get_lines())
       if (owned.is_element(line.index))
         {
@@ -132,20 +142,21 @@ namespace mortise
           all.add(line);
         }
 
+    IndexSet wanted = known;
+    wanted.subtract_set(owned);
     Dofs requested;
-    known.fill_index_vector(requested);
-    requested.insert(requested.end(), all.columns.begin(), all.columns.end());
-    requested = without_owned(requested, owned);
-    known.add_indices(requested.begin(), requested.end());
+    wanted.fill_index_vector(requested);
     while (Utilities::MPI::max(requested.size(), comm) > 0)
       {
         const auto questions =
-          Utilities::MPI::some_to_some(comm, sort_by_owner(requested, owned, comm));
+          Utilities::MPI::some_to_some(comm,
+                                       sort_by_owner(requested, owned, comm));
         std::map<unsigned int, FlatLines> answers;
         for (const auto &[rank, dofs] : questions)
           answers[rank] = find_lines(own, dofs);
         requested.clear();
-        for (const auto &[rank, lines] : Utilities::MPI::some_to_some(comm, answers))
+        for (const auto &[rank, lines] :
+             Utilities::MPI::some_to_some(comm, answers))
           {
             all.append(lines);
             // New masters may be constrained themselves: ask in the next round.

@@ -1,11 +1,11 @@
-#include <mortise/body/entity_degrees.h>
-#include <mortise/body/fe_legendre.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/fe/fe.h>
 
 #include <deal.II/grid/grid_tools.h>
+
+#include <mortise/body/entity_degrees.h>
+#include <mortise/body/fe_legendre.h>
 
 #include <algorithm>
 #include <array>
@@ -26,10 +26,12 @@ namespace mortise
                 ExcMessage("at most 254 elements in a collection"));
     for (unsigned int i = 0; i < dof_handler.get_fe_collection().size(); ++i)
       AssertThrow(dof_handler.get_fe(i).n_base_elements() == 1 &&
-                    dynamic_cast<const FE_Legendre *>(&dof_handler.get_fe(i).base_element(0)),
-                  ExcMessage("EntityDegrees: the elements must be FE_Legendre or "
-                             "FESystem(FE_Legendre(p), n); got " +
-                             dof_handler.get_fe(i).get_name()));
+                    dynamic_cast<const FE_Legendre *>(
+                      &dof_handler.get_fe(i).base_element(0)),
+                  ExcMessage(
+                    "EntityDegrees: the elements must be FE_Legendre or "
+                    "FESystem(FE_Legendre(p), n); got " +
+                    dof_handler.get_fe(i).get_name()));
     unsigned int smallest = no_element, largest = 0;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -38,27 +40,31 @@ namespace mortise
           largest  = std::max<unsigned int>(largest, cell->active_fe_index());
         }
     const MPI_Comm comm = dof_handler.get_communicator();
-    uniform             = Utilities::MPI::min(smallest, comm) >= Utilities::MPI::max(largest, comm);
+    uniform =
+      Utilities::MPI::min(smallest, comm) >= Utilities::MPI::max(largest, comm);
     if (uniform)
       return;
 
     collect_from_cells();
     spread_over_hanging_faces();
     spread_over_hanging_lines();
-    // A hanging face far from this rank lowers its edges, which may be edges here: the owner of
-    // the coarse cell knows. The second round brings the ghost cells up to date.
+    // A hanging face far from this rank lowers its edges, which may be edges
+    // here: the owner of the coarse cell knows. The second round brings the
+    // ghost cells up to date.
     exchange_degrees();
     spread_over_hanging_lines();
     exchange_degrees();
   }
 
   void
-  EntityDegrees::lower(unsigned char &element, const unsigned int candidate) const
+  EntityDegrees::lower(unsigned char     &element,
+                       const unsigned int candidate) const
   {
     const auto &fes = dof_handler.get_fe_collection();
     if (element == no_element ||
         std::make_pair(fes[candidate].degree, candidate) <
-          std::make_pair(fes[element].degree, static_cast<unsigned int>(element)))
+          std::make_pair(fes[element].degree,
+                         static_cast<unsigned int>(element)))
       element = candidate;
   }
 
@@ -116,7 +122,10 @@ namespace mortise
               }
             // The four lines inside the face.
             for (const auto &[c, l] :
-                 {std::pair<unsigned int, unsigned int>{0, 1}, {0, 3}, {3, 0}, {3, 2}})
+                 {std::pair<unsigned int, unsigned int>{0, 1},
+                  {0, 3},
+                  {3, 0},
+                  {3, 2}})
               line_degrees[face->child(c)->line(l)->index()] = degree;
           }
   }
@@ -145,7 +154,8 @@ namespace mortise
     using Degrees = std::array<unsigned char, 18>;
     if (Utilities::MPI::n_mpi_processes(dof_handler.get_communicator()) == 1)
       return;
-    const auto pack = [&](const CellIterator &cell) -> std_cxx17::optional<Degrees> {
+    const auto pack =
+      [&](const CellIterator &cell) -> std_cxx17::optional<Degrees> {
       Degrees degrees;
       for (unsigned int l = 0; l < 12; ++l)
         degrees[l] = line_degrees[cell->line_index(l)];
@@ -165,24 +175,29 @@ namespace mortise
           degree                = std::min(degree, degrees[12 + f]);
         }
     };
-    GridTools::exchange_cell_data_to_ghosts<Degrees, DoFHandler<3>>(dof_handler, pack, unpack);
+    GridTools::exchange_cell_data_to_ghosts<Degrees, DoFHandler<3>>(dof_handler,
+                                                                    pack,
+                                                                    unpack);
   }
 
   unsigned int
-  EntityDegrees::line_degree(const CellIterator &cell, const unsigned int l) const
+  EntityDegrees::line_degree(const CellIterator &cell,
+                             const unsigned int  l) const
   {
     return uniform ? cell->get_fe().degree : line_degrees[cell->line_index(l)];
   }
 
   unsigned int
-  EntityDegrees::quad_degree(const CellIterator &cell, const unsigned int f) const
+  EntityDegrees::quad_degree(const CellIterator &cell,
+                             const unsigned int  f) const
   {
     return uniform ? cell->get_fe().degree : quad_degrees[cell->face_index(f)];
   }
 
   void
-  EntityDegrees::get_master_dofs(const CellIterator                   &cell,
-                                 std::vector<types::global_dof_index> &masters) const
+  EntityDegrees::get_master_dofs(
+    const CellIterator                   &cell,
+    std::vector<types::global_dof_index> &masters) const
   {
     Assert(!cell->is_artificial(), ExcMessage("owned and ghost cells only"));
     masters.resize(cell->get_fe().n_dofs_per_cell());
@@ -209,7 +224,8 @@ namespace mortise
         for (unsigned int c = 0; c < components; ++c)
           for (unsigned int i = 0; i < n; ++i)
             masters[fe.get_first_line_index() + (l * components + c) * n + i] =
-              i + 2 > degree ? zero : cell->line(l)->dof_index(c * m + i, element);
+              i + 2 > degree ? zero :
+                               cell->line(l)->dof_index(c * m + i, element);
       }
 
     for (unsigned int f = 0; f < 6; ++f)
@@ -224,7 +240,8 @@ namespace mortise
               masters[fe.get_first_quad_index(f) + (c * n + j) * n + i] =
                 std::max(i, j) + 2 > degree ?
                   zero :
-                  cell->quad(f)->dof_index((c * m + (standard ? j : i)) * m + (standard ? i : j),
+                  cell->quad(f)->dof_index((c * m + (standard ? j : i)) * m +
+                                             (standard ? i : j),
                                            element);
       }
   }

@@ -1,10 +1,10 @@
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/legendre_basis.h>
-
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/tensor_product_polynomials.h>
 
 #include <deal.II/fe/fe_tools.h>
+
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/legendre_basis.h>
 
 #include <algorithm>
 #include <array>
@@ -20,12 +20,14 @@ namespace mortise
     {
       AssertThrow(p >= 1 && p <= max_lobatto_degree,
                   ExcMessage("FE_Legendre: the degree is " + std::to_string(p) +
-                             ", allowed is 1 to " + std::to_string(max_lobatto_degree)));
-      const std::vector<unsigned int> dofs_per_object = {1,
-                                                         p - 1,
-                                                         (p - 1) * (p - 1),
-                                                         (p - 1) * (p - 1) * (p - 1)};
-      return FiniteElementData<3>(dofs_per_object, 1, p, FiniteElementData<3>::H1);
+                             ", allowed is 1 to " +
+                             std::to_string(max_lobatto_degree)));
+      const std::vector<unsigned int> dofs_per_object = {
+        1, p - 1, (p - 1) * (p - 1), (p - 1) * (p - 1) * (p - 1)};
+      return FiniteElementData<3>(dofs_per_object,
+                                  1,
+                                  p,
+                                  FiniteElementData<3>::H1);
     }
 
     TensorProductPolynomials<3>
@@ -36,21 +38,16 @@ namespace mortise
       return space;
     }
 
-    /// Place in the order of evaluate_lobatto() of place @p l in the lexicographic order.
-    unsigned int
-    lexicographic_to_lobatto(const unsigned int degree, const unsigned int l)
-    {
-      return l == 0 ? 0 : (l == degree ? 1 : l + 1);
-    }
-
-    /// For each of the dofs_per_cell (structdim 3) or dofs_per_face (2) functions, the indices of
-    /// its 1D factors in the order of evaluate_lobatto().
+    /// For each of the dofs_per_cell (structdim 3) or dofs_per_face (2)
+    /// functions, the indices of its 1D factors in the order of
+    /// evaluate_lobatto().
     template <int structdim>
     std::vector<std::array<unsigned int, structdim>>
     tensor_indices(const unsigned int degree)
     {
       std::vector<std::array<unsigned int, structdim>> indices;
-      for (unsigned int l : FETools::hierarchic_to_lexicographic_numbering<structdim>(degree))
+      for (unsigned int l :
+           FETools::hierarchic_to_lexicographic_numbering<structdim>(degree))
         {
           std::array<unsigned int, structdim> index;
           for (unsigned int d = 0; d < structdim; ++d, l /= degree + 1)
@@ -60,22 +57,26 @@ namespace mortise
       return indices;
     }
 
-    /// The element as FE_Legendre; deal.II's exception for elements of another family.
+    /// The element as FE_Legendre; deal.II's exception for elements of another
+    /// family.
     const FE_Legendre &
     as_legendre(const FiniteElement<3> &fe)
     {
-      const FE_Legendre *const legendre = dynamic_cast<const FE_Legendre *>(&fe);
-      AssertThrow(legendre != nullptr, FiniteElement<3>::ExcInterpolationNotImplemented());
+      const FE_Legendre *const legendre =
+        dynamic_cast<const FE_Legendre *>(&fe);
+      AssertThrow(legendre != nullptr,
+                  FiniteElement<3>::ExcInterpolationNotImplemented());
       return *legendre;
     }
   } // namespace
 
   FE_Legendre::FE_Legendre(const unsigned int degree)
-    : FE_Poly<3>(polynomial_space(degree),
-                 element_data(degree),
-                 std::vector<bool>(element_data(degree).n_dofs_per_cell(), true),
-                 std::vector<ComponentMask>(element_data(degree).n_dofs_per_cell(),
-                                            std::vector<bool>(1, true)))
+    : FE_Poly<3>(
+        polynomial_space(degree),
+        element_data(degree),
+        std::vector<bool>(element_data(degree).n_dofs_per_cell(), true),
+        std::vector<ComponentMask>(element_data(degree).n_dofs_per_cell(),
+                                   std::vector<bool>(1, true)))
   {
     initialize_quad_transposition();
     initialize_generalized_support_points();
@@ -84,9 +85,10 @@ namespace mortise
   void
   FE_Legendre::initialize_quad_transposition()
   {
-    // A face in non-standard orientation (flag false) is seen with its two directions swapped:
-    // mode (i,j) of the cell is mode (j,i) of the quad. Flips and rotations would change signs;
-    // consistently ordered cells do not have them.
+    // A face in non-standard orientation (flag false) is seen with its two
+    // directions swapped: mode (i,j) of the cell is mode (j,i) of the quad.
+    // Flips and rotations would change signs; consistently ordered cells do not
+    // have them.
     const unsigned int n = this->degree - 1;
     for (auto &table : this->adjust_quad_dof_index_for_face_orientation_table)
       for (unsigned int j = 0; j < n; ++j)
@@ -94,9 +96,10 @@ namespace mortise
           for (unsigned int flags = 0; flags < 8; ++flags)
             {
               // deal.II numbers the flags 4*orientation + 2*flip + rotation.
-              const bool standard     = flags >= 4;
-              const int  here         = i + n * j;
-              table(i + n * j, flags) = (standard ? here : static_cast<int>(j + n * i)) - here;
+              const bool standard = flags >= 4;
+              const int  here     = i + n * j;
+              table(i + n * j, flags) =
+                (standard ? here : static_cast<int>(j + n * i)) - here;
             }
   }
 
@@ -113,7 +116,8 @@ namespace mortise
       {
         evaluate_lobatto(this->degree, nodes.point(q)[0], values.data());
         for (unsigned int k = 0; k < nodes.size(); ++k)
-          modes_to_nodes(q, lobatto_to_lexicographic(this->degree, k)) = values[k];
+          modes_to_nodes(q, lobatto_to_lexicographic(this->degree, k)) =
+            values[k];
       }
     nodes_to_modes.reinit(nodes.size(), nodes.size());
     nodes_to_modes.invert(modes_to_nodes);
@@ -165,13 +169,15 @@ namespace mortise
 
   namespace
   {
-    /// matrix(row, column) = prod_d R_d(i_d(row), j_d(column)); a null factor is the identity.
+    /// matrix(row, column) = prod_d R_d(i_d(row), j_d(column)); a null factor
+    /// is the identity.
     template <int structdim>
     void
-    fill_kronecker(const std::array<const FullMatrix<double> *, structdim> &factors,
-                   const unsigned int                                       row_degree,
-                   const unsigned int                                       column_degree,
-                   FullMatrix<double>                                      &matrix)
+    fill_kronecker(
+      const std::array<const FullMatrix<double> *, structdim> &factors,
+      const unsigned int                                       row_degree,
+      const unsigned int                                       column_degree,
+      FullMatrix<double>                                      &matrix)
     {
       const auto rows    = tensor_indices<structdim>(row_degree);
       const auto columns = tensor_indices<structdim>(column_degree);
@@ -182,8 +188,9 @@ namespace mortise
           {
             double product = 1.;
             for (unsigned int d = 0; d < structdim; ++d)
-              product *= factors[d] != nullptr ? (*factors[d])(rows[r][d], columns[c][d]) :
-                                                 (rows[r][d] == columns[c][d] ? 1. : 0.);
+              product *= factors[d] != nullptr ?
+                           (*factors[d])(rows[r][d], columns[c][d]) :
+                           (rows[r][d] == columns[c][d] ? 1. : 0.);
             matrix(r, c) = product;
           }
     }
@@ -195,8 +202,12 @@ namespace mortise
                                              const unsigned int) const
   {
     const unsigned int source_degree = as_legendre(source).degree;
-    AssertThrow(source_degree >= this->degree, ExcInterpolationNotImplemented());
-    fill_kronecker<2>({{nullptr, nullptr}}, source_degree, this->degree, matrix);
+    AssertThrow(source_degree >= this->degree,
+                ExcInterpolationNotImplemented());
+    fill_kronecker<2>({{nullptr, nullptr}},
+                      source_degree,
+                      this->degree,
+                      matrix);
   }
 
   void
@@ -206,19 +217,23 @@ namespace mortise
                                                 const unsigned int) const
   {
     const unsigned int source_degree = as_legendre(source).degree;
-    AssertThrow(source_degree >= this->degree, ExcInterpolationNotImplemented());
+    AssertThrow(source_degree >= this->degree,
+                ExcInterpolationNotImplemented());
     AssertIndexRange(subface, 4);
-    fill_kronecker<2>({{&lobatto_restriction(subface % 2), &lobatto_restriction(subface / 2)}},
+    fill_kronecker<2>({{&lobatto_restriction(subface % 2),
+                        &lobatto_restriction(subface / 2)}},
                       source_degree,
                       this->degree,
                       matrix);
   }
 
   const FullMatrix<double> &
-  FE_Legendre::get_prolongation_matrix(const unsigned int       child,
-                                       const RefinementCase<3> &refinement_case) const
+  FE_Legendre::get_prolongation_matrix(
+    const unsigned int       child,
+    const RefinementCase<3> &refinement_case) const
   {
-    AssertThrow(refinement_case == RefinementCase<3>::isotropic_refinement, ExcNotImplemented());
+    AssertThrow(refinement_case == RefinementCase<3>::isotropic_refinement,
+                ExcNotImplemented());
     AssertIndexRange(child, 8);
     const std::lock_guard<std::mutex> lock(mutex);
     FullMatrix<double>               &matrix =
@@ -238,10 +253,12 @@ namespace mortise
   }
 
   const FullMatrix<double> &
-  FE_Legendre::get_restriction_matrix(const unsigned int       child,
-                                      const RefinementCase<3> &refinement_case) const
+  FE_Legendre::get_restriction_matrix(
+    const unsigned int       child,
+    const RefinementCase<3> &refinement_case) const
   {
-    AssertThrow(refinement_case == RefinementCase<3>::isotropic_refinement, ExcNotImplemented());
+    AssertThrow(refinement_case == RefinementCase<3>::isotropic_refinement,
+                ExcNotImplemented());
     AssertIndexRange(child, 8);
     const std::lock_guard<std::mutex> lock(mutex);
     FullMatrix<double>               &matrix =
@@ -271,7 +288,9 @@ namespace mortise
 
     /// Bubbles 2..min(p, q) in structdim directions.
     Identities
-    common_bubbles(const unsigned int structdim, const unsigned int p, const unsigned int q)
+    common_bubbles(const unsigned int structdim,
+                   const unsigned int p,
+                   const unsigned int q)
     {
       Identities         identities;
       const unsigned int n = std::min(p, q) - 1;
@@ -296,21 +315,25 @@ namespace mortise
   }
 
   Identities
-  FE_Legendre::hp_quad_dof_identities(const FiniteElement<3> &other, const unsigned int) const
+  FE_Legendre::hp_quad_dof_identities(const FiniteElement<3> &other,
+                                      const unsigned int) const
   {
     return common_bubbles(2, this->degree, as_legendre(other).degree);
   }
 
   FiniteElementDomination::Domination
-  FE_Legendre::compare_for_domination(const FiniteElement<3> &other, const unsigned int) const
+  FE_Legendre::compare_for_domination(const FiniteElement<3> &other,
+                                      const unsigned int) const
   {
-    const FE_Legendre *const legendre = dynamic_cast<const FE_Legendre *>(&other);
+    const FE_Legendre *const legendre =
+      dynamic_cast<const FE_Legendre *>(&other);
     if (legendre == nullptr)
       return FiniteElementDomination::no_requirements;
     if (this->degree < legendre->degree)
       return FiniteElementDomination::this_element_dominates;
-    return this->degree == legendre->degree ? FiniteElementDomination::either_element_can_dominate :
-                                              FiniteElementDomination::other_element_dominates;
+    return this->degree == legendre->degree ?
+             FiniteElementDomination::either_element_can_dominate :
+             FiniteElementDomination::other_element_dominates;
   }
 
   std::pair<Table<2, bool>, std::vector<unsigned int>>
@@ -347,35 +370,9 @@ namespace mortise
                 data[start + k * stride] = sum;
               }
           }
-    const std::vector<unsigned int> lexicographic = this->get_poly_space_numbering();
+    const std::vector<unsigned int> lexicographic =
+      this->get_poly_space_numbering();
     for (unsigned int i = 0; i < dof_values.size(); ++i)
       dof_values[i] = data[lexicographic[i]];
-  }
-
-  std::vector<unsigned int>
-  cell_dof_indices(const unsigned int degree)
-  {
-    const unsigned int        n       = degree + 1;
-    const auto                indices = tensor_indices<3>(degree);
-    std::vector<unsigned int> dofs(indices.size());
-    for (unsigned int dof = 0; dof < indices.size(); ++dof)
-      dofs[indices[dof][0] + n * (indices[dof][1] + n * indices[dof][2])] = dof;
-    return dofs;
-  }
-
-  std::vector<unsigned int>
-  face_dof_indices(const unsigned int degree, const unsigned int face_no)
-  {
-    AssertIndexRange(face_no, 6);
-    const unsigned int              n          = degree + 1;
-    const unsigned int              d          = face_no / 2;
-    const std::vector<unsigned int> cell       = cell_dof_indices(degree);
-    const unsigned int              strides[3] = {1, n, n * n};
-    std::vector<unsigned int>       dofs(n * n);
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int i = 0; i < n; ++i)
-        dofs[i + n * j] =
-          cell[(face_no % 2) * strides[d] + i * strides[(d + 1) % 3] + j * strides[(d + 2) % 3]];
-    return dofs;
   }
 } // namespace mortise

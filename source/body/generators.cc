@@ -1,8 +1,8 @@
-#include <mortise/body/generators.h>
-#include <mortise/body/manifolds.h>
-
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
+
+#include <mortise/body/generators.h>
+#include <mortise/body/manifolds.h>
 
 #include <cmath>
 #include <cstdint>
@@ -22,10 +22,11 @@ namespace mortise
     /// A block of n[0] x n[1] x n[2] cells between vertices that exist already.
     struct Block
     {
-      Lattice                                      n;
-      std::function<unsigned int(const Lattice &)> vertex;   ///< index of a lattice point's vertex
+      Lattice n;
+      std::function<unsigned int(const Lattice &)>
+        vertex; ///< index of a lattice point's vertex
       std::function<unsigned int(const Lattice &)> material; ///< id of a cell
-      std::array<int, 6>                           boundaries; ///< ids in deal.II's order of faces
+      std::array<int, 6> boundaries; ///< ids in deal.II's order of faces
     };
 
     void
@@ -37,7 +38,8 @@ namespace mortise
             {
               CellData<3> cell;
               for (unsigned int v = 0; v < 8; ++v)
-                cell.vertices[v] = block.vertex({{i + v % 2, j + v / 2 % 2, k + v / 4}});
+                cell.vertices[v] =
+                  block.vertex({{i + v % 2, j + v / 2 % 2, k + v / 4}});
               cell.material_id = block.material({{i, j, k}});
               mesh.cells.push_back(cell);
             }
@@ -70,7 +72,9 @@ namespace mortise
 
     /// A block of cells with vertices of its own at place(lattice point).
     void
-    add_block(CoarseMesh &mesh, Block block, const std::function<Point<3>(const Lattice &)> &place)
+    add_block(CoarseMesh                                     &mesh,
+              Block                                           block,
+              const std::function<Point<3>(const Lattice &)> &place)
     {
       const Lattice      n     = block.n;
       const unsigned int first = mesh.vertices.size();
@@ -87,12 +91,16 @@ namespace mortise
 
     /// a at i = 0 and b at i = n, both exactly.
     double
-    between(const double a, const double b, const double i, const unsigned int n)
+    between(const double       a,
+            const double       b,
+            const double       i,
+            const unsigned int n)
     {
       return i == n ? b : a + (b - a) * (i / n);
     }
 
-    /// A number in (-1, 1) that depends on its arguments only (splitmix64's mixing).
+    /// A number in (-1, 1) that depends on its arguments only (splitmix64's
+    /// mixing).
     double
     scatter(const Lattice &p, const unsigned int direction)
     {
@@ -111,37 +119,47 @@ namespace mortise
     box(const MeshParameters &q)
     {
       const std::vector<double> &e = q.extent;
-      const Lattice              n = {{q.subdivisions[0], q.subdivisions[1], q.subdivisions[2]}};
-      CoarseMesh                 mesh;
-      const RigidMotion          motion = rigid_motion(q);
+      const Lattice              n = {
+        {q.subdivisions[0], q.subdivisions[1], q.subdivisions[2]}};
+      CoarseMesh        mesh;
+      const RigidMotion motion = rigid_motion(q);
 
       Block block;
       block.n          = n;
       block.boundaries = {{0, 1, 2, 3, 4, 5}};
       block.material   = [n](const Lattice &c) {
-        return (2 * c[0] + 1 > n[0]) + 2 * (2 * c[1] + 1 > n[1]) + 4 * (2 * c[2] + 1 > n[2]);
+        return (2 * c[0] + 1 > n[0]) + 2 * (2 * c[1] + 1 > n[1]) +
+               4 * (2 * c[2] + 1 > n[2]);
       };
       add_block(mesh, block, [&](const Lattice &p) {
         std::array<double, 3> at;
         for (unsigned int d = 0; d < 3; ++d)
-          at[d] = p[d] + (p[d] > 0 && p[d] < n[d] ? q.distort * scatter(p, d) : 0.);
-        const double x = between(e[0], e[3], at[0], n[0]), y = between(e[1], e[4], at[1], n[1]);
-        const auto   plane = [&](const double z, const std::array<double, 2> &slope) {
+          at[d] =
+            p[d] + (p[d] > 0 && p[d] < n[d] ? q.distort * scatter(p, d) : 0.);
+        const double x   = between(e[0], e[3], at[0], n[0]),
+                     y   = between(e[1], e[4], at[1], n[1]);
+        const auto plane = [&](const double                 z,
+                               const std::array<double, 2> &slope) {
           return z + slope[0] * (x - e[0]) + slope[1] * (y - e[1]);
         };
-        return motion(Point<3>(
-          x, y, between(plane(e[2], q.bottom_slope), plane(e[5], q.top_slope), at[2], n[2])));
+        return motion(Point<3>(x,
+                               y,
+                               between(plane(e[2], q.bottom_slope),
+                                       plane(e[5], q.top_slope),
+                                       at[2],
+                                       n[2])));
       });
       for (unsigned int octant = 0; octant < 8; ++octant)
-        mesh.names.materials[octant] = std::string("x ") + (octant % 2 ? "upper" : "lower") +
-                                       ", y " + (octant / 2 % 2 ? "upper" : "lower") + ", z " +
-                                       (octant / 4 ? "upper" : "lower") + " half";
+        mesh.names.materials[octant] =
+          std::string("x ") + (octant % 2 ? "upper" : "lower") + ", y " +
+          (octant / 2 % 2 ? "upper" : "lower") + ", z " +
+          (octant / 4 ? "upper" : "lower") + " half";
       return mesh;
     }
 
-    /// An octant of the cube [0, n]^3's outer surface, projected to spheres: the lattice points
-    /// with largest coordinate n lie in the directions tan(45 degrees i/n), which divides each
-    /// patch into equal angles.
+    /// An octant of the cube [0, n]^3's outer surface, projected to spheres:
+    /// the lattice points with largest coordinate n lie in the directions
+    /// tan(45 degrees i/n), which divides each patch into equal angles.
     CoarseMesh
     shell_octant(const MeshParameters &q)
     {
@@ -159,14 +177,15 @@ namespace mortise
               {
                 Tensor<1, 3> direction;
                 for (unsigned int d = 0; d < 3; ++d)
-                  direction[d] = p[d] == n ? 1. : std::tan(0.25 * numbers::PI * p[d] / n);
+                  direction[d] =
+                    p[d] == n ? 1. : std::tan(0.25 * numbers::PI * p[d] / n);
                 index[p] = directions.size();
                 directions.push_back(direction / direction.norm());
               }
       for (unsigned int layer = 0; layer <= m; ++layer)
         for (const Tensor<1, 3> &direction : directions)
-          mesh.vertices.push_back(
-            motion(Point<3>(between(q.extent[0], q.extent[1], layer, m) * direction)));
+          mesh.vertices.push_back(motion(
+            Point<3>(between(q.extent[0], q.extent[1], layer, m) * direction)));
 
       for (unsigned int axis = 0; axis < 3; ++axis)
         {
@@ -184,7 +203,8 @@ namespace mortise
           block.boundaries = {{2 + int(l), none, 2 + int(k), none, 0, 1}};
           add_cells(mesh, block);
           add_boundary(mesh, block);
-          mesh.names.materials[axis] = std::string("patch around ") + "xyz"[axis];
+          mesh.names.materials[axis] =
+            std::string("patch around ") + "xyz"[axis];
         }
       return mesh;
     }
@@ -192,10 +212,12 @@ namespace mortise
     CoarseMesh
     cylinder_sector(const MeshParameters &q)
     {
-      const Lattice n = {{q.subdivisions[1], q.subdivisions[0], q.subdivisions[2]}};
-      CoarseMesh    mesh;
-      mesh.manifold     = std::make_unique<CylinderManifold>(rigid_motion(q));
-      const auto &chart = dynamic_cast<const CylinderManifold &>(*mesh.manifold);
+      const Lattice n = {
+        {q.subdivisions[1], q.subdivisions[0], q.subdivisions[2]}};
+      CoarseMesh mesh;
+      mesh.manifold = std::make_unique<CylinderManifold>(rigid_motion(q));
+      const auto &chart =
+        dynamic_cast<const CylinderManifold &>(*mesh.manifold);
 
       // Radial, around, axial is right handed.
       Block block;
@@ -203,9 +225,10 @@ namespace mortise
       block.boundaries = {{0, 1, 3, 2, 4, 5}};
       block.material   = [](const Lattice &) { return 0; };
       add_block(mesh, block, [&](const Lattice &p) {
-        return chart.push_forward(Point<3>(between(q.extent[0], q.extent[1], p[0], n[0]),
-                                           between(0., 0.5 * numbers::PI, p[1], n[1]),
-                                           between(0., q.extent[2], p[2], n[2])));
+        return chart.push_forward(
+          Point<3>(between(q.extent[0], q.extent[1], p[0], n[0]),
+                   between(0., 0.5 * numbers::PI, p[1], n[1]),
+                   between(0., q.extent[2], p[2], n[2])));
       });
       mesh.names.materials[0] = "sector";
       return mesh;
@@ -226,26 +249,40 @@ namespace mortise
       const double               z_middle = e[2] + q.middle * (e[5] - e[2]);
       CoarseMesh                 mesh;
       mesh.manifold = std::make_unique<CurvedBlockManifold>(
-        CurvedBlockManifold::Shape{
-          e[0], e[1], e[2], e[3], e[4], e[5], z_middle, q.amplitude, surface_of(q.surface)},
+        CurvedBlockManifold::Shape{e[0],
+                                   e[1],
+                                   e[2],
+                                   e[3],
+                                   e[4],
+                                   e[5],
+                                   z_middle,
+                                   q.amplitude,
+                                   surface_of(q.surface)},
         rigid_motion(q));
-      const auto &chart = dynamic_cast<const CurvedBlockManifold &>(*mesh.manifold);
+      const auto &chart =
+        dynamic_cast<const CurvedBlockManifold &>(*mesh.manifold);
 
-      const bool    both = q.half == "both", upper = q.half == "upper";
-      const Lattice n = {
-        {q.subdivisions[0], q.subdivisions[1], q.subdivisions[2] + (both ? q.subdivisions[3] : 0)}};
+      const bool         both = q.half == "both", upper = q.half == "upper";
+      const Lattice      n       = {{q.subdivisions[0],
+                                     q.subdivisions[1],
+                                     q.subdivisions[2] + (both ? q.subdivisions[3] : 0)}};
       const unsigned int n_lower = upper ? 0 : q.subdivisions[2];
       Block              block;
       block.n = n;
-      // both: ..., zmin, zmax; lower: ..., zmin, interface; upper: ..., interface, zmax.
+      // both: ..., zmin, zmax; lower: ..., zmin, interface; upper: ...,
+      // interface, zmax.
       block.boundaries = {{0, 1, 2, 3, upper ? 5 : 4, upper ? 4 : 5}};
-      block.material   = [n_lower](const Lattice &cell) { return cell[2] < n_lower ? 0 : 1; };
+      block.material   = [n_lower](const Lattice &cell) {
+        return cell[2] < n_lower ? 0 : 1;
+      };
       add_block(mesh, block, [&](const Lattice &p) {
-        const double z = p[2] <= n_lower ?
-                           (upper ? z_middle : between(e[2], z_middle, p[2], n_lower)) :
-                           between(z_middle, e[5], p[2] - n_lower, n[2] - n_lower);
-        return chart.push_forward(
-          Point<3>(between(e[0], e[3], p[0], n[0]), between(e[1], e[4], p[1], n[1]), z));
+        const double z =
+          p[2] <= n_lower ?
+            (upper ? z_middle : between(e[2], z_middle, p[2], n_lower)) :
+            between(z_middle, e[5], p[2] - n_lower, n[2] - n_lower);
+        return chart.push_forward(Point<3>(between(e[0], e[3], p[0], n[0]),
+                                           between(e[1], e[4], p[1], n[1]),
+                                           z));
       });
       if (!upper)
         mesh.names.materials[0] = "lower half";
@@ -284,11 +321,13 @@ namespace mortise
   CoarseMesh
   generate(const MeshParameters &parameters)
   {
-    CoarseMesh                     mesh       = parameters.source == "box" ? box(parameters) :
-                                                parameters.source == "shell octant" ? shell_octant(parameters) :
-                                                parameters.source == "cylinder sector" ? cylinder_sector(parameters) :
-                                                                                         curved_block(parameters);
-    const std::vector<std::string> boundaries = generator_boundaries(parameters);
+    CoarseMesh mesh =
+      parameters.source == "box"             ? box(parameters) :
+      parameters.source == "shell octant"    ? shell_octant(parameters) :
+      parameters.source == "cylinder sector" ? cylinder_sector(parameters) :
+                                               curved_block(parameters);
+    const std::vector<std::string> boundaries =
+      generator_boundaries(parameters);
     for (unsigned int id = 0; id < boundaries.size(); ++id)
       mesh.names.boundaries[boundaries[id]] = id;
     return mesh;

@@ -1,8 +1,8 @@
+#include <deal.II/dofs/dof_tools.h>
+
 #include <mortise/body/fe_legendre.h>
 #include <mortise/body/hp_constraints.h>
 #include <mortise/body/legendre_basis.h>
-
-#include <deal.II/dofs/dof_tools.h>
 
 #include <algorithm>
 #include <unordered_map>
@@ -17,7 +17,8 @@ namespace mortise
     using Dofs         = std::vector<types::global_dof_index>;
 
     /// Direction of each line of a cell.
-    constexpr unsigned int line_direction[12] = {1, 1, 0, 0, 1, 1, 0, 0, 2, 2, 2, 2};
+    constexpr unsigned int line_direction[12] =
+      {1, 1, 0, 0, 1, 1, 0, 0, 2, 2, 2, 2};
 
     /// One degree of freedom as a combination of others (of none: zero).
     struct Line
@@ -26,8 +27,9 @@ namespace mortise
       std::vector<std::pair<types::global_dof_index, double>> entries;
     };
 
-    /// Local degrees of freedom of one component of elements FESystem(FE_Legendre(p), n):
-    /// tensor functions of lines and faces, in the order of evaluate_lobatto().
+    /// Local degrees of freedom of one component of elements
+    /// FESystem(FE_Legendre(p), n): tensor functions of lines and faces, in the
+    /// order of evaluate_lobatto().
     class LocalNumbering
     {
     public:
@@ -49,11 +51,14 @@ namespace mortise
       }
 
       unsigned int
-      on_line(const unsigned int l, const unsigned int i, const unsigned int c) const
+      on_line(const unsigned int l,
+              const unsigned int i,
+              const unsigned int c) const
       {
         // A line's ends are its vertices, its bubbles its own.
         const unsigned int scalar =
-          i < 2 ? GeometryInfo<3>::line_to_cell_vertices(l, i) : 8 + l * (n - 2) + i - 2;
+          i < 2 ? GeometryInfo<3>::line_to_cell_vertices(l, i) :
+                  8 + l * (n - 2) + i - 2;
         return fe.component_to_system_index(c, scalar);
       }
 
@@ -68,7 +73,8 @@ namespace mortise
     class ConformityLines
     {
     public:
-      ConformityLines(const DoFHandler<3> &dof_handler, const EntityDegrees &degrees);
+      ConformityLines(const DoFHandler<3> &dof_handler,
+                      const EntityDegrees &degrees);
 
       void
       make();
@@ -89,16 +95,19 @@ namespace mortise
 
       const DoFHandler<3>        &dof_handler;
       const EntityDegrees        &degrees;
-      std::vector<LocalNumbering> numbering;  ///< by element
-      IndexSet                    owned;      ///< of this rank
-      std::vector<bool>           owned_done; ///< constrained, by place in owned
+      std::vector<LocalNumbering> numbering; ///< by element
+      IndexSet                    owned;     ///< of this rank
+      std::vector<bool> owned_done;          ///< constrained, by place in owned
       std::unordered_map<types::global_dof_index, bool> other_done;
-      /// Refined lines of active cells: line index -> such a cell and its number there.
-      std::unordered_map<unsigned int, std::pair<CellIterator, unsigned int>> coarse_lines;
-      Dofs                                                                    own, masters;
+      /// Refined lines of active cells: line index -> such a cell and its
+      /// number there.
+      std::unordered_map<unsigned int, std::pair<CellIterator, unsigned int>>
+           coarse_lines;
+      Dofs own, masters;
     };
 
-    ConformityLines::ConformityLines(const DoFHandler<3> &dof_handler, const EntityDegrees &degrees)
+    ConformityLines::ConformityLines(const DoFHandler<3> &dof_handler,
+                                     const EntityDegrees &degrees)
       : dof_handler(dof_handler)
       , degrees(degrees)
       , owned(dof_handler.locally_owned_dofs())
@@ -138,7 +147,8 @@ namespace mortise
         if (!cell->is_artificial())
           for (const unsigned int l : cell->line_indices())
             if (cell->line(l)->has_children())
-              coarse_lines.emplace(cell->line_index(l), std::make_pair(cell, l));
+              coarse_lines.emplace(cell->line_index(l),
+                                   std::make_pair(cell, l));
     }
 
     /// Begin the constraint of @p dof unless it has one already.
@@ -172,9 +182,11 @@ namespace mortise
     }
 
     void
-    ConformityLines::constrain_hanging_line(const CellIterator &cell, const unsigned int l)
+    ConformityLines::constrain_hanging_line(const CellIterator &cell,
+                                            const unsigned int  l)
     {
-      // The cell's line l is half of its parent's line l if the cell touches that line.
+      // The cell's line l is half of its parent's line l if the cell touches
+      // that line.
       const unsigned int child = child_number(cell);
       const unsigned int d     = line_direction[l];
       const unsigned int half  = (child >> d) & 1;
@@ -184,9 +196,10 @@ namespace mortise
       if (coarse == coarse_lines.end())
         return;
 
-      const auto &[neighbor, line]          = coarse->second;
-      const LocalNumbering     &fine_dofs   = numbering[cell->active_fe_index()];
-      const LocalNumbering     &coarse_dofs = numbering[neighbor->active_fe_index()];
+      const auto &[neighbor, line]    = coarse->second;
+      const LocalNumbering &fine_dofs = numbering[cell->active_fe_index()];
+      const LocalNumbering &coarse_dofs =
+        numbering[neighbor->active_fe_index()];
       const FullMatrix<double> &restriction = lobatto_restriction(half);
       degrees.get_master_dofs(neighbor, masters);
       for (unsigned int c = 0; c < cell->get_fe().n_components(); ++c)
@@ -195,32 +208,38 @@ namespace mortise
           if (i != half && start_line(own[fine_dofs.on_line(l, i, c)]))
             for (unsigned int a = 0; a < coarse_dofs.n; ++a)
               {
-                const types::global_dof_index master = masters[coarse_dofs.on_line(line, a, c)];
-                if (restriction(i, a) != 0. && master != numbers::invalid_dof_index)
+                const types::global_dof_index master =
+                  masters[coarse_dofs.on_line(line, a, c)];
+                if (restriction(i, a) != 0. &&
+                    master != numbers::invalid_dof_index)
                   lines.back().entries.emplace_back(master, restriction(i, a));
               }
     }
 
     void
-    ConformityLines::constrain_hanging_face(const CellIterator &cell, const unsigned int f)
+    ConformityLines::constrain_hanging_face(const CellIterator &cell,
+                                            const unsigned int  f)
     {
       const auto         parent   = cell->parent();
       const auto         neighbor = cell->neighbor(f);
       const unsigned int face     = cell->neighbor_of_coarser_neighbor(f).first;
-      const bool transposed       = parent->face_orientation(f) != neighbor->face_orientation(face);
-      const unsigned int        child       = child_number(cell);
-      const unsigned int        half[2]     = {(child >> ((f / 2 + 1) % 3)) & 1,
-                                               (child >> ((f / 2 + 2) % 3)) & 1};
-      const FullMatrix<double> &along_i     = lobatto_restriction(half[0]);
-      const FullMatrix<double> &along_j     = lobatto_restriction(half[1]);
-      const LocalNumbering     &fine_dofs   = numbering[cell->active_fe_index()];
-      const LocalNumbering     &coarse_dofs = numbering[neighbor->active_fe_index()];
+      const bool         transposed =
+        parent->face_orientation(f) != neighbor->face_orientation(face);
+      const unsigned int        child     = child_number(cell);
+      const unsigned int        half[2]   = {(child >> ((f / 2 + 1) % 3)) & 1,
+                                             (child >> ((f / 2 + 2) % 3)) & 1};
+      const FullMatrix<double> &along_i   = lobatto_restriction(half[0]);
+      const FullMatrix<double> &along_j   = lobatto_restriction(half[1]);
+      const LocalNumbering     &fine_dofs = numbering[cell->active_fe_index()];
+      const LocalNumbering     &coarse_dofs =
+        numbering[neighbor->active_fe_index()];
       degrees.get_master_dofs(neighbor, masters);
       for (unsigned int c = 0; c < cell->get_fe().n_components(); ++c)
         for (unsigned int j = 0; j < fine_dofs.n; ++j)
           for (unsigned int i = 0; i < fine_dofs.n; ++i)
             // The corner that is one of the parent's as well does not hang.
-            if (!(i == half[0] && j == half[1]) && start_line(own[fine_dofs.on_face(f, i, j, c)]))
+            if (!(i == half[0] && j == half[1]) &&
+                start_line(own[fine_dofs.on_face(f, i, j, c)]))
               for (unsigned int b = 0; b < coarse_dofs.n; ++b)
                 for (unsigned int a = 0; a < coarse_dofs.n; ++a)
                   {
@@ -269,7 +288,9 @@ namespace mortise
   make_conformity_constraints(const DoFHandler<3>       &dof_handler,
                               AffineConstraints<double> &constraints)
   {
-    make_conformity_constraints(dof_handler, EntityDegrees(dof_handler), constraints);
+    make_conformity_constraints(dof_handler,
+                                EntityDegrees(dof_handler),
+                                constraints);
   }
 
   void
@@ -277,10 +298,13 @@ namespace mortise
                               const EntityDegrees       &degrees,
                               AffineConstraints<double> &constraints)
   {
-    AssertThrow(is_consistently_ordered(dof_handler.get_triangulation()),
-                ExcMessage("make_conformity_constraints: the cells are not ordered consistently; "
-                           "try GridTools::consistently_order_cells on the coarse cells"));
-    if (degrees.one_degree() && !dof_handler.get_triangulation().has_hanging_nodes())
+    AssertThrow(
+      is_consistently_ordered(dof_handler.get_triangulation()),
+      ExcMessage(
+        "make_conformity_constraints: the cells are not ordered consistently; "
+        "try GridTools::consistently_order_cells on the coarse cells"));
+    if (degrees.one_degree() &&
+        !dof_handler.get_triangulation().has_hanging_nodes())
       {
         constraints.reinit(all_dofs(dof_handler, {}));
         return;

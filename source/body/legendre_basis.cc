@@ -1,6 +1,6 @@
-#include <mortise/body/legendre_basis.h>
-
 #include <deal.II/base/quadrature_lib.h>
+
+#include <mortise/body/legendre_basis.h>
 
 #include <array>
 #include <cmath>
@@ -14,15 +14,16 @@ namespace mortise
     constexpr unsigned int n_functions = max_lobatto_degree + 1;
 
     /// sqrt(2k-1), the scaling of bubble k.
-    constexpr std::array<double, n_functions> bubble_scaling = {{0.,
-                                                                 1.,
-                                                                 1.7320508075688772935,
-                                                                 2.2360679774997896964,
-                                                                 2.6457513110645905905,
-                                                                 3.,
-                                                                 3.3166247903553998491,
-                                                                 3.6055512754639892931,
-                                                                 3.8729833462074168852}};
+    constexpr std::array<double, n_functions> bubble_scaling = {
+      {0.,
+       1.,
+       1.7320508075688772935,
+       2.2360679774997896964,
+       2.6457513110645905905,
+       3.,
+       3.3166247903553998491,
+       3.6055512754639892931,
+       3.8729833462074168852}};
   } // namespace
 
   void
@@ -32,7 +33,8 @@ namespace mortise
                    double *const      derivatives,
                    double *const      second)
   {
-    Assert(degree >= 1 && degree <= max_lobatto_degree, ExcIndexRange(degree, 1, n_functions));
+    Assert(degree >= 1 && degree <= max_lobatto_degree,
+           ExcIndexRange(degree, 1, n_functions));
 
     values[0] = 1. - x;
     values[1] = x;
@@ -44,14 +46,16 @@ namespace mortise
     if (second != nullptr)
       second[0] = second[1] = 0.;
 
-    // At the beginning of step k: lower = P_{k-2}, p = P_{k-1}; their derivatives likewise.
+    // At the beginning of step k: lower = P_{k-2}, p = P_{k-1}; their
+    // derivatives likewise.
     const double t     = 2. * x - 1.;
     double       lower = 1., p = t;
     double       lower_slope = 0., slope = 1.;
     for (unsigned int k = 2; k <= degree; ++k)
       {
-        // k P_k = (2k-1) t P_{k-1} - (k-1) P_{k-2};  P_k' = P_{k-2}' + (2k-1) P_{k-1}
-        const double next       = ((2. * k - 1.) * t * p - (k - 1.) * lower) / k;
+        // k P_k = (2k-1) t P_{k-1} - (k-1) P_{k-2};  P_k' = P_{k-2}' + (2k-1)
+        // P_{k-1}
+        const double next = ((2. * k - 1.) * t * p - (k - 1.) * lower) / k;
         const double next_slope = lower_slope + (2. * k - 1.) * p;
         values[k]               = (next - lower) / (2. * bubble_scaling[k]);
         if (derivatives != nullptr)
@@ -93,7 +97,8 @@ namespace mortise
           evaluate_lobatto(p, y, values.data(), own.data());
           for (unsigned int i = 2; i < n_functions; ++i)
             for (unsigned int j = i; j < n_functions; ++j)
-              restriction(i, j) += quadrature.weight(q) * 0.5 * parent[j] * own[i];
+              restriction(i, j) +=
+                quadrature.weight(q) * 0.5 * parent[j] * own[i];
         }
       for (unsigned int i = 0; i < n_functions; ++i)
         for (unsigned int j = 0; j < n_functions; ++j)
@@ -114,10 +119,11 @@ namespace mortise
 
   namespace
   {
-    /// C(i,j): what function N_j of the child contributes to N_i of the parent. For i = 0, 1 the
-    /// value at the parent's end, if that is one of this child's; for i >= 2
-    /// int_child N_i'(x) (d/dx) N_j dx = 2 int_0^1 (d/dy) N_i(x(y)) N_j'(y) dy,
-    /// since the derivatives of the bubbles are orthonormal.
+    /// C(i,j): what function N_j of the child contributes to N_i of the parent.
+    /// For i = 0, 1 the value at the parent's end, if that is one of this
+    /// child's; for i >= 2 int_child N_i'(x) (d/dx) N_j dx = 2 int_0^1 (d/dy)
+    /// N_i(x(y)) N_j'(y) dy, since the derivatives of the bubbles are
+    /// orthonormal.
     FullMatrix<double>
     compute_coarsening(const unsigned int child)
     {
@@ -148,8 +154,9 @@ namespace mortise
 
   namespace
   {
-    /// N_k as a product of its roots: 0, 1 and the roots of P'_{k-1}, that is the k points of the
-    /// Gauss-Lobatto rule. deal.II's product form is one at the extra point given last.
+    /// N_k as a product of its roots: 0, 1 and the roots of P'_{k-1}, that is
+    /// the k points of the Gauss-Lobatto rule. deal.II's product form is one at
+    /// the extra point given last.
     Polynomials::Polynomial<double>
     bubble_polynomial(const unsigned int k)
     {
@@ -157,7 +164,9 @@ namespace mortise
       points.front()[0]            = 0.;
       points.back()[0]             = 1.;
       const double at =
-        k % 2 == 0 ? 0.5 : 0.5 * (points[(k - 1) / 2][0] + points[(k - 1) / 2 + 1][0]);
+        k % 2 == 0 ?
+          0.5 :
+          0.5 * (points[(k - 1) / 2][0] + points[(k - 1) / 2 + 1][0]);
       points.emplace_back(at);
 
       std::array<double, n_functions> values;
@@ -171,8 +180,9 @@ namespace mortise
   std::vector<Polynomials::Polynomial<double>>
   lobatto_polynomials(const unsigned int degree)
   {
-    AssertThrow(degree >= 1 && degree <= max_lobatto_degree, ExcIndexRange(degree, 1, n_functions));
-    const std::vector<Point<1>>                  ends = {Point<1>(0.), Point<1>(1.)};
+    AssertThrow(degree >= 1 && degree <= max_lobatto_degree,
+                ExcIndexRange(degree, 1, n_functions));
+    const std::vector<Point<1>> ends = {Point<1>(0.), Point<1>(1.)};
     std::vector<Polynomials::Polynomial<double>> polynomials;
     polynomials.reserve(degree + 1);
     polynomials.emplace_back(ends, 0);

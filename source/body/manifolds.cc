@@ -1,10 +1,10 @@
-#include <mortise/body/manifolds.h>
-
 #include <deal.II/base/array_view.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/table.h>
 
 #include <boost/container/small_vector.hpp>
+
+#include <mortise/body/manifolds.h>
 
 #include <cmath>
 
@@ -45,7 +45,8 @@ namespace mortise
     }
 
     boost::container::small_vector<Polar, 100>
-    polar_points(const Point<3> &centre, const ArrayView<const Point<3>> &points)
+    polar_points(const Point<3>                  &centre,
+                 const ArrayView<const Point<3>> &points)
     {
       boost::container::small_vector<Polar, 100> result;
       for (const Point<3> &p : points)
@@ -67,8 +68,7 @@ namespace mortise
 
   SphereManifold::SphereManifold(const RigidMotion &motion)
     : centre(motion.translation)
-  {
-  }
+  {}
 
   std::unique_ptr<Manifold<3>>
   SphereManifold::clone() const
@@ -87,7 +87,7 @@ namespace mortise
   void
   SphereManifold::get_new_points(const ArrayView<const Point<3>> &points,
                                  const Table<2, double>          &weights,
-                                 ArrayView<Point<3>>              new_points) const
+                                 ArrayView<Point<3>> new_points) const
   {
     AssertDimension(points.size(), weights.size(1));
     AssertDimension(new_points.size(), weights.size(0));
@@ -98,18 +98,19 @@ namespace mortise
   }
 
   Tensor<1, 3>
-  SphereManifold::get_tangent_vector(const Point<3> &x1, const Point<3> &x2) const
+  SphereManifold::get_tangent_vector(const Point<3> &x1,
+                                     const Point<3> &x2) const
   {
     const Polar a = polar(x1 - centre), b = polar(x2 - centre);
-    // Derivative at t = 0 of (r1 + t (r2 - r1)) times the normalised d1 + t (d2 - d1).
+    // Derivative at t = 0 of (r1 + t (r2 - r1)) times the normalised d1 + t (d2
+    // - d1).
     return (b.radius - a.radius) * a.direction +
            a.radius * (b.direction - (a.direction * b.direction) * a.direction);
   }
 
   CylinderManifold::CylinderManifold(const RigidMotion &motion)
     : motion(motion)
-  {
-  }
+  {}
 
   std::unique_ptr<Manifold<3>>
   CylinderManifold::clone() const
@@ -127,7 +128,9 @@ namespace mortise
   Point<3>
   CylinderManifold::push_forward(const Point<3> &chart) const
   {
-    return motion(Point<3>(chart[0] * std::cos(chart[1]), chart[0] * std::sin(chart[1]), chart[2]));
+    return motion(Point<3>(chart[0] * std::cos(chart[1]),
+                           chart[0] * std::sin(chart[1]),
+                           chart[2]));
   }
 
   DerivativeForm<1, 3, 3>
@@ -171,11 +174,11 @@ namespace mortise
     return {amplitude * f, amplitude * f_s * ds, amplitude * f_t * dt};
   }
 
-  CurvedBlockManifold::CurvedBlockManifold(const Shape &shape, const RigidMotion &motion)
+  CurvedBlockManifold::CurvedBlockManifold(const Shape       &shape,
+                                           const RigidMotion &motion)
     : shape(shape)
     , motion(motion)
-  {
-  }
+  {}
 
   std::unique_ptr<Manifold<3>>
   CurvedBlockManifold::clone() const
@@ -189,9 +192,11 @@ namespace mortise
     Point<3>     x = motion.inverse(p);
     const double F = shape.height(x[0], x[1]).value;
     if (x[2] <= shape.z_middle + F)
-      x[2] = shape.z0 + (x[2] - shape.z0) / (1. + F / (shape.z_middle - shape.z0));
+      x[2] =
+        shape.z0 + (x[2] - shape.z0) / (1. + F / (shape.z_middle - shape.z0));
     else
-      x[2] = shape.z1 - (shape.z1 - x[2]) / (1. - F / (shape.z1 - shape.z_middle));
+      x[2] =
+        shape.z1 - (shape.z1 - x[2]) / (1. - F / (shape.z1 - shape.z_middle));
     return x;
   }
 
@@ -209,11 +214,13 @@ namespace mortise
   DerivativeForm<1, 3, 3>
   CurvedBlockManifold::push_forward_gradient(const Point<3> &chart) const
   {
-    const bool   lower = chart[2] <= shape.z_middle;
-    const double g     = lower ? (chart[2] - shape.z0) / (shape.z_middle - shape.z0) :
-                                 (shape.z1 - chart[2]) / (shape.z1 - shape.z_middle);
-    const double g_z = lower ? 1. / (shape.z_middle - shape.z0) : -1. / (shape.z1 - shape.z_middle);
-    const Shape::Height F = shape.height(chart[0], chart[1]);
+    const bool          lower = chart[2] <= shape.z_middle;
+    const double        g     = lower ?
+                                  (chart[2] - shape.z0) / (shape.z_middle - shape.z0) :
+                                  (shape.z1 - chart[2]) / (shape.z1 - shape.z_middle);
+    const double        g_z   = lower ? 1. / (shape.z_middle - shape.z0) :
+                                        -1. / (shape.z1 - shape.z_middle);
+    const Shape::Height F     = shape.height(chart[0], chart[1]);
     Tensor<2, 3>        jacobian;
     jacobian[0][0] = jacobian[1][1] = 1.;
     jacobian[2][0]                  = g * F.dx;

@@ -1,10 +1,10 @@
-#include <mortise/base/error.h>
-#include <mortise/body/mesh_file.h>
-#include <mortise/body/mesh_source.h>
-
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
+
+#include <mortise/base/error.h>
+#include <mortise/body/mesh_file.h>
+#include <mortise/body/mesh_source.h>
 
 #include <algorithm>
 #include <sstream>
@@ -15,27 +15,35 @@ namespace mortise
 
   namespace
   {
-    /// The edges of a cell, from deal.II's line vertex 0 to 1, must run the same way in all cells.
+    /// The edges of a cell, from deal.II's line vertex 0 to 1, must run the
+    /// same way in all cells.
     bool
     consistently_ordered(const std::vector<CellData<3>> &cells)
     {
-      std::vector<std::array<unsigned int, 3>> edges; // smaller vertex, larger vertex, direction
+      std::vector<std::array<unsigned int, 3>>
+        edges; // smaller vertex, larger vertex, direction
       edges.reserve(12 * cells.size());
       for (const CellData<3> &cell : cells)
         for (unsigned int line = 0; line < 12; ++line)
           {
-            const unsigned int a = cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 0)];
-            const unsigned int b = cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 1)];
+            const unsigned int a =
+              cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 0)];
+            const unsigned int b =
+              cell.vertices[GeometryInfo<3>::line_to_cell_vertices(line, 1)];
             edges.push_back({{std::min(a, b), std::max(a, b), a < b}});
           }
       std::sort(edges.begin(), edges.end());
-      return std::adjacent_find(edges.begin(), edges.end(), [](const auto &e, const auto &f) {
-               return e[0] == f[0] && e[1] == f[1] && e[2] != f[2];
-             }) == edges.end();
+      return std::adjacent_find(edges.begin(),
+                                edges.end(),
+                                [](const auto &e, const auto &f) {
+                                  return e[0] == f[0] && e[1] == f[1] &&
+                                         e[2] != f[2];
+                                }) == edges.end();
     }
 
-    /// Order the cells so that a face between two of them is at most transposed; a mesh that has
-    /// no such order has one after a uniform refinement. Throws if even that fails.
+    /// Order the cells so that a face between two of them is at most
+    /// transposed; a mesh that has no such order has one after a uniform
+    /// refinement. Throws if even that fails.
     void
     order_cells(CoarseMesh &mesh, const std::string &where)
     {
@@ -55,8 +63,9 @@ namespace mortise
           GridTools::consistently_order_cells(ordered);
           if (!consistently_ordered(ordered))
             throw InputError(
-              where + ": the cells of the mesh cannot be ordered consistently, not even after "
-                      "one uniform refinement");
+              where +
+              ": the cells of the mesh cannot be ordered consistently, not even after "
+              "one uniform refinement");
         }
       mesh.cells = ordered;
     }
@@ -71,12 +80,13 @@ namespace mortise
             const auto  &vertices = mesh.cells[c].vertices;
             Tensor<2, 3> edges;
             for (unsigned int d = 0; d < 3; ++d)
-              edges[d] =
-                mesh.vertices[vertices[v | (1 << d)]] - mesh.vertices[vertices[v & ~(1 << d)]];
+              edges[d] = mesh.vertices[vertices[v | (1 << d)]] -
+                         mesh.vertices[vertices[v & ~(1 << d)]];
             if (determinant(edges) > 0.)
               continue;
             std::ostringstream message;
-            message << where << ": cell " << c << " near (" << mesh.vertices[vertices[v]]
+            message << where << ": cell " << c << " near ("
+                    << mesh.vertices[vertices[v]]
                     << ") is turned inside out; allowed: convex hexahedra";
             throw InputError(message.str());
           }
@@ -113,20 +123,24 @@ namespace mortise
               {
                 bool near = cell->center().distance(ball.centre) <= ball.radius;
                 for (const unsigned int v : cell->vertex_indices())
-                  near = near || cell->vertex(v).distance(ball.centre) <= ball.radius;
+                  near = near ||
+                         cell->vertex(v).distance(ball.centre) <= ball.radius;
                 if (near)
                   {
                     cell->set_refine_flag();
                     ++n_flagged;
                   }
               }
-          if (Utilities::MPI::sum(n_flagged, triangulation.get_communicator()) == 0)
+          if (Utilities::MPI::sum(n_flagged,
+                                  triangulation.get_communicator()) == 0)
             {
               std::ostringstream message;
-              message << where << ": Refine near finds no cell with its centre or a vertex within "
-                      << ball.radius << " of (" << ball.centre
-                      << "); allowed: a ball that meets the body where it stands after Rotate and "
-                         "Translate";
+              message
+                << where
+                << ": Refine near finds no cell with its centre or a vertex within "
+                << ball.radius << " of (" << ball.centre
+                << "); allowed: a ball that meets the body where it stands after Rotate and "
+                   "Translate";
               throw InputError(message.str());
             }
           triangulation.execute_coarsening_and_refinement();
@@ -139,7 +153,8 @@ namespace mortise
               HexTriangulation     &triangulation,
               const std::string    &where)
   {
-    Assert(triangulation.n_levels() == 0, ExcMessage("The triangulation is not empty."));
+    Assert(triangulation.n_levels() == 0,
+           ExcMessage("The triangulation is not empty."));
     // A file may be missing or damaged on some ranks only.
     CoarseMesh  mesh;
     std::string problem;
@@ -161,7 +176,8 @@ namespace mortise
         triangulation.set_manifold(0, *mesh.manifold);
       }
     triangulation.refine_global(parameters.refinements);
-    for (const RefinementBall &ball : parse_refine_near(parameters.refine_near, where))
+    for (const RefinementBall &ball :
+         parse_refine_near(parameters.refine_near, where))
       refine_near(ball, triangulation, where);
     return mesh.names;
   }

@@ -1,9 +1,9 @@
+#include <deal.II/base/utilities.h>
+
 #include <mortise/base/error.h>
 #include <mortise/body/generators.h>
 #include <mortise/body/mesh_file.h>
 #include <mortise/body/mesh_source.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,8 @@ namespace mortise
     Layout
     layout_of(const MeshParameters &q)
     {
-      const std::vector<std::string> corners = {"x0", "y0", "z0", "x1", "y1", "z1"};
+      const std::vector<std::string> corners = {
+        "x0", "y0", "z0", "x1", "y1", "z1"};
       if (q.source == "shell octant")
         return {{"r_in", "r_out"}, {"n", "m"}};
       if (q.source == "cylinder sector")
@@ -42,8 +43,7 @@ namespace mortise
     public:
       explicit Checker(const std::string &where)
         : where(where)
-      {
-      }
+      {}
 
       void
       require(const bool fine, const std::string &what) const
@@ -73,10 +73,11 @@ namespace mortise
             const std::size_t               n_got) const
       {
         require(n_got == names.size(),
-                parameter + " = " + (n_got == 0 ? "(nothing)" : got) + "; allowed: " +
-                  (names.empty() ?
-                     "nothing" :
-                     std::to_string(names.size()) + " numbers, " + join_names(names)) +
+                parameter + " = " + (n_got == 0 ? "(nothing)" : got) +
+                  "; allowed: " +
+                  (names.empty() ? "nothing" :
+                                   std::to_string(names.size()) + " numbers, " +
+                                     join_names(names)) +
                   ", for Source = " + source);
       }
 
@@ -98,38 +99,51 @@ namespace mortise
     bool
     all_finite(const Numbers &numbers)
     {
-      return std::all_of(numbers.begin(), numbers.end(), [](const double number) {
-        return std::isfinite(number);
-      });
+      return std::all_of(numbers.begin(),
+                         numbers.end(),
+                         [](const double number) {
+                           return std::isfinite(number);
+                         });
     }
 
     void
     validate_numbers(const MeshParameters &q, const Checker &check)
     {
       const Layout layout = layout_of(q);
-      check.count("Extent", q.source, list(q.extent), layout.extent, q.extent.size());
       check.count(
-        "Subdivisions", q.source, list(q.subdivisions), layout.subdivisions, q.subdivisions.size());
+        "Extent", q.source, list(q.extent), layout.extent, q.extent.size());
+      check.count("Subdivisions",
+                  q.source,
+                  list(q.subdivisions),
+                  layout.subdivisions,
+                  q.subdivisions.size());
       double cells = 1.;
       for (const unsigned int n : q.subdivisions)
         {
           check.require(n >= 1 && n <= 10000,
-                        "Subdivisions = " + list(q.subdivisions) + "; allowed: 1 to 10000 each");
+                        "Subdivisions = " + list(q.subdivisions) +
+                          "; allowed: 1 to 10000 each");
           cells *= n;
         }
-      check.require(cells <= 2e7,
-                    "Subdivisions = " + list(q.subdivisions) +
-                      " make more than 20 million coarse cells; use Refinements instead");
-      check.require(all_finite(q.extent), "Extent = " + list(q.extent) + " is not finite");
-      const bool radial = q.source == "shell octant" || q.source == "cylinder sector";
+      check.require(
+        cells <= 2e7,
+        "Subdivisions = " + list(q.subdivisions) +
+          " make more than 20 million coarse cells; use Refinements instead");
+      check.require(all_finite(q.extent),
+                    "Extent = " + list(q.extent) + " is not finite");
+      const bool radial =
+        q.source == "shell octant" || q.source == "cylinder sector";
       if (radial)
         check.require(0. < q.extent[0] && q.extent[0] < q.extent[1],
-                      "Extent = " + list(q.extent) + "; allowed: 0 < r_in < r_out");
+                      "Extent = " + list(q.extent) +
+                        "; allowed: 0 < r_in < r_out");
       if (q.source == "cylinder sector")
-        check.require(0. < q.extent[2], "Extent = " + list(q.extent) + "; allowed: length > 0");
+        check.require(0. < q.extent[2],
+                      "Extent = " + list(q.extent) + "; allowed: length > 0");
       for (unsigned int d = 0; q.extent.size() == 6 && d < 3; ++d)
         check.require(q.extent[d] < q.extent[d + 3],
-                      "Extent = " + list(q.extent) + "; allowed: x0 < x1, y0 < y1, z0 < z1");
+                      "Extent = " + list(q.extent) +
+                        "; allowed: x0 < x1, y0 < y1, z0 < z1");
     }
 
     void
@@ -137,24 +151,29 @@ namespace mortise
     {
       if (q.source != "box")
         {
-          for (const double slope :
-               {q.bottom_slope[0], q.bottom_slope[1], q.top_slope[0], q.top_slope[1]})
-            check.require(slope == 0., "Bottom slope and Top slope belong to Source = box");
+          for (const double slope : {q.bottom_slope[0],
+                                     q.bottom_slope[1],
+                                     q.top_slope[0],
+                                     q.top_slope[1]})
+            check.require(slope == 0.,
+                          "Bottom slope and Top slope belong to Source = box");
           check.require(q.distort == 0., "Distort belongs to Source = box");
           return;
         }
       check.require(q.distort >= 0. && q.distort <= 0.3,
-                    "Distort = " + list<double>({q.distort}) + "; allowed: 0 to 0.3");
+                    "Distort = " + list<double>({q.distort}) +
+                      "; allowed: 0 to 0.3");
       check.require(all_finite(q.bottom_slope) && all_finite(q.top_slope),
                     "Bottom slope or Top slope is not finite");
       for (unsigned int corner = 0; corner < 4; ++corner)
         {
           const double x = corner % 2 * (q.extent[3] - q.extent[0]);
           const double y = corner / 2 * (q.extent[4] - q.extent[1]);
-          check.require(q.extent[5] + q.top_slope[0] * x + q.top_slope[1] * y >
-                          q.extent[2] + q.bottom_slope[0] * x + q.bottom_slope[1] * y,
-                        "with Bottom slope and Top slope the top meets the bottom of the box; "
-                        "allowed: slopes that leave a positive height at all four sides");
+          check.require(
+            q.extent[5] + q.top_slope[0] * x + q.top_slope[1] * y >
+              q.extent[2] + q.bottom_slope[0] * x + q.bottom_slope[1] * y,
+            "with Bottom slope and Top slope the top meets the bottom of the box; "
+            "allowed: slopes that leave a positive height at all four sides");
         }
     }
 
@@ -163,15 +182,19 @@ namespace mortise
     {
       if (q.source != "curved block")
         {
-          check.require(q.amplitude == 0., "Amplitude belongs to Source = curved block");
+          check.require(q.amplitude == 0.,
+                        "Amplitude belongs to Source = curved block");
           return;
         }
       check.choice("Surface", q.surface, surface_names());
       check.require(q.middle > 0. && q.middle < 1.,
-                    "Middle = " + list<double>({q.middle}) + "; allowed: between 0 and 1");
-      const double       height = (q.extent[5] - q.extent[2]) * std::min(q.middle, 1. - q.middle);
+                    "Middle = " + list<double>({q.middle}) +
+                      "; allowed: between 0 and 1");
+      const double height =
+        (q.extent[5] - q.extent[2]) * std::min(q.middle, 1. - q.middle);
       std::ostringstream got;
-      got << "Amplitude = " << q.amplitude << "; allowed: less in magnitude than " << 0.9 * height
+      got << "Amplitude = " << q.amplitude
+          << "; allowed: less in magnitude than " << 0.9 * height
           << ", 0.9 times the height of the thinner half";
       check.require(std::fabs(q.amplitude) < 0.9 * height, got.str());
     }
@@ -197,18 +220,20 @@ namespace mortise
         std::vector<double> numbers;
         try
           {
-            numbers = Utilities::string_to_double(Utilities::split_string_list(entry, ','));
+            numbers = Utilities::string_to_double(
+              Utilities::split_string_list(entry, ','));
           }
         catch (const std::exception &)
           {
             numbers.clear();
           }
-        check.require(numbers.size() == 5 && all_finite(numbers) && numbers[3] > 0. &&
-                        numbers[4] >= 1. && numbers[4] <= 12. &&
-                        numbers[4] == std::floor(numbers[4]),
-                      "Refine near has the entry '" + entry +
-                        "'; allowed: x, y, z, radius, times; with radius > 0 and a whole number "
-                        "of times from 1 to 12, entries separated by ';'");
+        check.require(
+          numbers.size() == 5 && all_finite(numbers) && numbers[3] > 0. &&
+            numbers[4] >= 1. && numbers[4] <= 12. &&
+            numbers[4] == std::floor(numbers[4]),
+          "Refine near has the entry '" + entry +
+            "'; allowed: x, y, z, radius, times; with radius > 0 and a whole number "
+            "of times from 1 to 12, entries separated by ';'");
         balls.push_back({Point<3>(numbers[0], numbers[1], numbers[2]),
                          numbers[3],
                          static_cast<unsigned int>(numbers[4])});
@@ -221,14 +246,16 @@ namespace mortise
   {
     const Checker check(where);
     check.choice("Source", parameters.source, mesh_source_names());
-    check.require(parameters.cells != "tetrahedra",
-                  "Cells = tetrahedra is not available yet; allowed: hexahedra");
+    check.require(
+      parameters.cells != "tetrahedra",
+      "Cells = tetrahedra is not available yet; allowed: hexahedra");
     check.choice("Cells", parameters.cells, {"hexahedra"});
     if (parameters.source == "curved block")
       check.choice("Half", parameters.half, {"lower", "upper", "both"});
     check.require(parameters.source == "file" || parameters.file.empty(),
                   "File = '" + parameters.file +
-                    "' belongs to Source = file; got Source = " + parameters.source);
+                    "' belongs to Source = file; got Source = " +
+                    parameters.source);
     validate_numbers(parameters, check);
     validate_box(parameters, check);
     validate_curved_block(parameters, check);
@@ -237,9 +264,10 @@ namespace mortise
     for (const RefinementBall &ball : balls)
       levels += ball.times;
     check.require(levels <= 14,
-                  "Refinements and the times of Refine near make " + std::to_string(levels) +
-                    " levels; allowed: 14 in all");
-    check.require(all_finite(parameters.rotate) && all_finite(parameters.translate),
+                  "Refinements and the times of Refine near make " +
+                    std::to_string(levels) + " levels; allowed: 14 in all");
+    check.require(all_finite(parameters.rotate) &&
+                    all_finite(parameters.translate),
                   "Rotate or Translate is not finite");
     if (parameters.source == "file")
       scan_mesh_file(parameters.file, where);
@@ -250,11 +278,14 @@ namespace mortise
   {
     if (parameters.source != "file")
       {
-        Checker("Mesh").choice("Source", parameters.source, mesh_source_names());
+        Checker("Mesh").choice("Source",
+                               parameters.source,
+                               mesh_source_names());
         return generator_boundaries(parameters);
       }
     std::vector<std::string> names;
-    for (const auto &[name, id] : read_mesh_file(parameters.file, "Mesh").names.boundaries)
+    for (const auto &[name, id] :
+         read_mesh_file(parameters.file, "Mesh").names.boundaries)
       names.push_back(name);
     return names;
   }

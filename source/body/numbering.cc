@@ -1,6 +1,6 @@
-#include <mortise/body/numbering.h>
-
 #include <deal.II/base/mpi.h>
+
+#include <mortise/body/numbering.h>
 
 #include <algorithm>
 
@@ -8,8 +8,9 @@ namespace mortise
 {
   using namespace dealii;
 
-  DisplacementNumbering::DisplacementNumbering(const std::vector<const DoFHandler<3> *> &handlers,
-                                               const MPI_Comm                            comm)
+  DisplacementNumbering::DisplacementNumbering(
+    const std::vector<const DoFHandler<3> *> &handlers,
+    const MPI_Comm                            comm)
     : n_bodies(handlers.size())
     , body_start(handlers.size())
   {
@@ -19,7 +20,8 @@ namespace mortise
     std::vector<std::vector<Index>> n_owned(n_bodies);
     for (unsigned int b = 0; b < n_bodies; ++b)
       {
-        n_owned[b] = Utilities::MPI::all_gather(comm, Index(handlers[b]->n_locally_owned_dofs()));
+        n_owned[b] = Utilities::MPI::all_gather(
+          comm, Index(handlers[b]->n_locally_owned_dofs()));
         body_start[b].assign(n_ranks + 1, 0);
         for (unsigned int r = 0; r < n_ranks; ++r)
           body_start[b][r + 1] = body_start[b][r] + n_owned[b][r];
@@ -46,10 +48,12 @@ namespace mortise
   unsigned int
   DisplacementNumbering::owner(const unsigned int body, const Index dof) const
   {
-    // the last rank whose first dof is not larger; empty ranks share the start of their successor
+    // the last rank whose first dof is not larger; empty ranks share the start
+    // of their successor
     const auto &start = body_start[body];
     Assert(dof < start.back(), ExcIndexRange(dof, 0, start.back()));
-    return std::upper_bound(start.begin(), start.end(), dof) - start.begin() - 1;
+    return std::upper_bound(start.begin(), start.end(), dof) - start.begin() -
+           1;
   }
 
   void
@@ -57,14 +61,17 @@ namespace mortise
                                 const IndexSet    &body_set,
                                 IndexSet          &scene_set) const
   {
-    for (auto interval = body_set.begin_intervals(); interval != body_set.end_intervals(); ++interval)
+    for (auto interval = body_set.begin_intervals();
+         interval != body_set.end_intervals();
+         ++interval)
       {
         // split at the boundaries of ranks, where the numbering jumps
-        Index first = *interval->begin();
-        const Index end = interval->last() + 1;
+        Index       first = *interval->begin();
+        const Index end   = interval->last() + 1;
         while (first < end)
           {
-            const Index stop = std::min<Index>(end, body_start[body][owner(body, first) + 1]);
+            const Index stop =
+              std::min<Index>(end, body_start[body][owner(body, first) + 1]);
             const Index image = (*this)(body, first);
             scene_set.add_range(image, image + (stop - first));
             first = stop;

@@ -1,11 +1,10 @@
-#include <mortise/interface/body_surface.h>
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/base/utilities.h>
 
 #include <mortise/body/boundary_faces.h>
 #include <mortise/body/face_topology.h>
 #include <mortise/body/fe_legendre.h>
-
-#include <deal.II/base/quadrature_lib.h>
-#include <deal.II/base/utilities.h>
+#include <mortise/interface/body_surface.h>
 
 namespace mortise
 {
@@ -14,18 +13,23 @@ namespace mortise
   namespace
   {
     SurfaceFace
-    face_geometry(const Body &body, const Body::CellIterator &cell, const unsigned int f)
+    face_geometry(const Body               &body,
+                  const Body::CellIterator &cell,
+                  const unsigned int        f)
     {
       SurfaceFace face;
-      face.degree            = body.mapping_degree;
-      face.orientation       = face_topology::outward_sign(f);
-      face.id                = cell->global_active_cell_index() * 6 + f;
-      face.owner             = cell->subdomain_id();
+      face.degree      = body.mapping_degree;
+      face.orientation = face_topology::outward_sign(f);
+      face.id          = cell->global_active_cell_index() * 6 + f;
+      face.owner       = cell->subdomain_id();
       const QGaussLobatto<1> nodes(face.degree + 1);
       for (unsigned int j = 0; j <= face.degree; ++j)
         for (unsigned int i = 0; i <= face.degree; ++i)
           face.points.push_back(body.mapping->transform_unit_to_real_cell(
-            cell, face_topology::unit_point(f, nodes.point(i)[0], nodes.point(j)[0])));
+            cell,
+            face_topology::unit_point(f,
+                                      nodes.point(i)[0],
+                                      nodes.point(j)[0])));
       return face;
     }
 
@@ -37,10 +41,10 @@ namespace mortise
                const AffineConstraints<double> &constraints)
     {
       FaceTrace trace;
-      trace.degree     = body.degree(cell);
-      trace.modulus    = body.material.young_modulus;
-      const auto dofs  = face_dofs(body, cell, f);
-      trace.begin      = {0};
+      trace.degree    = body.degree(cell);
+      trace.modulus   = body.material.young_modulus;
+      const auto dofs = face_dofs(body, cell, f);
+      trace.begin     = {0};
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int k = 0; k < trace.n_functions(); ++k)
           {
@@ -64,12 +68,15 @@ namespace mortise
   } // namespace
 
   std::array<std::vector<types::global_dof_index>, dim>
-  face_dofs(const Body &body, const Body::CellIterator &cell, const unsigned int face_number)
+  face_dofs(const Body               &body,
+            const Body::CellIterator &cell,
+            const unsigned int        face_number)
   {
-    const auto &fe = cell->get_fe();
+    const auto                          &fe = cell->get_fe();
     std::vector<types::global_dof_index> cell_dofs(fe.n_dofs_per_cell());
     cell->get_dof_indices(cell_dofs);
-    const std::vector<unsigned int> on_face = face_dof_indices(body.degree(cell), face_number);
+    const std::vector<unsigned int> on_face =
+      face_dof_indices(body.degree(cell), face_number);
 
     std::array<std::vector<types::global_dof_index>, dim> dofs;
     for (unsigned int c = 0; c < dim; ++c)
@@ -94,7 +101,8 @@ namespace mortise
         faces.push_back(face_geometry(body, cell, f));
         std::array<std::uint64_t, 4> corners;
         for (unsigned int v = 0; v < 4; ++v)
-          corners[v] = cell->vertex_index(face_topology::vertex(f, v % 2, v / 2));
+          corners[v] =
+            cell->vertex_index(face_topology::vertex(f, v % 2, v / 2));
         vertices.push_back(corners);
         owned.push_back(cell->is_locally_owned());
         if (owned.back())
@@ -109,8 +117,11 @@ namespace mortise
       if (owned[i])
         {
           const unsigned int local = surface.faces.size();
-          surface.traces.push_back(face_trace(
-            body, surface.cells[local], surface.face_numbers[local], numbering, constraints));
+          surface.traces.push_back(face_trace(body,
+                                              surface.cells[local],
+                                              surface.face_numbers[local],
+                                              numbering,
+                                              constraints));
           faces[i].finalize();
           faces[i].payload = Utilities::pack(surface.traces.back(), false);
           surface.faces.push_back(std::move(faces[i]));

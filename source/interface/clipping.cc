@@ -14,17 +14,24 @@ namespace mortise
 
     // Cubic on [0,1] with values f and slopes d at the ends.
     inline double
-    cubic(const double f_0, const double f_1, const double d_0, const double d_1, const double t)
+    cubic(const double f_0,
+          const double f_1,
+          const double d_0,
+          const double d_1,
+          const double t)
     {
       const double s = 1. - t;
       return s * s * (1. + 2. * t) * f_0 + t * t * (1. + 2. * s) * f_1 +
              s * t * (s * d_0 - t * d_1);
     }
 
-    // The value nearest to zero of the cubic with these ends and slopes at seven inner points,
-    // with the sign of the ends (both of one sign).
+    // The value nearest to zero of the cubic with these ends and slopes at
+    // seven inner points, with the sign of the ends (both of one sign).
     double
-    nearest_of_cubic(const double f_0, const double f_1, const double d_0, const double d_1)
+    nearest_of_cubic(const double f_0,
+                     const double f_1,
+                     const double d_0,
+                     const double d_1)
     {
       const double sign   = f_0 + f_1 >= 0 ? 1. : -1.;
       double       result = std::min(sign * f_0, sign * f_1);
@@ -64,109 +71,25 @@ namespace mortise
 
 
 
-  // Cut an edge until each part is outside of the slave face on one side, or short and flat
-  // enough in the slave's chart for its ends and slopes to describe it.
-  void
-  LoopClipper::subdivide_edge(const unsigned int edge)
-  {
-    const EdgePolynomial &polynomial = master->edges[edge];
-    const LagrangeBasis  &basis      = lagrange_basis(polynomial.degree);
-    const unsigned int    n          = polynomial.degree + 1;
-    double                nodal[3][max_face_nodes];
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const auto &c     = polynomial.coefficients;
-        const auto  chart = slave->chart({{c[0][i], c[1][i], c[2][i]}});
-        for (unsigned int d = 0; d < 3; ++d)
-          nodal[d][i] = chart[d];
-      }
-    control.assign(3 * n, 0.);
-    for (unsigned int d = 0; d < 3; ++d)
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          control[d * n + i] += basis.bernstein[i][j] * nodal[d][j];
-    breakpoints.push_back({edge, 0., {0., 0.}, {0., 0.}});
-    subdivide(edge, 0., 1., 0);
-  }
-
-
-
-  void
-  LoopClipper::subdivide(const unsigned int edge,
-                         const double       tau_0,
-                         const double       tau_1,
-                         unsigned int       depth)
-  {
-    constexpr double       flat_enough = 0.25, short_enough = 3.;
-    constexpr unsigned int max_depth = 14;
-
-    const unsigned int n    = master->edges[edge].degree + 1;
-    const unsigned int base = control.size() - 3 * n;
-    double             low[3], high[3], bend = 0, length = 0;
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        const double *c = &control[base + d * n];
-        low[d] = high[d] = c[0];
-        for (unsigned int i = 1; i < n; ++i)
-          {
-            low[d]  = std::min(low[d], c[i]);
-            high[d] = std::max(high[d], c[i]);
-            if (d < 2)
-              bend = std::max(bend, std::abs(c[i] - c[0] - (c[n - 1] - c[0]) * i / (n - 1.)));
-          }
-        if (d < 2)
-          length = std::max(length, high[d] - low[d]);
-      }
-    const double height   = std::min(std::max(high[2], -low[2]), slave->height_limit);
-    const double widening = slave->twist() * height;
-    const bool   far =
-      low[0] > slave->near_upper[0] + widening || high[0] < slave->near_lower[0] - widening ||
-      low[1] > slave->near_upper[1] + widening || high[1] < slave->near_lower[1] - widening;
-    const bool simple = bend <= flat_enough && (slave->linear() || length <= short_enough);
-    if (far || simple || depth >= max_depth)
-      {
-        const unsigned int last = breakpoints.size();
-        segments.push_back({last - 1, last, far, false, 0., {0., 0.}});
-        breakpoints.push_back({edge, tau_1, {0., 0.}, {0., 0.}});
-        return;
-      }
-
-    // de Casteljau: the left half goes on the stack, the right half stays below it.
-    control.resize(base + 6 * n);
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        double *right = &control[base + d * n], *left = &control[base + (3 + d) * n];
-        for (unsigned int i = 0; i < n; ++i)
-          {
-            left[i] = right[0];
-            for (unsigned int j = 0; j + 1 < n - i; ++j)
-              right[j] = 0.5 * (right[j] + right[j + 1]);
-          }
-      }
-    const double tau = 0.5 * (tau_0 + tau_1);
-    subdivide(edge, tau_0, tau, depth + 1);
-    control.resize(base + 3 * n);
-    subdivide(edge, tau, tau_1, depth + 1);
-  }
-
-
-
   // Pull back the breakpoints from @p first on, with their velocities; their xi may be a guess.
   void
   LoopClipper::locate(const unsigned int first, const bool has_guess)
   {
-    for (unsigned int begin = first; begin < breakpoints.size(); begin += n_lanes)
+    for (unsigned int begin = first; begin < breakpoints.size();
+         begin += n_lanes)
       {
-        const unsigned int count = std::min<unsigned int>(n_lanes, breakpoints.size() - begin);
-        unsigned int       edge[n_lanes];
-        Lanes              tau, xi[2], dxi[2], alpha{};
+        const unsigned int count =
+          std::min<unsigned int>(n_lanes, breakpoints.size() - begin);
+        unsigned int edge[n_lanes];
+        Lanes        tau, xi[2], dxi[2], alpha{};
         for (unsigned int l = 0; l < n_lanes; ++l)
           {
-            const Breakpoint &point = breakpoints[begin + std::min(l, count - 1)];
-            edge[l]                 = point.edge;
-            tau[l]                  = point.tau;
-            xi[0][l]                = point.xi[0];
-            xi[1][l]                = point.xi[1];
+            const Breakpoint &point =
+              breakpoints[begin + std::min(l, count - 1)];
+            edge[l]  = point.edge;
+            tau[l]   = point.tau;
+            xi[0][l] = point.xi[0];
+            xi[1][l] = point.xi[1];
           }
         Vec3<Lanes> x, dx;
         evaluate_edges(master->edges, edge, tau, x, dx);
@@ -194,15 +117,17 @@ namespace mortise
     for (unsigned int b = 0; b < breakpoints.size(); ++b)
       if (breakpoints[b].tau == 0.)
         {
-          const Breakpoint &before = breakpoints[b == 0 ? breakpoints.size() - 1 : b - 1];
+          const Breakpoint &before =
+            breakpoints[b == 0 ? breakpoints.size() - 1 : b - 1];
           std::copy(before.xi, before.xi + 2, breakpoints[b].xi);
         }
   }
 
 
 
-  // Compare the middle of each segment with the cubic through its ends and slopes, and halve
-  // those that the cubic does not describe, so that the search for crossings can rely on it.
+  // Compare the middle of each segment with the cubic through its ends and
+  // slopes, and halve those that the cubic does not describe, so that the
+  // search for crossings can rely on it.
   void
   LoopClipper::check_segments()
   {
@@ -213,11 +138,13 @@ namespace mortise
         for (const auto &segment : segments)
           if (!segment.far && !segment.checked)
             {
-              const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
-              breakpoints.push_back({a.edge,
-                                     0.5 * (a.tau + b.tau),
-                                     {on_cubic(a, b, 0, 0.5), on_cubic(a, b, 1, 0.5)},
-                                     {0., 0.}});
+              const Breakpoint &a = breakpoints[segment.first],
+                               &b = breakpoints[segment.last];
+              breakpoints.push_back(
+                {a.edge,
+                 0.5 * (a.tau + b.tau),
+                 {on_cubic(a, b, 0, 0.5), on_cubic(a, b, 1, 0.5)},
+                 {0., 0.}});
             }
         if (begin == breakpoints.size())
           return;
@@ -230,13 +157,16 @@ namespace mortise
               new_segments.push_back(segment);
             else
               {
-                if (check_segment(segment, breakpoints[middle]) || round + 1 == max_rounds)
+                if (check_segment(segment, breakpoints[middle]) ||
+                    round + 1 == max_rounds)
                   new_segments.push_back(segment);
                 else
                   {
                     snap_to_sides(breakpoints[middle].xi);
-                    new_segments.push_back({segment.first, middle, false, false, 0., {0., 0.}});
-                    new_segments.push_back({middle, segment.last, false, false, 0., {0., 0.}});
+                    new_segments.push_back(
+                      {segment.first, middle, false, false, 0., {0., 0.}});
+                    new_segments.push_back(
+                      {middle, segment.last, false, false, 0., {0., 0.}});
                   }
                 ++middle;
               }
@@ -264,21 +194,24 @@ namespace mortise
   {
     constexpr double small = 0.03;
 
-    const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
-    const double      expected[2] = {on_cubic(a, b, 0, 0.5), on_cubic(a, b, 1, 0.5)};
-    segment.deviation             = 0;
+    const Breakpoint &a      = breakpoints[segment.first],
+                     &b      = breakpoints[segment.last];
+    const double expected[2] = {on_cubic(a, b, 0, 0.5), on_cubic(a, b, 1, 0.5)};
+    segment.deviation        = 0;
     for (unsigned int i = 0; i < 2; ++i)
       {
-        segment.mid[i]    = middle.xi[i];
-        segment.deviation = std::max(segment.deviation, std::abs(middle.xi[i] - expected[i]));
+        segment.mid[i] = middle.xi[i];
+        segment.deviation =
+          std::max(segment.deviation, std::abs(middle.xi[i] - expected[i]));
       }
     segment.checked = segment.deviation <= small;
-    // Not well described, but outside by more than the description may be wrong?
+    // Not well described, but outside by more than the description may be
+    // wrong?
     for (unsigned int side = 0; side < 4 && !segment.checked; ++side)
       {
         const double f_0 = inside_by(a.xi, side), f_1 = inside_by(b.xi, side);
-        const double nearest =
-          std::max({f_0, f_1, inside_by(expected, side), inside_by(segment.mid, side)});
+        const double nearest = std::max(
+          {f_0, f_1, inside_by(expected, side), inside_by(segment.mid, side)});
         segment.checked = nearest < -2. * segment.deviation;
       }
     return segment.checked;
@@ -287,7 +220,8 @@ namespace mortise
 
 
   void
-  LoopClipper::find_crossings(const unsigned int segment, const unsigned int side)
+  LoopClipper::find_crossings(const unsigned int segment,
+                              const unsigned int side)
   {
     const Breakpoint &a     = breakpoints[segments[segment].first];
     const Breakpoint &b     = breakpoints[segments[segment].last];
@@ -299,28 +233,32 @@ namespace mortise
     const double      slope = std::abs(d_0) + std::abs(d_1);
     bool              doubtful;
     if (f_0 * f_1 > 0)
-      doubtful = nearest_of_cubic(f_0, f_1, d_0, d_1) < 3. * segments[segment].deviation;
+      doubtful =
+        nearest_of_cubic(f_0, f_1, d_0, d_1) < 3. * segments[segment].deviation;
     else if (f_0 * f_1 < 0)
       {
         // The cubic and its slope at the middle: monotone curves cross once.
-        const double rise = f_1 - f_0, slope_mid = 1.5 * rise - 0.25 * (d_0 + d_1);
+        const double rise      = f_1 - f_0,
+                     slope_mid = 1.5 * rise - 0.25 * (d_0 + d_1);
         doubtful = d_0 * rise <= 0 || d_1 * rise <= 0 || slope_mid * rise <= 0;
       }
     else
       doubtful = (f_0 == 0. && f_1 * d_0 < 0) || (f_1 == 0. && f_0 * d_1 > 0);
-    // An edge that runs along the side, as on two polynomial pictures of one smooth surface, may
-    // cross it several times.
-    const bool along = std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
+    // An edge that runs along the side, as on two polynomial pictures of one
+    // smooth surface, may cross it several times.
+    const bool along =
+      std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
     if (doubtful || along)
       sample_segment(segment, side, doubtful ? 5 : 1);
     else if (f_0 * f_1 < 0)
-      crossings.push_back({segment, side, a.tau, b.tau, f_0, f_1, 0., {0., 0.}});
+      crossings.push_back(
+        {segment, side, a.tau, b.tau, f_0, f_1, 0., {0., 0.}});
   }
 
 
 
-  // Look for changes of sign inside of a segment, ever finer around the point where the curve
-  // comes closest to changing its side.
+  // Look for changes of sign inside of a segment, ever finer around the point
+  // where the curve comes closest to changing its side.
   void
   LoopClipper::sample_segment(const unsigned int segment,
                               const unsigned int side,
@@ -344,15 +282,22 @@ namespace mortise
         for (unsigned int l = 0; l <= n_lanes; ++l)
           {
             const bool   last = l == n_lanes;
-            const double x[2] = {last ? b.xi[0] : xi[0][l], last ? b.xi[1] : xi[1][l]};
+            const double x[2] = {last ? b.xi[0] : xi[0][l],
+                                 last ? b.xi[1] : xi[1][l]};
             const double f    = last ? f_b : snapped(inside_by(x, side));
             const double here = last ? b.tau : tau[l];
             if (f * previous < 0)
               {
                 ++n_found;
                 if (!both_beside(previous_xi, x, side))
-                  crossings.push_back(
-                    {segment, side, previous_tau, here, previous, f, 0., {0., 0.}});
+                  crossings.push_back({segment,
+                                       side,
+                                       previous_tau,
+                                       here,
+                                       previous,
+                                       f,
+                                       0.,
+                                       {0., 0.}});
               }
             if (!last && sign * f < least)
               {
@@ -377,10 +322,13 @@ namespace mortise
 
 
   void
-  LoopClipper::pull_back_segment(const Segment &segment, const Lanes &tau, Lanes (&xi)[2])
+  LoopClipper::pull_back_segment(const Segment &segment,
+                                 const Lanes   &tau,
+                                 Lanes (&xi)[2])
   {
-    const Breakpoint &a = breakpoints[segment.first], &b = breakpoints[segment.last];
-    unsigned int      edge_of_lane[n_lanes];
+    const Breakpoint &a = breakpoints[segment.first],
+                     &b = breakpoints[segment.last];
+    unsigned int edge_of_lane[n_lanes];
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
         const double t  = (tau[l] - a.tau) / (b.tau - a.tau);

@@ -6,8 +6,8 @@ namespace mortise
 {
   namespace
   {
-    // A curved piece whose middle is this close to the side on which both of its ends lie
-    // runs along that side.
+    // A curved piece whose middle is this close to the side on which both of
+    // its ends lie runs along that side.
     constexpr double along_side = 1e-12;
 
     inline bool
@@ -23,7 +23,8 @@ namespace mortise
   LoopClipper::solve_crossings()
   {
     for (unsigned int begin = 0; begin < crossings.size(); begin += n_lanes)
-      solve_batch(begin, std::min<unsigned int>(n_lanes, crossings.size() - begin));
+      solve_batch(begin,
+                  std::min<unsigned int>(n_lanes, crossings.size() - begin));
     for (auto &crossing : crossings)
       {
         if (!(crossing.tau >= crossing.tau_0 && crossing.tau <= crossing.tau_1))
@@ -35,9 +36,9 @@ namespace mortise
 
 
 
-  // Newton's method for x_m(tau) = x_s(xi) + alpha n(xi) with one coordinate of xi held on its
-  // side: unknowns are tau, the other coordinate and alpha. What leaves its bracket or does not
-  // converge keeps a tau that is not a number.
+  // Newton's method for x_m(tau) = x_s(xi) + alpha n(xi) with one coordinate of
+  // xi held on its side: unknowns are tau, the other coordinate and alpha. What
+  // leaves its bracket or does not converge keeps a tau that is not a number.
   void
   LoopClipper::solve_batch(const unsigned int begin, const unsigned int n)
   {
@@ -46,19 +47,19 @@ namespace mortise
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
         const Crossing   &crossing = crossings[begin + std::min(l, n - 1)];
-        const Breakpoint &a        = breakpoints[segments[crossing.segment].first];
-        const Breakpoint &b        = breakpoints[segments[crossing.segment].last];
-        const double      weight   = crossing.f_0 / (crossing.f_0 - crossing.f_1);
-        const unsigned    fixed    = crossing.side / 2;
-        edge[l]                    = a.edge;
-        low[l]                     = crossing.tau_0;
-        high[l]                    = crossing.tau_1;
-        tau[l]                     = crossing.tau_0 + weight * (crossing.tau_1 - crossing.tau_0);
-        const double t             = (tau[l] - a.tau) / (b.tau - a.tau);
-        xi[0][l]                   = (1 - t) * a.xi[0] + t * b.xi[0];
-        xi[1][l]                   = (1 - t) * a.xi[1] + t * b.xi[1];
-        xi[fixed][l]               = crossing.side % 2;
-        on_first[l]                = fixed == 0 ? 1. : 0.;
+        const Breakpoint &a = breakpoints[segments[crossing.segment].first];
+        const Breakpoint &b = breakpoints[segments[crossing.segment].last];
+        const double      weight = crossing.f_0 / (crossing.f_0 - crossing.f_1);
+        const unsigned    fixed  = crossing.side / 2;
+        edge[l]                  = a.edge;
+        low[l]                   = crossing.tau_0;
+        high[l]                  = crossing.tau_1;
+        tau[l] = crossing.tau_0 + weight * (crossing.tau_1 - crossing.tau_0);
+        const double t = (tau[l] - a.tau) / (b.tau - a.tau);
+        xi[0][l]       = (1 - t) * a.xi[0] + t * b.xi[0];
+        xi[1][l]       = (1 - t) * a.xi[1] + t * b.xi[1];
+        xi[fixed][l]   = crossing.side % 2;
+        on_first[l]    = fixed == 0 ? 1. : 0.;
       }
     Vec3<Lanes> x_m, dx_m;
     evaluate_edges(master->edges, edge, tau, x_m, dx_m);
@@ -77,8 +78,10 @@ namespace mortise
         xi[0] -= (1. - on_first) * step[1];
         xi[1] -= on_first * step[1];
         alpha = -step[2];
-        tau   = minimum(maximum(tau, low - 0.5 * (high - low)), high + 0.5 * (high - low));
-        const Lanes change = maximum(absolute(step[0]) / (high - low), absolute(step[1]));
+        tau   = minimum(maximum(tau, low - 0.5 * (high - low)),
+                      high + 0.5 * (high - low));
+        const Lanes change =
+          maximum(absolute(step[0]) / (high - low), absolute(step[1]));
         if (iteration > 0)
           active &= lanes_above(change, broadcast(3e-8));
         evaluate_edges(master->edges, edge, tau, x_m, dx_m);
@@ -86,9 +89,11 @@ namespace mortise
     for (unsigned int l = 0; l < n; ++l)
       {
         Crossing  &crossing = crossings[begin + l];
-        const bool good =
-          (active & (1u << l)) == 0 && tau[l] >= low[l] - slack[l] && tau[l] <= high[l] + slack[l];
-        crossing.tau   = good ? std::min(std::max(tau[l], low[l]), high[l]) : std::nan("");
+        const bool good     = (active & (1u << l)) == 0 &&
+                          tau[l] >= low[l] - slack[l] &&
+                          tau[l] <= high[l] + slack[l];
+        crossing.tau =
+          good ? std::min(std::max(tau[l], low[l]), high[l]) : std::nan("");
         crossing.xi[0] = xi[0][l];
         crossing.xi[1] = xi[1][l];
       }
@@ -126,10 +131,12 @@ namespace mortise
             if (beyond)
               break;
           }
-        if (known[0] && known[1] && both_beside(ends[0], ends[1], crossing.side))
+        if (known[0] && known[1] &&
+            both_beside(ends[0], ends[1], crossing.side))
           break;
       }
-    // Of no interest, or a jump of the continuation far away: its place does not matter.
+    // Of no interest, or a jump of the continuation far away: its place does
+    // not matter.
     std::copy(ends[known[1]], ends[known[1]] + 2, crossing.xi);
     crossing.tau = 0.5 * (low + high);
   }
@@ -139,9 +146,12 @@ namespace mortise
   void
   LoopClipper::build_pieces()
   {
-    std::sort(crossings.begin(), crossings.end(), [](const auto &a, const auto &b) {
-      return a.segment != b.segment ? a.segment < b.segment : a.tau < b.tau;
-    });
+    std::sort(crossings.begin(),
+              crossings.end(),
+              [](const auto &a, const auto &b) {
+                return a.segment != b.segment ? a.segment < b.segment :
+                                                a.tau < b.tau;
+              });
     whole_master      = true;
     unsigned int next = 0;
     for (unsigned int s = 0; s < segments.size(); ++s)
@@ -149,9 +159,9 @@ namespace mortise
         const Breakpoint &a = breakpoints[segments[s].first];
         const Breakpoint &b = breakpoints[segments[s].last];
         LoopPiece         piece;
-        piece.edge = a.edge;
-        piece.has_mid =
-          segments[s].checked && (next == crossings.size() || crossings[next].segment != s);
+        piece.edge    = a.edge;
+        piece.has_mid = segments[s].checked && (next == crossings.size() ||
+                                                crossings[next].segment != s);
         std::copy(segments[s].mid, segments[s].mid + 2, piece.mid);
         piece.tau_p = a.tau;
         std::copy(a.xi, a.xi + 2, piece.p);
@@ -175,13 +185,14 @@ namespace mortise
 
 
 
-  // Pieces do not cross a side any more: an end outside makes the whole piece outside, and its
-  // chord serves as well.
+  // Pieces do not cross a side any more: an end outside makes the whole piece
+  // outside, and its chord serves as well.
   void
   LoopClipper::add_piece(const Segment &segment, LoopPiece piece)
   {
     for (unsigned int side = 0; side < 4; ++side)
-      if (segment.far || inside_by(piece.p, side) < 0 || inside_by(piece.q, side) < 0)
+      if (segment.far || inside_by(piece.p, side) < 0 ||
+          inside_by(piece.q, side) < 0)
         {
           piece.edge   = -1;
           whole_master = false;
@@ -227,8 +238,8 @@ namespace mortise
 
 
 
-  // A piece with both ends on one side is inside or outside as its middle is; along the side
-  // and outside, the side takes its place.
+  // A piece with both ends on one side is inside or outside as its middle is;
+  // along the side and outside, the side takes its place.
   void
   LoopClipper::settle(LoopPiece &piece)
   {
@@ -247,14 +258,16 @@ namespace mortise
 
 
 
-  // One step of Sutherland and Hodgman's walk. Curved pieces are inside of all sides.
+  // One step of Sutherland and Hodgman's walk. Curved pieces are inside of all
+  // sides.
   void
   LoopClipper::clip_straight(const unsigned int side)
   {
     scratch.clear();
     for (const auto &piece : loop)
       {
-        const double f_p = inside_by(piece.p, side), f_q = inside_by(piece.q, side);
+        const double f_p = inside_by(piece.p, side),
+                     f_q = inside_by(piece.q, side);
         if (piece.edge >= 0 || (f_p >= 0 && f_q >= 0))
           scratch.push_back(piece);
         else if (f_p > 0 || f_q > 0)
@@ -296,12 +309,14 @@ namespace mortise
     whole_slave                      = false;
     if (loop.empty())
       return;
-    // Moments about the first corner, so that slivers far from zero keep their digits.
+    // Moments about the first corner, so that slivers far from zero keep their
+    // digits.
     const double base[2]   = {loop[0].p[0], loop[0].p[1]};
     double       moment[2] = {0, 0};
     bool         straight  = true;
     const auto   add       = [&](const double(&a)[2], const double(&b)[2]) {
-      const double x[2] = {a[0] - base[0], a[1] - base[1]}, y[2] = {b[0] - base[0], b[1] - base[1]};
+      const double x[2]  = {a[0] - base[0], a[1] - base[1]},
+                   y[2]  = {b[0] - base[0], b[1] - base[1]};
       const double twice = x[0] * y[1] - x[1] * y[0];
       area += 0.5 * twice;
       for (unsigned int i = 0; i < 2; ++i)

@@ -1,8 +1,8 @@
-#include "pair_scratch.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+
+#include "pair_scratch.h"
 
 namespace mortise
 {
@@ -21,7 +21,10 @@ namespace mortise
     }
 
     void
-    add_point(Scratch &scratch, const double xi_1, const double xi_2, const double weight)
+    add_point(Scratch     &scratch,
+              const double xi_1,
+              const double xi_2,
+              const double weight)
     {
       scratch.xi[0].push_back(xi_1);
       scratch.xi[1].push_back(xi_2);
@@ -36,15 +39,16 @@ namespace mortise
         add_point(scratch, rule.s[q], rule.t[q], rule.tensor_weight[q]);
     }
 
-    // The master face lies in the slave face: the master's tensor rule, pulled back.
-    // d xi = (d xi / d eta) d eta.
+    // The master face lies in the slave face: the master's tensor rule, pulled
+    // back. d xi = (d xi / d eta) d eta.
     bool
     place_in_master(Scratch &scratch, const GaussRule &rule)
     {
       for (unsigned int begin = 0; begin < rule.s.size(); begin += n_lanes)
         {
-          const unsigned int count = std::min<unsigned int>(n_lanes, rule.s.size() - begin);
-          Lanes              eta[2], weight;
+          const unsigned int count =
+            std::min<unsigned int>(n_lanes, rule.s.size() - begin);
+          Lanes eta[2], weight;
           for (unsigned int l = 0; l < n_lanes; ++l)
             {
               const unsigned int q = begin + std::min(l, count - 1);
@@ -66,7 +70,8 @@ namespace mortise
       return true;
     }
 
-    // gamma and gamma' at the Gauss points of all curved pieces, piece after piece.
+    // gamma and gamma' at the Gauss points of all curved pieces, piece after
+    // piece.
     bool
     evaluate_curves(Scratch &scratch, const GaussRule &rule)
     {
@@ -110,8 +115,10 @@ namespace mortise
               edge[count]    = piece.edge;
               length[count]  = piece.tau_q - piece.tau_p;
               tau[count]     = piece.tau_p + t * length[count];
-              for (unsigned int i = 0; i < 2; ++i) // parabola through ends and middle
-                xi[i][count] = (1 - t) * (1 - 2 * t) * piece.p[i] + 4 * t * (1 - t) * piece.mid[i] +
+              for (unsigned int i = 0; i < 2;
+                   ++i) // parabola through ends and middle
+                xi[i][count] = (1 - t) * (1 - 2 * t) * piece.p[i] +
+                               4 * t * (1 - t) * piece.mid[i] +
                                t * (2 * t - 1) * piece.q[i];
               if (++count == n_lanes && !flush())
                 return false;
@@ -119,8 +126,8 @@ namespace mortise
       return count == 0 || flush();
     }
 
-    // The apex of the sectors: a corner on whose lines most straight pieces lie (their sectors
-    // are empty), or the centroid.
+    // The apex of the sectors: a corner on whose lines most straight pieces lie
+    // (their sectors are empty), or the centroid.
     void
     choose_apex(const LoopClipper &clipper, double (&apex)[2])
     {
@@ -132,8 +139,10 @@ namespace mortise
           unsigned int n = 0;
           for (const auto &piece : clipper.loop)
             if (piece.edge < 0)
-              n += (candidate.p[0] == piece.p[0] && candidate.p[1] == piece.p[1]) ||
-                       (candidate.p[0] == piece.q[0] && candidate.p[1] == piece.q[1]) ?
+              n += (candidate.p[0] == piece.p[0] &&
+                    candidate.p[1] == piece.p[1]) ||
+                       (candidate.p[0] == piece.q[0] &&
+                        candidate.p[1] == piece.q[1]) ?
                      1 :
                      0;
           if (n > most)
@@ -145,7 +154,8 @@ namespace mortise
         }
     }
 
-    // Sectors (s,t) -> c + s (gamma(t) - c) with dA = s (gamma - c) x gamma' ds dt, signed.
+    // Sectors (s,t) -> c + s (gamma(t) - c) with dA = s (gamma - c) x gamma' ds
+    // dt, signed.
     unsigned int
     place_in_sectors(Scratch &scratch, const GaussRule &rule, const double sign)
     {
@@ -154,8 +164,10 @@ namespace mortise
       unsigned int n_cells = 0, next = 0;
       for (const auto &piece : scratch.clipper.loop)
         {
-          const double d[2]  = {piece.q[0] - piece.p[0], piece.q[1] - piece.p[1]};
-          const double twice = (piece.p[0] - c[0]) * d[1] - (piece.p[1] - c[1]) * d[0];
+          const double d[2] = {piece.q[0] - piece.p[0],
+                               piece.q[1] - piece.p[1]};
+          const double twice =
+            (piece.p[0] - c[0]) * d[1] - (piece.p[1] - c[1]) * d[0];
           if (piece.edge < 0 && std::abs(twice) <= empty_area)
             continue;
           ++n_cells;
@@ -163,13 +175,13 @@ namespace mortise
             {
               double r[2], determinant = twice;
               for (unsigned int i = 0; i < 2; ++i)
-                r[i] =
-                  (piece.edge < 0 ? piece.p[i] + rule.point[j] * d[i] : scratch.gamma[i][next]) -
-                  c[i];
+                r[i] = (piece.edge < 0 ? piece.p[i] + rule.point[j] * d[i] :
+                                         scratch.gamma[i][next]) -
+                       c[i];
               if (piece.edge >= 0)
                 {
-                  determinant =
-                    r[0] * scratch.gamma_rate[1][next] - r[1] * scratch.gamma_rate[0][next];
+                  determinant = r[0] * scratch.gamma_rate[1][next] -
+                                r[1] * scratch.gamma_rate[0][next];
                   ++next;
                 }
               for (unsigned int k = 0; k < rule.n; ++k)
@@ -178,7 +190,8 @@ namespace mortise
                   add_point(scratch,
                             c[0] + s * r[0],
                             c[1] + s * r[1],
-                            sign * determinant * s * rule.weight[k] * rule.weight[j]);
+                            sign * determinant * s * rule.weight[k] *
+                              rule.weight[j]);
                 }
             }
         }
@@ -208,7 +221,8 @@ namespace mortise
       return result;
     }
 
-    // Map the placed points to both faces. The status says whether the pair is accepted.
+    // Map the placed points to both faces. The status says whether the pair is
+    // accepted.
     PairStatus
     map_points(Scratch &scratch, PairResult &result, IntegrationPoints &points)
     {
@@ -220,14 +234,17 @@ namespace mortise
         {
           const unsigned int count = std::min(n_lanes, n - begin);
           Lanes              eta[2], alpha, slope;
-          Lanes              weight = load(&scratch.reference_weight[begin], count);
-          Lanes xi[2] = {load(&scratch.xi[0][begin], count), load(&scratch.xi[1][begin], count)};
+          Lanes weight = load(&scratch.reference_weight[begin], count);
+          Lanes xi[2]  = {load(&scratch.xi[0][begin], count),
+                          load(&scratch.xi[1][begin], count)};
           for (auto &x : xi)
             x = minimum(maximum(x, broadcast(0.)), broadcast(1.));
           Vec3<Lanes> x_s, dx_s[2], x_m;
           scratch.slave.evaluate(xi, x_s, dx_s);
-          const Vec3<Lanes> normal = scratch.slave.normal(xi), area = cross(dx_s[0], dx_s[1]);
-          if (scratch.master.project(x_s, normal, false, eta, alpha, x_m, slope) != 0)
+          const Vec3<Lanes> normal = scratch.slave.normal(xi),
+                            area   = cross(dx_s[0], dx_s[1]);
+          if (scratch.master.project(
+                x_s, normal, false, eta, alpha, x_m, slope) != 0)
             return PairStatus::failed;
           weight *= square_root(dot(area, area));
           alpha *= square_root(dot(normal, normal));
@@ -248,7 +265,7 @@ namespace mortise
               store(origin[d] + x_m[d], count, &points.master_x[d][begin]);
             }
         }
-      return normals_agree                          ? PairStatus::normals_agree :
+      return normals_agree ? PairStatus::normals_agree :
              !(result.max_gap <= scratch.gap_limit) ? PairStatus::too_far :
                                                       PairStatus::accepted;
     }
@@ -267,8 +284,9 @@ namespace mortise
       return (high - low) / (high + low);
     }
 
-    // How far the pieces are from straight lines run through evenly. A surface element that varies
-    // by d along a line moves its middle by d/4 of its length.
+    // How far the pieces are from straight lines run through evenly. A surface
+    // element that varies by d along a line moves its middle by d/4 of its
+    // length.
     double
     bending(const std::vector<LoopPiece> &loop)
     {
@@ -285,14 +303,17 @@ namespace mortise
                 shift += m * m;
               }
             if (shift > 0)
-              result = std::max(result, 4. * std::sqrt(shift / std::max(length, shift)));
+              result =
+                std::max(result,
+                         4. * std::sqrt(shift / std::max(length, shift)));
           }
       return result;
     }
 
-    // Whether the pair can be accepted at all, judged at the middle of the overlap, so that
-    // hopeless candidates cost little and are not counted as failures; and how much the surface
-    // elements of both faces vary between its corners.
+    // Whether the pair can be accepted at all, judged at the middle of the
+    // overlap, so that hopeless candidates cost little and are not counted as
+    // failures; and how much the surface elements of both faces vary between
+    // its corners.
     Judgement
     judge(const Scratch &scratch)
     {
@@ -303,19 +324,23 @@ namespace mortise
           xi[i] = broadcast(clipper.centroid[i]);
           for (unsigned int l = 1; l < n_lanes; ++l)
             {
-              const double x = clipper.loop[(l - 1) * clipper.loop.size() / (n_lanes - 1)].p[i];
-              xi[i][l]       = std::min(std::max(x, 0.), 1.);
+              const double x =
+                clipper.loop[(l - 1) * clipper.loop.size() / (n_lanes - 1)]
+                  .p[i];
+              xi[i][l] = std::min(std::max(x, 0.), 1.);
             }
         }
       Vec3<Lanes> x_s, dx_s[2], x_m;
       Lanes       eta[2], alpha, slope;
       scratch.slave.evaluate(xi, x_s, dx_s);
-      const Vec3<Lanes>  n      = scratch.slave.normal(xi);
-      const unsigned int failed = scratch.master.project(x_s, n, false, eta, alpha, x_m, slope);
-      const PairStatus   status = (failed & 1u) != 0 ? PairStatus::failed :
-                                  slope[0] >= 0      ? PairStatus::normals_agree :
-                                  std::abs(alpha[0]) > 2 * scratch.gap_limit ? PairStatus::too_far :
-                                                                               PairStatus::accepted;
+      const Vec3<Lanes>  n = scratch.slave.normal(xi);
+      const unsigned int failed =
+        scratch.master.project(x_s, n, false, eta, alpha, x_m, slope);
+      const PairStatus status = (failed & 1u) != 0 ? PairStatus::failed :
+                                slope[0] >= 0      ? PairStatus::normals_agree :
+                                std::abs(alpha[0]) > 2 * scratch.gap_limit ?
+                                                PairStatus::too_far :
+                                                PairStatus::accepted;
       return {status,
               std::max({1e-10,
                         variation(dot(n, cross(dx_s[0], dx_s[1]))),
@@ -327,17 +352,20 @@ namespace mortise
 
 
   PairResult
-  integrate_curved_pair(Scratch &scratch, const SurfaceFace &master, IntegrationPoints &points)
+  integrate_curved_pair(Scratch           &scratch,
+                        const SurfaceFace &master,
+                        IntegrationPoints &points)
   {
     PairResult result;
     scratch.master.reinit(master, scratch.slave.origin());
     scratch.slave.height_limit = scratch.gap_limit;
-    const bool   clipped       = scratch.clipper.clip(scratch.slave, scratch.master);
-    const double area          = scratch.clipper.area;
+    const bool   clipped = scratch.clipper.clip(scratch.slave, scratch.master);
+    const double area    = scratch.clipper.area;
     if (std::abs(area) <= empty_area)
       {
-        result.status =
-          clipped || !scratch.samples_meet() ? PairStatus::no_overlap : PairStatus::failed;
+        result.status = clipped || !scratch.samples_meet() ?
+                          PairStatus::no_overlap :
+                          PairStatus::failed;
         return result;
       }
     const Judgement judgement = judge(scratch);
@@ -363,7 +391,8 @@ namespace mortise
         if (placed)
           result.n_cells = place_in_sectors(scratch, rule, area > 0 ? 1. : -1.);
       }
-    result.status = placed ? map_points(scratch, result, points) : PairStatus::failed;
+    result.status =
+      placed ? map_points(scratch, result, points) : PairStatus::failed;
     return result;
   }
 } // namespace mortise

@@ -1,25 +1,28 @@
 #include <mortise/interface/clipping.h>
 #include <mortise/interface/integration_cells.h>
 
-#include "pair_scratch.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "pair_scratch.h"
 
 namespace mortise
 {
   using namespace dealii;
 
-  // Linear maps: cells are bilinear in (s,t), so n points are exact for total degree 2n-2 in the
-  // reference coordinates; n = p+2 is exact for products of two Q_1 functions and for all
-  // products of total degree 2p+2, which include a Q_p function times a constant.
+  // Linear maps: cells are bilinear in (s,t), so n points are exact for total
+  // degree 2n-2 in the reference coordinates; n = p+2 is exact for products of
+  // two Q_1 functions and for all products of total degree 2p+2, which include
+  // a Q_p function times a constant.
   //
-  // Else the integrand is rational, with a pole of order m = p+3 or so where a surface element
-  // vanishes: at distance 1/d from the middle of an overlap of half width 1, d the distortion.
-  // Its expansion has terms binomial(m+k-1, k) (2/rho)^k of degree 2p+k, with
-  // rho = (1 + sqrt(1 - d^2)) / d, and p+e points miss those from k = 2e-1 on. The bound below
-  // was set by measurement (tests/interface/overlap_integrals.cc): moments of degree p per
-  // direction on any slave or master face, relative to its area, are right to about 1e-11.
+  // Else the integrand is rational, with a pole of order m = p+3 or so where a
+  // surface element vanishes: at distance 1/d from the middle of an overlap of
+  // half width 1, d the distortion. Its expansion has terms binomial(m+k-1, k)
+  // (2/rho)^k of degree 2p+k, with rho = (1 + sqrt(1 - d^2)) / d, and p+e
+  // points miss those from k = 2e-1 on. The bound below was set by measurement
+  // (tests/interface/overlap_integrals.cc): moments of degree p per direction
+  // on any slave or master face, relative to its area, are right to about
+  // 1e-11.
   unsigned int
   quadrature_points(const unsigned int degree_slave,
                     const unsigned int degree_master,
@@ -28,7 +31,8 @@ namespace mortise
     const unsigned int degree = std::max(degree_slave, degree_master);
     if (distortion <= 0.)
       return degree + 2;
-    const double     d = std::min(distortion, 0.95), rho = (1. + std::sqrt(1. - d * d)) / d;
+    const double d             = std::min(distortion, 0.95),
+                 rho           = (1. + std::sqrt(1. - d * d)) / d;
     constexpr double bound     = 1e-8;
     constexpr int    max_extra = 24;
     double           term      = 1; // binomial(p+2+k, k) rho^-k
@@ -126,10 +130,11 @@ namespace mortise
   {
     scratch->degree_slave  = degree_slave;
     scratch->degree_master = degree_master;
-    scratch->gap_limit     = scratch->search_fraction * std::max(scratch->slave_size, master.size);
-    PairResult result      = scratch->slave_linear && master.affine ?
-                               integrate_linear_pair(*scratch, master, points) :
-                               integrate_curved_pair(*scratch, master, points);
+    scratch->gap_limit =
+      scratch->search_fraction * std::max(scratch->slave_size, master.size);
+    PairResult result = scratch->slave_linear && master.affine ?
+                          integrate_linear_pair(*scratch, master, points) :
+                          integrate_curved_pair(*scratch, master, points);
     if (result.status != PairStatus::accepted)
       {
         result.area    = 0;
@@ -144,8 +149,10 @@ namespace mortise
   const GaussRule &
   PairIntegrator::Scratch::rule(const double distortion) const
   {
-    return gauss_rule(n_points > 0 ? n_points :
-                                     quadrature_points(degree_slave, degree_master, distortion));
+    return gauss_rule(
+      n_points > 0 ?
+        n_points :
+        quadrature_points(degree_slave, degree_master, distortion));
   }
 
 
@@ -156,28 +163,35 @@ namespace mortise
     // Not on the boundary: faces that only touch do not meet.
     constexpr unsigned int n_samples = 8;
     constexpr double       rim       = 0.02;
-    const auto             meet = [&](const Lanes(&x)[2], const Lanes &gap, const Lanes &slope) {
-      for (unsigned int l = 0; l < n_lanes; ++l)
-        if (x[0][l] > 0 && x[0][l] < 1 && x[1][l] > 0 && x[1][l] < 1 &&
-            std::abs(gap[l]) <= gap_limit && slope[l] < 0)
-          return true;
-      return false;
-    };
+    const auto             meet =
+      [&](const Lanes(&x)[2], const Lanes &gap, const Lanes &slope) {
+        for (unsigned int l = 0; l < n_lanes; ++l)
+          if (x[0][l] > 0 && x[0][l] < 1 && x[1][l] > 0 && x[1][l] < 1 &&
+              std::abs(gap[l]) <= gap_limit && slope[l] < 0)
+            return true;
+        return false;
+      };
     Lanes first;
     for (unsigned int l = 0; l < n_lanes; ++l)
       first[l] = rim + (1. - 2. * rim) * l / (n_lanes - 1.);
     for (unsigned int j = 0; j < n_samples; ++j)
       {
-        const Lanes at[2] = {first, broadcast(rim + (1. - 2. * rim) * j / (n_samples - 1.))};
+        const Lanes at[2] = {first,
+                             broadcast(rim +
+                                       (1. - 2. * rim) * j / (n_samples - 1.))};
         Lanes       other[2], gap, slope;
         Vec3<Lanes> x, dx[2], x_m;
         slave.evaluate(at, x, dx);
-        if (master.project(x, slave.normal(at), false, other, gap, x_m, slope) == 0 &&
+        if (master.project(
+              x, slave.normal(at), false, other, gap, x_m, slope) == 0 &&
             meet(other, gap, slope))
           return true;
         master.polynomial.evaluate(at[0], at[1], x, dx);
         if (slave.pull_back(x, false, other, gap) == 0 &&
-            meet(other, gap, master.orientation * dot(slave.normal(other), cross(dx[0], dx[1]))))
+            meet(other,
+                 gap,
+                 master.orientation *
+                   dot(slave.normal(other), cross(dx[0], dx[1]))))
           return true;
       }
     return false;

@@ -1,9 +1,8 @@
-#include <mortise/interface/interface_handler.h>
-
-#include <mortise/interface/search.h>
-
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
+
+#include <mortise/interface/interface_handler.h>
+#include <mortise/interface/search.h>
 
 #include <chrono>
 #include <cmath>
@@ -25,11 +24,14 @@ namespace mortise
     , candidates(slave_surface.faces.size())
     , covered_fraction(slave_surface.faces.size(), 0.)
   {
-    near_masters = exchange_near_faces(
-      slave_surface.faces, master_surface.faces, options.search_fraction, comm);
+    near_masters = exchange_near_faces(slave_surface.faces,
+                                       master_surface.faces,
+                                       options.search_fraction,
+                                       comm);
     for (SurfaceFace &face : near_masters)
       {
-        near_traces.push_back(Utilities::unpack<FaceTrace>(face.payload, false));
+        near_traces.push_back(
+          Utilities::unpack<FaceTrace>(face.payload, false));
         face.payload.clear();
       }
     for (SurfaceFace &face : slave_surface.faces)
@@ -46,11 +48,12 @@ namespace mortise
     using Clock = std::chrono::steady_clock;
     PairIntegrator    integrator(options.search_fraction);
     IntegrationPoints points;
-    integrator.set_points_per_direction(options.points_per_direction.value_or(0));
+    integrator.set_points_per_direction(
+      options.points_per_direction.value_or(0));
 
-    Coverage  sum;
-    double    worst_error = -1.;
-    Point<3>  worst_centre;
+    Coverage        sum;
+    double          worst_error = -1.;
+    Point<3>        worst_centre;
     Clock::duration clipping(0);
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       {
@@ -62,9 +65,11 @@ namespace mortise
         clipping += Clock::now() - before;
         for (const unsigned int m : candidates[s])
           {
-            before = Clock::now();
-            const PairResult pair =
-              integrator.integrate(near_masters[m], slave_degree, near_traces[m].degree, points);
+            before                = Clock::now();
+            const PairResult pair = integrator.integrate(near_masters[m],
+                                                         slave_degree,
+                                                         near_traces[m].degree,
+                                                         points);
             clipping += Clock::now() - before;
             face.add(pair, points.size());
             if (pair.status == PairStatus::accepted)
@@ -87,7 +92,9 @@ namespace mortise
                                const double    worst_error,
                                const Point<3> &worst_centre)
   {
-    const auto total = [&](const std::uint64_t n) { return Utilities::MPI::sum(n, comm); };
+    const auto total = [&](const std::uint64_t n) {
+      return Utilities::MPI::sum(n, comm);
+    };
     totals.slave_faces       = total(slave_surface.faces.size());
     totals.master_faces      = total(master_surface.faces.size());
     totals.candidate_pairs   = total(local.n_candidates);
@@ -104,8 +111,11 @@ namespace mortise
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     const unsigned int me      = Utilities::MPI::this_mpi_process(comm);
     const unsigned int reporter =
-      Utilities::MPI::min(worst_error == totals.worst_face_error ? me : n_ranks, comm);
+      Utilities::MPI::min(worst_error == totals.worst_face_error ? me : n_ranks,
+                          comm);
     totals.worst_face_centre =
-      Utilities::MPI::broadcast(comm, worst_centre, std::min(reporter, n_ranks - 1));
+      Utilities::MPI::broadcast(comm,
+                                worst_centre,
+                                std::min(reporter, n_ranks - 1));
   }
 } // namespace mortise

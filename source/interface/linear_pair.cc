@@ -1,6 +1,6 @@
-#include "pair_scratch.h"
-
 #include <algorithm>
+
+#include "pair_scratch.h"
 
 namespace mortise
 {
@@ -37,9 +37,12 @@ namespace mortise
                 }
               if ((f_p > 0 && f_q < 0) || (f_p < 0 && f_q > 0))
                 {
-                  // From the inner to the outer end, whichever way the edge is run through.
-                  const double(&in)[2] = f_p > 0 ? p : q, (&out)[2] = f_p > 0 ? q : p;
-                  const double       f_in = std::max(f_p, f_q), f_out = std::min(f_p, f_q);
+                  // From the inner to the outer end, whichever way the edge is
+                  // run through.
+                  const double(&in)[2]         = f_p > 0 ? p : q,
+                        (&out)[2]              = f_p > 0 ? q : p;
+                  const double f_in            = std::max(f_p, f_q),
+                               f_out           = std::min(f_p, f_q);
                   const double       t         = f_in / (f_in - f_out);
                   const unsigned int o         = 1 - side / 2;
                   result.x[result.n][side / 2] = side % 2;
@@ -55,27 +58,33 @@ namespace mortise
     {
       double twice = 0;
       for (unsigned int i = 1; i + 1 < polygon.n; ++i)
-        twice += (polygon.x[i][0] - polygon.x[0][0]) * (polygon.x[i + 1][1] - polygon.x[0][1]) -
-                 (polygon.x[i][1] - polygon.x[0][1]) * (polygon.x[i + 1][0] - polygon.x[0][0]);
+        twice += (polygon.x[i][0] - polygon.x[0][0]) *
+                   (polygon.x[i + 1][1] - polygon.x[0][1]) -
+                 (polygon.x[i][1] - polygon.x[0][1]) *
+                   (polygon.x[i + 1][0] - polygon.x[0][0]);
       return 0.5 * std::abs(twice);
     }
 
-    // Corners of a cell: bilinear from (s,t) in the unit square. a + s b + t c + s t d.
+    // Corners of a cell: bilinear from (s,t) in the unit square. a + s b + t c
+    // + s t d.
     struct Cell
     {
       double a[2], b[2], c[2], d[2];
     };
 
-    // A convex polygon as a fan of quadrilaterals from its first corner; an odd corner left over
-    // makes a triangle, a quadrilateral with two corners in one.
+    // A convex polygon as a fan of quadrilaterals from its first corner; an odd
+    // corner left over makes a triangle, a quadrilateral with two corners in
+    // one.
     unsigned int
-    cut_into_cells(const ConvexPolygon &polygon, Cell (&cells)[ConvexPolygon::max_corners])
+    cut_into_cells(const ConvexPolygon &polygon,
+                   Cell (&cells)[ConvexPolygon::max_corners])
     {
       unsigned int n_cells = 0;
       for (unsigned int i = 1; i + 1 < polygon.n; i += 2)
         {
-          const auto &p_0 = polygon.x[0], &p_1 = polygon.x[i], &p_2 = polygon.x[i + 1];
-          const auto &p_3  = i + 2 < polygon.n ? polygon.x[i + 2] : polygon.x[0];
+          const auto &p_0 = polygon.x[0], &p_1 = polygon.x[i],
+                     &p_2 = polygon.x[i + 1];
+          const auto &p_3 = i + 2 < polygon.n ? polygon.x[i + 2] : polygon.x[0];
           Cell       &cell = cells[n_cells++];
           for (unsigned int d = 0; d < 2; ++d)
             {
@@ -107,25 +116,31 @@ namespace mortise
                const double (&A)[2][2])
     {
       const Tensor<1, 3> center = m_frame.center - s_frame.center;
-      const Tensor<1, 3> s_area = cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
-      PointMaps          maps;
-      const double       det = A[0][0] * A[1][1] - A[0][1] * A[1][0];
-      const double B[2][2]   = {{A[1][1] / det, -A[0][1] / det}, {-A[1][0] / det, A[0][0] / det}};
+      const Tensor<1, 3> s_area =
+        cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
+      PointMaps    maps;
+      const double det       = A[0][0] * A[1][1] - A[0][1] * A[1][0];
+      const double B[2][2]   = {{A[1][1] / det, -A[0][1] / det},
+                                {-A[1][0] / det, A[0][0] / det}};
       const double to_height = 1. / (s_area * s_frame.normal);
       for (unsigned int i = 0; i < 2; ++i)
-        maps.eta[i] = {0.5 - B[i][0] * shift[0] - B[i][1] * shift[1], {B[i][0], B[i][1]}};
+        maps.eta[i] = {0.5 - B[i][0] * shift[0] - B[i][1] * shift[1],
+                       {B[i][0], B[i][1]}};
       maps.gap = {0., {0., 0.}};
       for (unsigned int d = 0; d < 3; ++d)
         {
           const double *e_0 = maps.eta[0].slope, *e_1 = maps.eta[1].slope;
-          const double  t_0 = m_frame.tangent[0][d], t_1 = m_frame.tangent[1][d];
-          maps.slave_x[d]  = {s_frame.center[d], {s_frame.tangent[0][d], s_frame.tangent[1][d]}};
+          const double t_0 = m_frame.tangent[0][d], t_1 = m_frame.tangent[1][d];
+          maps.slave_x[d]  = {s_frame.center[d],
+                              {s_frame.tangent[0][d], s_frame.tangent[1][d]}};
           maps.master_x[d] = {center[d] + (maps.eta[0].value - .5) * t_0 +
                                 (maps.eta[1].value - .5) * t_1,
-                              {e_0[0] * t_0 + e_1[0] * t_1, e_0[1] * t_0 + e_1[1] * t_1}};
+                              {e_0[0] * t_0 + e_1[0] * t_1,
+                               e_0[1] * t_0 + e_1[1] * t_1}};
           maps.gap.value += s_area[d] * to_height * maps.master_x[d].value;
           for (unsigned int i = 0; i < 2; ++i)
-            maps.gap.slope[i] += s_area[d] * to_height * maps.master_x[d].slope[i];
+            maps.gap.slope[i] +=
+              s_area[d] * to_height * maps.master_x[d].slope[i];
           maps.master_x[d].value += s_frame.center[d];
         }
       return maps;
@@ -148,8 +163,10 @@ namespace mortise
       for (unsigned int q = 0; q < n; ++q)
         {
           const double st = s[q] * t[q];
-          xi_1[q]         = cell.a[0] + s[q] * cell.b[0] + t[q] * cell.c[0] + st * cell.d[0];
-          xi_2[q]         = cell.a[1] + s[q] * cell.b[1] + t[q] * cell.c[1] + st * cell.d[1];
+          xi_1[q] =
+            cell.a[0] + s[q] * cell.b[0] + t[q] * cell.c[0] + st * cell.d[0];
+          xi_2[q] =
+            cell.a[1] + s[q] * cell.b[1] + t[q] * cell.c[1] + st * cell.d[1];
           const double determinant =
             (cell.b[0] + t[q] * cell.d[0]) * (cell.c[1] + s[q] * cell.d[1]) -
             (cell.b[1] + t[q] * cell.d[1]) * (cell.c[0] + s[q] * cell.d[0]);
@@ -158,7 +175,8 @@ namespace mortise
       const auto fill = [&](const Affine &map, std::vector<double> &values) {
         double *__restrict value = values.data() + offset;
         for (unsigned int q = 0; q < n; ++q)
-          value[q] = map.value + (xi_1[q] - 0.5) * map.slope[0] + (xi_2[q] - 0.5) * map.slope[1];
+          value[q] = map.value + (xi_1[q] - 0.5) * map.slope[0] +
+                     (xi_2[q] - 0.5) * map.slope[1];
       };
       for (unsigned int i = 0; i < 2; ++i)
         fill(maps.eta[i], points.master_eta[i]);
@@ -180,9 +198,11 @@ namespace mortise
   {
     PairResult          result;
     const FaceFrame    &s_frame = scratch.slave_frame, &m_frame = master.frame;
-    const Tensor<1, 3> &n      = s_frame.normal;
-    const Tensor<1, 3>  s_area = cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
-    const Tensor<1, 3>  m_area = cross_product_3d(m_frame.tangent[0], m_frame.tangent[1]);
+    const Tensor<1, 3> &n = s_frame.normal;
+    const Tensor<1, 3>  s_area =
+      cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
+    const Tensor<1, 3> m_area =
+      cross_product_3d(m_frame.tangent[0], m_frame.tangent[1]);
 
     // xi - 1/2 = shift + A (eta - 1/2)
     const Tensor<1, 3> center = m_frame.center - s_frame.center;
@@ -195,10 +215,14 @@ namespace mortise
       }
     ConvexPolygon polygon;
     polygon.n                     = 4;
-    constexpr double corner[4][2] = {{-.5, -.5}, {.5, -.5}, {.5, .5}, {-.5, .5}};
+    constexpr double corner[4][2] = {{-.5, -.5},
+                                     {.5, -.5},
+                                     {.5, .5},
+                                     {-.5, .5}};
     for (unsigned int v = 0; v < 4; ++v)
       for (unsigned int i = 0; i < 2; ++i)
-        polygon.x[v][i] = 0.5 + shift[i] + A[i][0] * corner[v][0] + A[i][1] * corner[v][1];
+        polygon.x[v][i] =
+          0.5 + shift[i] + A[i][0] * corner[v][0] + A[i][1] * corner[v][1];
     clip_to_unit_square(polygon);
     const double area = polygon.n < 3 ? 0. : area_of(polygon);
     if (area <= empty_area)
@@ -213,7 +237,8 @@ namespace mortise
     for (unsigned int v = 0; v < polygon.n; ++v)
       result.max_gap =
         std::max(result.max_gap,
-                 std::abs(maps.gap.value + (polygon.x[v][0] - .5) * maps.gap.slope[0] +
+                 std::abs(maps.gap.value +
+                          (polygon.x[v][0] - .5) * maps.gap.slope[0] +
                           (polygon.x[v][1] - .5) * maps.gap.slope[1]));
     if (!(result.max_gap <= scratch.gap_limit))
       {

@@ -1,5 +1,5 @@
-// What PairIntegrator keeps between pairs, and the two ways to integrate one. It is private to
-// this folder: no other room includes it.
+// What PairIntegrator keeps between pairs, and the two ways to integrate one.
+// It is private to this folder: no other room includes it.
 #pragma once
 
 #include <mortise/interface/clipping.h>
@@ -18,8 +18,9 @@ namespace mortise
     const GaussRule &
     rule(const double distortion) const;
 
-    /// Whether any of some sample points of one face has a partner on the other: tells a pair that
-    /// could not be clipped from one that never mattered.
+    /// Whether any of some sample points of one face has a partner on the
+    /// other: tells a pair that could not be clipped from one that never
+    /// mattered.
     bool
     samples_meet() const;
 

@@ -1,6 +1,6 @@
-#include <mortise/interface/projection.h>
-
 #include <deal.II/base/exceptions.h>
+
+#include <mortise/interface/projection.h>
 
 #include <algorithm>
 
@@ -10,13 +10,14 @@ namespace mortise
 
   namespace
   {
-    // Newton converges quadratically: after a step of this size (in reference coordinates) the
-    // error is its square.
+    // Newton converges quadratically: after a step of this size (in reference
+    // coordinates) the error is its square.
     constexpr double       step_tolerance = 3e-8;
     constexpr unsigned int max_iterations = 25;
 
-    // The face's own polynomial continues it this far beyond the reference square, so that edges
-    // along its sides stay smooth at the corners; farther out its tangents do.
+    // The face's own polynomial continues it this far beyond the reference
+    // square, so that edges along its sides stay smooth at the corners; farther
+    // out its tangents do.
     constexpr double margin = 0.125;
   } // namespace
 
@@ -29,9 +30,10 @@ namespace mortise
     is_linear = slave.linear;
     polynomial.reinit(slave, frame.center);
 
-    const Tensor<1, 3> area   = cross_product_3d(frame.tangent[0], frame.tangent[1]);
-    const double       volume = area * frame.normal;
-    height_dual               = to_vec3(area / volume);
+    const Tensor<1, 3> area =
+      cross_product_3d(frame.tangent[0], frame.tangent[1]);
+    const double volume = area * frame.normal;
+    height_dual         = to_vec3(area / volume);
     for (unsigned int i = 0; i < 2; ++i)
       center_dual[i] = to_vec3(frame.dual[i]);
 
@@ -44,15 +46,18 @@ namespace mortise
     normal_twist = 0;
     for (const auto &normal : n)
       for (const auto &dual : frame.dual)
-        normal_twist =
-          std::max(normal_twist, std::abs(dual * normal) / std::max(0.1, frame.normal * normal));
+        normal_twist = std::max(normal_twist,
+                                std::abs(dual * normal) /
+                                  std::max(0.1, frame.normal * normal));
     for (unsigned int i = 0; i < 2; ++i)
       {
-        // Outside of the face its tangents continue it, so the distance between the chart and the
-        // true coordinates grows in proportion: twice the deviation on the face and a half.
-        const double deviation = std::max({0., -frame.chart_lower[i], frame.chart_upper[i] - 1.});
-        near_lower[i]          = is_linear ? 0. : -0.5 - 3. * deviation;
-        near_upper[i]          = is_linear ? 1. : 1.5 + 3. * deviation;
+        // Outside of the face its tangents continue it, so the distance between
+        // the chart and the true coordinates grows in proportion: twice the
+        // deviation on the face and a half.
+        const double deviation =
+          std::max({0., -frame.chart_lower[i], frame.chart_upper[i] - 1.});
+        near_lower[i] = is_linear ? 0. : -0.5 - 3. * deviation;
+        near_upper[i] = is_linear ? 1. : 1.5 + 3. * deviation;
       }
     height_limit = slave.size;
   }
@@ -70,7 +75,9 @@ namespace mortise
 
 
   void
-  SlaveMap::evaluate(const Lanes (&xi)[2], Vec3<Lanes> &x, Vec3<Lanes> (&dx)[2]) const
+  SlaveMap::evaluate(const Lanes (&xi)[2],
+                     Vec3<Lanes> &x,
+                     Vec3<Lanes> (&dx)[2]) const
   {
     polynomial.evaluate(xi[0], xi[1], x, dx);
   }
@@ -96,7 +103,8 @@ namespace mortise
                               Vec3<Lanes> (&dx)[2],
                               Vec3<Lanes> &n) const
   {
-    const Lanes zero = broadcast(0.), low = broadcast(-margin), high = broadcast(1. + margin);
+    const Lanes zero = broadcast(0.), low = broadcast(-margin),
+                high       = broadcast(1. + margin);
     const Lanes inside[2]  = {minimum(maximum(xi[0], low), high),
                               minimum(maximum(xi[1], low), high)};
     const Lanes outside[2] = {xi[0] - inside[0], xi[1] - inside[1]};
@@ -107,8 +115,10 @@ namespace mortise
     const Lanes alpha_2 = outside[1] == 0. ? alpha : zero;
     for (unsigned int d = 0; d < 3; ++d)
       {
-        dx[0][d] += alpha_1 * (vertex_normal[1][d] + inside[1] * vertex_normal[3][d]);
-        dx[1][d] += alpha_2 * (vertex_normal[2][d] + inside[0] * vertex_normal[3][d]);
+        dx[0][d] +=
+          alpha_1 * (vertex_normal[1][d] + inside[1] * vertex_normal[3][d]);
+        dx[1][d] +=
+          alpha_2 * (vertex_normal[2][d] + inside[0] * vertex_normal[3][d]);
       }
   }
 
@@ -131,13 +141,16 @@ namespace mortise
     if (is_linear)
       return 0;
 
-    const Lanes widening = normal_twist * minimum(absolute(height), broadcast(height_limit));
+    const Lanes widening =
+      normal_twist * minimum(absolute(height), broadcast(height_limit));
     const Lanes distance =
       maximum(maximum(near_lower[0] - chart_xi[0], chart_xi[0] - near_upper[0]),
-              maximum(near_lower[1] - chart_xi[1], chart_xi[1] - near_upper[1]));
+              maximum(near_lower[1] - chart_xi[1],
+                      chart_xi[1] - near_upper[1]));
     const unsigned int near   = lanes_above(widening, distance);
     unsigned int       active = near;
-    for (unsigned int iteration = 0; active != 0 && iteration < max_iterations; ++iteration)
+    for (unsigned int iteration = 0; active != 0 && iteration < max_iterations;
+         ++iteration)
       {
         Vec3<Lanes> x_s, dx[2], n;
         evaluate_extended(xi, alpha, x_s, dx, n);
@@ -146,26 +159,31 @@ namespace mortise
         xi[0] += step[0];
         xi[1] += step[1];
         alpha = step[2];
-        // Outside of the square only the side matters, and the second derivatives of the
-        // continuation are left out: a looser tolerance, continuous at its boundary.
-        const Lanes outside = maximum(maximum(-xi[0], xi[0] - 1.), maximum(-xi[1], xi[1] - 1.));
-        const Lanes allowed = step_tolerance + maximum(broadcast(0.), 1e-2 * (outside - margin));
+        // Outside of the square only the side matters, and the second
+        // derivatives of the continuation are left out: a looser tolerance,
+        // continuous at its boundary.
+        const Lanes outside =
+          maximum(maximum(-xi[0], xi[0] - 1.), maximum(-xi[1], xi[1] - 1.));
+        const Lanes allowed =
+          step_tolerance + maximum(broadcast(0.), 1e-2 * (outside - margin));
         const unsigned int moving =
           lanes_above(maximum(absolute(step[0]), absolute(step[1])), allowed);
-        // alpha enters the first matrix with its guess: a second step makes it quadratic.
+        // alpha enters the first matrix with its guess: a second step makes it
+        // quadratic.
         if (iteration > 0)
           active &= moving;
       }
 
-    // Far away, and where the continuation folds, the chart says on which side a point lies.
+    // Far away, and where the continuation folds, the chart says on which side
+    // a point lies.
     const unsigned int all = (1u << n_lanes) - 1;
     if (near == all && active == 0)
       return 0;
     unsigned int failed = 0;
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
-        const unsigned int bit    = 1u << l;
-        const bool         beside = chart_xi[0][l] < frame.chart_lower[0] - 0.05 ||
+        const unsigned int bit = 1u << l;
+        const bool beside      = chart_xi[0][l] < frame.chart_lower[0] - 0.05 ||
                             chart_xi[0][l] > frame.chart_upper[0] + 0.05 ||
                             chart_xi[1][l] < frame.chart_lower[1] - 0.05 ||
                             chart_xi[1][l] > frame.chart_upper[1] + 0.05;
@@ -195,13 +213,15 @@ namespace mortise
         dxi[1] = dot(dx, center_dual[1]);
         return;
       }
-    // x_m' = (dx_s/dxi + alpha dn/dxi) xi' + alpha' n; far away the chart's, as in pull_back().
+    // x_m' = (dx_s/dxi + alpha dn/dxi) xi' + alpha' n; far away the chart's, as
+    // in pull_back().
     Vec3<Lanes> x_s, dx_s[2], n;
     evaluate_extended(xi, alpha, x_s, dx_s, n);
     Lanes rate[3];
     solve_3x3(dx_s[0], dx_s[1], n, dx, rate);
-    const Lanes beyond = maximum(maximum(near_lower[0] - xi[0], xi[0] - near_upper[0]),
-                                 maximum(near_lower[1] - xi[1], xi[1] - near_upper[1]));
+    const Lanes beyond =
+      maximum(maximum(near_lower[0] - xi[0], xi[0] - near_upper[0]),
+              maximum(near_lower[1] - xi[1], xi[1] - near_upper[1]));
     for (unsigned int i = 0; i < 2; ++i)
       dxi[i] = beyond > 0. ? dot(dx, center_dual[i]) : rate[i];
   }
@@ -236,7 +256,8 @@ namespace mortise
     Lanes             step[3];
     if (!has_guess || is_affine)
       {
-        const Vec3<Lanes> t_1 = broadcast(tangent[0]), t_2 = broadcast(tangent[1]);
+        const Vec3<Lanes> t_1 = broadcast(tangent[0]),
+                          t_2 = broadcast(tangent[1]);
         solve_3x3(t_1, t_2, minus_n, x - broadcast(center), step);
         eta[0] = 0.5 + step[0];
         eta[1] = 0.5 + step[1];
@@ -253,8 +274,8 @@ namespace mortise
     const unsigned int behind = lanes_above(slope, broadcast(0.));
     if ((failed | behind) != 0)
       {
-        // A strongly curved face: its linear picture was no good beginning, or led to a point
-        // that looks the other way.
+        // A strongly curved face: its linear picture was no good beginning, or
+        // led to a point that looks the other way.
         nearest_samples(x, n, failed | behind, eta);
         failed = iterate(x, n, eta, alpha, x_m, slope);
       }
@@ -273,7 +294,8 @@ namespace mortise
   {
     const Vec3<Lanes> minus_n = {{-n[0], -n[1], -n[2]}};
     unsigned int      active  = (1u << n_lanes) - 1;
-    for (unsigned int iteration = 0; active != 0 && iteration < max_iterations; ++iteration)
+    for (unsigned int iteration = 0; active != 0 && iteration < max_iterations;
+         ++iteration)
       {
         // A partner lies on the face; farther out the polynomial means nothing.
         for (auto &e : eta)
@@ -284,11 +306,11 @@ namespace mortise
         solve_3x3(dx[0], dx[1], minus_n, x - x_m, step);
         eta[0] += step[0];
         eta[1] += step[1];
-        alpha = step[2];
-        x_m   = x_m + step[0] * dx[0] + step[1] * dx[1];
-        slope = orientation * dot(n, cross(dx[0], dx[1]));
-        active =
-          lanes_above(maximum(absolute(step[0]), absolute(step[1])), broadcast(step_tolerance));
+        alpha  = step[2];
+        x_m    = x_m + step[0] * dx[0] + step[1] * dx[1];
+        slope  = orientation * dot(n, cross(dx[0], dx[1]));
+        active = lanes_above(maximum(absolute(step[0]), absolute(step[1])),
+                             broadcast(step_tolerance));
       }
     return active;
   }
@@ -311,11 +333,11 @@ namespace mortise
                             broadcast((i / n_samples + 0.5) / n_samples)};
         Vec3<Lanes> x_m, dx[2];
         polynomial.evaluate(e[0], e[1], x_m, dx);
-        const Vec3<Lanes> off      = cross(x_m - x, n);
-        const Lanes       facing   = orientation * dot(n, cross(dx[0], dx[1]));
-        const Lanes       distance = facing < 0. ? dot(off, off) : broadcast(1e200);
-        const Lanes       better   = distance < best ? chosen : broadcast(0.);
-        best                       = minimum(best, distance);
+        const Vec3<Lanes> off    = cross(x_m - x, n);
+        const Lanes       facing = orientation * dot(n, cross(dx[0], dx[1]));
+        const Lanes distance = facing < 0. ? dot(off, off) : broadcast(1e200);
+        const Lanes better   = distance < best ? chosen : broadcast(0.);
+        best                 = minimum(best, distance);
         for (unsigned int d = 0; d < 2; ++d)
           eta[d] = better > 0. ? e[d] : eta[d];
       }

@@ -1,11 +1,11 @@
-#include <mortise/interface/search.h>
-
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/numerics/rtree.h>
 
 #include <boost/iterator/function_output_iterator.hpp>
+
+#include <mortise/interface/search.h>
 
 #include <algorithm>
 #include <map>
@@ -18,8 +18,8 @@ namespace mortise
   {
     using Box = BoundingBox<3>;
 
-    // The face's box, extended along its normals to both sides by the distance at which it can
-    // still have a partner.
+    // The face's box, extended along its normals to both sides by the distance
+    // at which it can still have a partner.
     Box
     box_of_reach(const SurfaceFace &face, const double search_fraction)
     {
@@ -29,9 +29,10 @@ namespace mortise
           double component = 0;
           for (const auto &normal : face.vertex_normals)
             component = std::max(component, std::abs(normal[d]));
-          const double reach = search_fraction * face.size * component + 1e-10 * face.size;
-          lower[d]           = face.lower[d] - reach;
-          upper[d]           = face.upper[d] + reach;
+          const double reach =
+            search_fraction * face.size * component + 1e-10 * face.size;
+          lower[d] = face.lower[d] - reach;
+          upper[d] = face.upper[d] + reach;
         }
       return Box({lower, upper});
     }
@@ -46,21 +47,27 @@ namespace mortise
     prism_of(const SurfaceFace &face)
     {
       const FaceFrame &frame = face.frame;
-      // What a chart's dual base leaves out is the part of the tangents along the normal.
+      // What a chart's dual base leaves out is the part of the tangents along
+      // the normal.
       Prism prism;
       for (unsigned int v = 0; v < 8; ++v)
         {
-          const double a = (v % 2 == 0 ? frame.chart_lower[0] : frame.chart_upper[0]) - 0.5;
-          const double b = (v / 2 % 2 == 0 ? frame.chart_lower[1] : frame.chart_upper[1]) - 0.5;
-          const Tensor<1, 3> in_plane = a * frame.tangent[0] + b * frame.tangent[1];
-          const double       height   = v < 4 ? frame.height_lower : frame.height_upper;
-          prism.corner[v] =
-            frame.center + in_plane + (height - in_plane * frame.normal) * frame.normal;
+          const double a =
+            (v % 2 == 0 ? frame.chart_lower[0] : frame.chart_upper[0]) - 0.5;
+          const double b =
+            (v / 2 % 2 == 0 ? frame.chart_lower[1] : frame.chart_upper[1]) -
+            0.5;
+          const Tensor<1, 3> in_plane =
+            a * frame.tangent[0] + b * frame.tangent[1];
+          const double height = v < 4 ? frame.height_lower : frame.height_upper;
+          prism.corner[v]     = frame.center + in_plane +
+                            (height - in_plane * frame.normal) * frame.normal;
         }
       return prism;
     }
 
-    // Does the prism of one face lie beside the other face in that face's chart?
+    // Does the prism of one face lie beside the other face in that face's
+    // chart?
     bool
     beside(const SurfaceFace &face, const Prism &other, const double reach)
     {
@@ -74,12 +81,14 @@ namespace mortise
           double low = 1e300, high = -1e300;
           for (const auto &corner : other.corner)
             {
-              const double chart = 0.5 + frame.dual[i] * (corner - frame.center);
-              low                = std::min(low, chart);
-              high               = std::max(high, chart);
+              const double chart =
+                0.5 + frame.dual[i] * (corner - frame.center);
+              low  = std::min(low, chart);
+              high = std::max(high, chart);
             }
           const double slack = 1e-10 + twist * reach;
-          if (low > frame.chart_upper[i] + slack || high < frame.chart_lower[i] - slack)
+          if (low > frame.chart_upper[i] + slack ||
+              high < frame.chart_lower[i] - slack)
             return true;
         }
       return false;
@@ -95,8 +104,8 @@ namespace mortise
       return false;
     }
 
-    // Halve the boxes at the median of their longest extent, again and again: at most
-    // 2^depth boxes that together contain all.
+    // Halve the boxes at the median of their longest extent, again and again:
+    // at most 2^depth boxes that together contain all.
     void
     coarsen(std::vector<Box> &boxes,
             const std::size_t begin,
@@ -135,12 +144,14 @@ namespace mortise
 
   struct FaceTree::Tree
   {
-    RTree<std::pair<Box, unsigned int>> boxes; ///< of reach, with positions of faces
+    RTree<std::pair<Box, unsigned int>>
+      boxes; ///< of reach, with positions of faces
   };
 
 
 
-  FaceTree::FaceTree(const std::vector<SurfaceFace> &masters, const double search_fraction)
+  FaceTree::FaceTree(const std::vector<SurfaceFace> &masters,
+                     const double                    search_fraction)
     : masters(masters)
     , search_fraction(search_fraction)
     , tree(std::make_unique<Tree>())
@@ -158,18 +169,21 @@ namespace mortise
 
 
   void
-  FaceTree::candidates(const SurfaceFace &slave, std::vector<unsigned int> &result) const
+  FaceTree::candidates(const SurfaceFace         &slave,
+                       std::vector<unsigned int> &result) const
   {
     result.clear();
     const Prism prism = prism_of(slave);
     const auto  test  = [&](const std::pair<Box, unsigned int> &entry) {
       const SurfaceFace &master = masters[entry.second];
-      const double       reach  = search_fraction * std::max(slave.size, master.size);
-      if (normals_may_oppose(slave, master) && !beside(slave, prism_of(master), reach) &&
+      const double reach = search_fraction * std::max(slave.size, master.size);
+      if (normals_may_oppose(slave, master) &&
+          !beside(slave, prism_of(master), reach) &&
           !beside(master, prism, reach))
         result.push_back(entry.second);
     };
-    tree->boxes.query(boost::geometry::index::intersects(box_of_reach(slave, search_fraction)),
+    tree->boxes.query(boost::geometry::index::intersects(
+                        box_of_reach(slave, search_fraction)),
                       boost::make_function_output_iterator(test));
     std::sort(result.begin(), result.end());
   }
@@ -186,29 +200,36 @@ namespace mortise
     for (const auto &slave : owned_slaves)
       slave_boxes.push_back(box_of_reach(slave, search_fraction));
     coarsen(slave_boxes, 0, slave_boxes.size(), 3, rank_boxes);
-    const std::vector<std::vector<Box>> all_boxes = Utilities::MPI::all_gather(comm, rank_boxes);
+    const std::vector<std::vector<Box>> all_boxes =
+      Utilities::MPI::all_gather(comm, rank_boxes);
 
-    const unsigned int                               me = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int me = Utilities::MPI::this_mpi_process(comm);
     std::map<unsigned int, std::vector<SurfaceFace>> to_send;
     std::vector<SurfaceFace>                         result;
     for (const auto &master : owned_masters)
       {
         const Box reach = box_of_reach(master, search_fraction);
         for (unsigned int rank = 0; rank < all_boxes.size(); ++rank)
-          if (std::any_of(all_boxes[rank].begin(), all_boxes[rank].end(), [&](const Box &box) {
-                return boost::geometry::intersects(box, reach);
-              }))
+          if (std::any_of(all_boxes[rank].begin(),
+                          all_boxes[rank].end(),
+                          [&](const Box &box) {
+                            return boost::geometry::intersects(box, reach);
+                          }))
             (rank == me ? result : to_send[rank]).push_back(master);
       }
     for (auto &received : Utilities::MPI::some_to_some(comm, to_send))
-      std::move(received.second.begin(), received.second.end(), std::back_inserter(result));
+      std::move(received.second.begin(),
+                received.second.end(),
+                std::back_inserter(result));
 
     std::sort(result.begin(), result.end(), [](const auto &a, const auto &b) {
       return a.id < b.id;
     });
     result.erase(std::unique(result.begin(),
                              result.end(),
-                             [](const auto &a, const auto &b) { return a.id == b.id; }),
+                             [](const auto &a, const auto &b) {
+                               return a.id == b.id;
+                             }),
                  result.end());
     return result;
   }

@@ -1,7 +1,7 @@
-#include <mortise/interface/surface_evaluation.h>
-
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/quadrature_lib.h>
+
+#include <mortise/interface/surface_evaluation.h>
 
 namespace mortise
 {
@@ -18,8 +18,8 @@ namespace mortise
       return result;
     }
 
-    // Values and derivatives of the Lagrange basis from products from the left and the right:
-    // no division, exact at the nodes.
+    // Values and derivatives of the Lagrange basis from products from the left
+    // and the right: no division, exact at the nodes.
     template <unsigned int degree>
     inline void
     evaluate_basis(const LagrangeBasis &basis,
@@ -39,8 +39,8 @@ namespace mortise
       Lanes right = broadcast(1.), right_derivative = broadcast(0.);
       for (unsigned int i = degree + 1; i-- > 0;)
         {
-          derivative[i]      = derivative[i] * right + value[i] * right_derivative;
-          value[i]           = value[i] * right;
+          derivative[i] = derivative[i] * right + value[i] * right_derivative;
+          value[i]      = value[i] * right;
           const Lanes factor = x - basis.node[i];
           right_derivative   = right_derivative * factor + right;
           right              = right * factor;
@@ -56,9 +56,15 @@ namespace mortise
                   Vec3<Lanes> (&dx)[2])
     {
       constexpr unsigned int n = degree + 1;
-      Lanes                  value_1[n], derivative_1[n], value_2[n], derivative_2[n];
-      evaluate_basis<degree>(lagrange_basis(degree), xi_1, value_1, derivative_1);
-      evaluate_basis<degree>(lagrange_basis(degree), xi_2, value_2, derivative_2);
+      Lanes value_1[n], derivative_1[n], value_2[n], derivative_2[n];
+      evaluate_basis<degree>(lagrange_basis(degree),
+                             xi_1,
+                             value_1,
+                             derivative_1);
+      evaluate_basis<degree>(lagrange_basis(degree),
+                             xi_2,
+                             value_2,
+                             derivative_2);
       for (unsigned int d = 0; d < 3; ++d)
         {
           const double *c = face.coefficients[d];
@@ -116,8 +122,9 @@ namespace mortise
       basis.degree = degree;
       for (unsigned int i = 0; i <= degree; ++i)
         basis.node[i] = nodes.point(i)[0];
-      // Monomial coefficients a_j of each basis function, then the Bernstein coefficients
-      // c_k = sum_j binom(k,j)/binom(g,j) a_j: sums that cancel, so in extended precision.
+      // Monomial coefficients a_j of each basis function, then the Bernstein
+      // coefficients c_k = sum_j binom(k,j)/binom(g,j) a_j: sums that cancel,
+      // so in extended precision.
       for (unsigned int i = 0; i <= degree; ++i)
         {
           long double  weight = 1, monomial[max_face_nodes] = {1};
@@ -149,14 +156,15 @@ namespace mortise
   const LagrangeBasis &
   lagrange_basis(const unsigned int degree)
   {
-    static const std::array<LagrangeBasis, max_face_degree> bases = {{make_basis(1),
-                                                                      make_basis(2),
-                                                                      make_basis(3),
-                                                                      make_basis(4),
-                                                                      make_basis(5),
-                                                                      make_basis(6),
-                                                                      make_basis(7),
-                                                                      make_basis(8)}};
+    static const std::array<LagrangeBasis, max_face_degree> bases = {
+      {make_basis(1),
+       make_basis(2),
+       make_basis(3),
+       make_basis(4),
+       make_basis(5),
+       make_basis(6),
+       make_basis(7),
+       make_basis(8)}};
     return bases[degree - 1];
   }
 

@@ -12,15 +12,17 @@ namespace mortise
 
   namespace
   {
-    // What counts as rounding in a face's shape, relative to its size: 1e-12, or what a scene far
-    // from the origin has lost.
+    // What counts as rounding in a face's shape, relative to its size: 1e-12,
+    // or what a scene far from the origin has lost.
     double
     flat_tolerance(const SurfaceFace &face)
     {
       double farthest = 0;
       for (const auto &point : face.points)
         farthest = std::max(farthest, point.norm());
-      return std::max(1e-12, 16. * std::numeric_limits<double>::epsilon() * farthest / face.size);
+      return std::max(1e-12,
+                      16. * std::numeric_limits<double>::epsilon() * farthest /
+                        face.size);
     }
 
     struct PointOnFace
@@ -30,7 +32,9 @@ namespace mortise
     };
 
     PointOnFace
-    evaluate(const FacePolynomial &polynomial, const double xi_1, const double xi_2)
+    evaluate(const FacePolynomial &polynomial,
+             const double          xi_1,
+             const double          xi_2)
     {
       Vec3<Lanes> x, dx[2];
       polynomial.evaluate(broadcast(xi_1), broadcast(xi_2), x, dx);
@@ -44,7 +48,8 @@ namespace mortise
       return result;
     }
 
-    // Bernstein control points of the face, relative to the origin of its polynomial.
+    // Bernstein control points of the face, relative to the origin of its
+    // polynomial.
     std::vector<Tensor<1, 3>>
     control_points(const FacePolynomial &polynomial)
     {
@@ -55,7 +60,8 @@ namespace mortise
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int k = 0; k < n; ++k)
             for (unsigned int d = 0; d < 3; ++d)
-              rows[j * n + i][d] += basis.bernstein[i][k] * polynomial.coefficients[d][j * n + k];
+              rows[j * n + i][d] +=
+                basis.bernstein[i][k] * polynomial.coefficients[d][j * n + k];
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int k = 0; k < n; ++k)
@@ -63,18 +69,20 @@ namespace mortise
       return result;
     }
 
-    // A parallelogram is its corners' linear interpolant with the fourth corner where it belongs.
+    // A parallelogram is its corners' linear interpolant with the fourth corner
+    // where it belongs.
     bool
     is_parallelogram(const SurfaceFace &face)
     {
       const LagrangeBasis &basis     = lagrange_basis(face.degree);
       const double         tolerance = flat_tolerance(face) * face.size;
       const unsigned int   n         = face.degree + 1;
-      const Tensor<1, 3>   a         = face.points[face.degree] - face.points[0];
-      const Tensor<1, 3>   b         = face.points[n * face.degree] - face.points[0];
+      const Tensor<1, 3>   a = face.points[face.degree] - face.points[0];
+      const Tensor<1, 3>   b = face.points[n * face.degree] - face.points[0];
       for (unsigned int j = 0; j < n; ++j)
         for (unsigned int i = 0; i < n; ++i)
-          if ((face.points[j * n + i] - face.points[0] - basis.node[i] * a - basis.node[j] * b)
+          if ((face.points[j * n + i] - face.points[0] - basis.node[i] * a -
+               basis.node[j] * b)
                 .norm() > tolerance)
             return false;
       return true;
@@ -83,16 +91,21 @@ namespace mortise
     void
     check(const SurfaceFace &face)
     {
-      const std::string where = "Surface face " + std::to_string(face.id) + ": ";
+      const std::string where =
+        "Surface face " + std::to_string(face.id) + ": ";
       if (face.shape != FaceShape::quadrilateral)
-        throw InputError(where + "its shape is not a quadrilateral; only those are supported.");
+        throw InputError(
+          where +
+          "its shape is not a quadrilateral; only those are supported.");
       if (face.degree < 1 || face.degree > max_face_degree)
-        throw InputError(where + "degree of the geometry is " + std::to_string(face.degree) +
-                         "; allowed: 1 to " + std::to_string(max_face_degree) + ".");
+        throw InputError(where + "degree of the geometry is " +
+                         std::to_string(face.degree) + "; allowed: 1 to " +
+                         std::to_string(max_face_degree) + ".");
       if (face.points.size() != (face.degree + 1) * (face.degree + 1))
-        throw InputError(where + std::to_string(face.points.size()) + " points; degree " +
-                         std::to_string(face.degree) + " needs " +
-                         std::to_string((face.degree + 1) * (face.degree + 1)) + ".");
+        throw InputError(
+          where + std::to_string(face.points.size()) + " points; degree " +
+          std::to_string(face.degree) + " needs " +
+          std::to_string((face.degree + 1) * (face.degree + 1)) + ".");
       for (const auto &point : face.points)
         for (unsigned int d = 0; d < 3; ++d)
           if (!std::isfinite(point[d]))
@@ -113,10 +126,12 @@ namespace mortise
         frame.normal += normal;
       frame.normal /= frame.normal.norm();
       // dual[0] = t_2 x n / (t_1 . t_2 x n), dual[1] = n x t_1 / (...)
-      const double volume = cross_product_3d(center.dx[0], center.dx[1]) * frame.normal;
+      const double volume =
+        cross_product_3d(center.dx[0], center.dx[1]) * frame.normal;
       if (!(std::abs(volume) > 1e-10 * face.size * face.size * 1e-2))
-        throw InputError("Surface face " + std::to_string(face.id) +
-                         ": no area at its centre, or normals that lie in its plane.");
+        throw InputError(
+          "Surface face " + std::to_string(face.id) +
+          ": no area at its centre, or normals that lie in its plane.");
       frame.dual = {{cross_product_3d(center.dx[1], frame.normal) / volume,
                      cross_product_3d(frame.normal, center.dx[0]) / volume}};
     }
@@ -133,9 +148,11 @@ namespace mortise
                     (points[degree] - points[n * degree]).norm());
     affine               = is_parallelogram(*this);
 
-    if (std::all_of(vertex_normals.begin(), vertex_normals.end(), [](const auto &normal) {
-          return normal.norm_square() == 0.;
-        }))
+    if (std::all_of(vertex_normals.begin(),
+                    vertex_normals.end(),
+                    [](const auto &normal) {
+                      return normal.norm_square() == 0.;
+                    }))
       {
         vertex_normals = corner_normals(*this);
         for (auto &normal : vertex_normals)
@@ -143,7 +160,8 @@ namespace mortise
       }
     linear = affine;
     for (const auto &normal : vertex_normals)
-      linear = linear && (normal - vertex_normals[0]).norm() <= flat_tolerance(*this);
+      linear =
+        linear && (normal - vertex_normals[0]).norm() <= flat_tolerance(*this);
     set_frame(*this);
 
     FacePolynomial polynomial;
@@ -153,7 +171,8 @@ namespace mortise
     frame.chart_upper         = {{-infinity, -infinity}};
     frame.height_lower        = infinity;
     frame.height_upper        = -infinity;
-    Tensor<1, 3> box_lower({infinity, infinity, infinity}), box_upper = -box_lower;
+    Tensor<1, 3> box_lower({infinity, infinity, infinity}),
+      box_upper = -box_lower;
     for (const auto &point : control_points(polynomial))
       {
         for (unsigned int i = 0; i < 2; ++i)
@@ -185,7 +204,8 @@ namespace mortise
     for (unsigned int v = 0; v < 4; ++v)
       {
         const PointOnFace point = evaluate(polynomial, v % 2, v / 2);
-        result[v]               = face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
+        result[v] =
+          face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
       }
     return result;
   }
@@ -193,11 +213,13 @@ namespace mortise
 
 
   void
-  average_vertex_normals(std::vector<SurfaceFace>                        &faces,
-                         const std::vector<std::array<std::uint64_t, 4>> &vertices)
+  average_vertex_normals(
+    std::vector<SurfaceFace>                        &faces,
+    const std::vector<std::array<std::uint64_t, 4>> &vertices)
   {
     AssertDimension(faces.size(), vertices.size());
-    // The sum must not depend on the order of the faces beyond rounding of a few additions.
+    // The sum must not depend on the order of the faces beyond rounding of a
+    // few additions.
     std::unordered_map<std::uint64_t, Tensor<1, 3>> sums;
     for (unsigned int f = 0; f < faces.size(); ++f)
       {
@@ -221,7 +243,8 @@ namespace mortise
     FacePolynomial polynomial;
     polynomial.reinit(face, face.frame.center);
     // A face that bends far away from its plane needs more points.
-    const double       rise   = (face.frame.height_upper - face.frame.height_lower) / face.size;
+    const double rise =
+      (face.frame.height_upper - face.frame.height_lower) / face.size;
     const unsigned int enough = face.affine ? 1 :
                                               face.degree + (rise < 0.05 ? 6 :
                                                              rise < 0.15 ? 9 :
@@ -230,8 +253,9 @@ namespace mortise
     double             area   = 0;
     for (unsigned int q = 0; q < rule.s.size(); q += n_lanes)
       {
-        Lanes              xi[2]    = {broadcast(0.5), broadcast(0.5)}, weight{};
-        const unsigned int n_active = std::min<unsigned int>(n_lanes, rule.s.size() - q);
+        Lanes              xi[2] = {broadcast(0.5), broadcast(0.5)}, weight{};
+        const unsigned int n_active =
+          std::min<unsigned int>(n_lanes, rule.s.size() - q);
         for (unsigned int l = 0; l < n_active; ++l)
           {
             xi[0][l]  = rule.s[q + l];
@@ -265,8 +289,9 @@ namespace mortise
   {
     FacePolynomial polynomial;
     polynomial.reinit(face, face.frame.center);
-    const PointOnFace  point  = evaluate(polynomial, xi[0], xi[1]);
-    const Tensor<1, 3> normal = face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
+    const PointOnFace  point = evaluate(polynomial, xi[0], xi[1]);
+    const Tensor<1, 3> normal =
+      face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
     return normal / normal.norm();
   }
 

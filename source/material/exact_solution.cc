@@ -10,12 +10,12 @@ namespace mortise
 {
   using namespace dealii;
 
-  ExpressionSolution::ExpressionSolution(const VectorExpression           &displacement,
-                                         const std::vector<LinearElastic> &materials)
+  ExpressionSolution::ExpressionSolution(
+    const VectorExpression           &displacement,
+    const std::vector<LinearElastic> &materials)
     : expression(displacement)
     , materials(materials)
-  {
-  }
+  {}
 
   Tensor<1, 3>
   ExpressionSolution::displacement(const Point<3> &p, const unsigned int) const
@@ -37,7 +37,8 @@ namespace mortise
   }
 
   Tensor<1, 3>
-  ExpressionSolution::body_force(const Point<3> &p, const unsigned int body) const
+  ExpressionSolution::body_force(const Point<3>    &p,
+                                 const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
     return materials[body].body_force(expression.hessian(p));
@@ -53,30 +54,36 @@ namespace mortise
   {
     using Layer = LameSolution::Layer;
 
-    /// Order of the layers from the inside out; throws if they do not fit together.
+    /// Order of the layers from the inside out; throws if they do not fit
+    /// together.
     std::vector<unsigned int>
     order_of(const std::vector<Layer> &layers)
     {
       std::vector<unsigned int> order(layers.size());
       std::iota(order.begin(), order.end(), 0);
-      std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
-        return layers[a].inner_radius < layers[b].inner_radius;
-      });
+      std::sort(order.begin(),
+                order.end(),
+                [&](const unsigned int a, const unsigned int b) {
+                  return layers[a].inner_radius < layers[b].inner_radius;
+                });
       std::ostringstream message;
       if (layers.empty())
         message << "no body has radii";
       for (unsigned int i = 0; i < order.size(); ++i)
         {
           const Layer &layer = layers[order[i]];
-          if (!(0. < layer.inner_radius && layer.inner_radius < layer.outer_radius))
-            message << "; radii " << layer.inner_radius << ", " << layer.outer_radius
-                    << " of body number " << order[i] + 1 << "; allowed: 0 < inner < outer";
+          if (!(0. < layer.inner_radius &&
+                layer.inner_radius < layer.outer_radius))
+            message << "; radii " << layer.inner_radius << ", "
+                    << layer.outer_radius << " of body number " << order[i] + 1
+                    << "; allowed: 0 < inner < outer";
           else if (i > 0)
             {
               const double below = layers[order[i - 1]].outer_radius;
               if (!(std::fabs(below - layer.inner_radius) <= 1e-8 * below))
-                message << "; one layer ends at radius " << below << " and the next begins at "
-                        << layer.inner_radius << "; allowed: the same radius";
+                message << "; one layer ends at radius " << below
+                        << " and the next begins at " << layer.inner_radius
+                        << "; allowed: the same radius";
             }
         }
       if (!message.str().empty())
@@ -94,10 +101,11 @@ namespace mortise
         , b(layer.outer_radius)
         , d(d)
       {
-        const double E = layer.material.young_modulus, nu = layer.material.poisson_ratio;
-        one_by_k = (d == 3 ? 1. : 1. + nu) * (1. - 2. * nu) / E;
-        one_by_s = (1. + nu) / ((d - 1) * E);
-        ratio    = std::pow(a / b, static_cast<int>(d));
+        const double E  = layer.material.young_modulus,
+                     nu = layer.material.poisson_ratio;
+        one_by_k        = (d == 3 ? 1. : 1. + nu) * (1. - 2. * nu) / E;
+        one_by_s        = (1. + nu) / ((d - 1) * E);
+        ratio           = std::pow(a / b, static_cast<int>(d));
       }
 
       /// k A for pressures @p pa inside and @p pb outside.
@@ -119,7 +127,8 @@ namespace mortise
       displacement(const double r, const double pa, const double pb) const
       {
         return r * (mean(pa, pb) * one_by_k +
-                    shear(pa, pb) * std::pow(b / r, static_cast<int>(d)) * one_by_s);
+                    shear(pa, pb) * std::pow(b / r, static_cast<int>(d)) *
+                      one_by_s);
       }
 
       double       a, b;
@@ -127,32 +136,36 @@ namespace mortise
       double       one_by_k, one_by_s, ratio;
     };
 
-    /// Pressures at all radii, from the inside out. The unknowns are the pressures where layers
-    /// meet, so that contrast in stiffness never enters a difference: the equations (equal
-    /// displacement from both sides) are tridiagonal and diagonally dominant for each sign.
+    /// Pressures at all radii, from the inside out. The unknowns are the
+    /// pressures where layers meet, so that contrast in stiffness never enters
+    /// a difference: the equations (equal displacement from both sides) are
+    /// tridiagonal and diagonally dominant for each sign.
     std::vector<double>
     interface_pressures(const std::vector<Response> &responses,
                         const double                 pressure_inside,
                         const double                 pressure_outside)
     {
       const unsigned int  n = responses.size();
-      std::vector<double> pressures(n + 1, 0.), diagonal(n + 1, 1.), upper(n + 1, 0.);
+      std::vector<double> pressures(n + 1, 0.), diagonal(n + 1, 1.),
+        upper(n + 1, 0.);
       pressures[0] = pressure_inside;
       pressures[n] = pressure_outside;
-      // Thomas' algorithm; row i: lower p_{i-1} + middle p_i + upper p_{i+1} = 0.
+      // Thomas' algorithm; row i: lower p_{i-1} + middle p_i + upper p_{i+1} =
+      // 0.
       for (unsigned int i = 1; i < n; ++i)
         {
           const Response &below = responses[i - 1], &above = responses[i];
-          const double    lower = below.displacement(below.b, 1., 0.);
-          const double    middle =
-            below.displacement(below.b, 0., 1.) - above.displacement(above.a, 1., 0.);
+          const double    lower  = below.displacement(below.b, 1., 0.);
+          const double    middle = below.displacement(below.b, 0., 1.) -
+                                above.displacement(above.a, 1., 0.);
           upper[i]            = -above.displacement(above.a, 0., 1.);
           const double factor = lower / diagonal[i - 1];
           diagonal[i]         = middle - (i > 1 ? factor * upper[i - 1] : 0.);
           pressures[i]        = -factor * pressures[i - 1];
         }
       for (unsigned int i = n - 1; i >= 1; --i)
-        pressures[i] = (pressures[i] - upper[i] * pressures[i + 1]) / diagonal[i];
+        pressures[i] =
+          (pressures[i] - upper[i] * pressures[i + 1]) / diagonal[i];
       return pressures;
     }
   } // namespace
@@ -170,12 +183,14 @@ namespace mortise
     std::vector<Response>           responses;
     for (const unsigned int body : order)
       responses.emplace_back(layers[body], d);
-    const std::vector<double> p = interface_pressures(responses, pressure_inside, pressure_outside);
+    const std::vector<double> p =
+      interface_pressures(responses, pressure_inside, pressure_outside);
     for (unsigned int i = 0; i < order.size(); ++i)
       {
-        const Response &r      = responses[i];
-        const double    mean   = r.mean(p[i], p[i + 1]);
-        const double    shear  = r.shear(p[i], p[i + 1]) * std::pow(r.b, static_cast<int>(d));
+        const Response &r    = responses[i];
+        const double    mean = r.mean(p[i], p[i + 1]);
+        const double    shear =
+          r.shear(p[i], p[i + 1]) * std::pow(r.b, static_cast<int>(d));
         coefficients[order[i]] = {mean * r.one_by_k,
                                   shear * r.one_by_s,
                                   mean,
@@ -194,7 +209,8 @@ namespace mortise
   }
 
   double
-  LameSolution::radial_displacement(const double radius, const unsigned int body) const
+  LameSolution::radial_displacement(const double       radius,
+                                    const unsigned int body) const
   {
     AssertIndexRange(body, coefficients.size());
     const Coefficients &c = coefficients[body];
@@ -202,7 +218,8 @@ namespace mortise
   }
 
   double
-  LameSolution::radial_stress(const double radius, const unsigned int body) const
+  LameSolution::radial_stress(const double       radius,
+                              const unsigned int body) const
   {
     AssertIndexRange(body, coefficients.size());
     const Coefficients &c = coefficients[body];
@@ -222,8 +239,8 @@ namespace mortise
   {
     AssertIndexRange(body, coefficients.size());
     const Coefficients &c = coefficients[body];
-    // u = g(r) x with g = A + B / r^d, so grad u = g P + (g' / r) x (x) x, P the identity of the
-    // d directions.
+    // u = g(r) x with g = A + B / r^d, so grad u = g P + (g' / r) x (x) x, P
+    // the identity of the d directions.
     const Tensor<1, 3> x     = radius_vector(p);
     const double       r     = x.norm();
     const double       B_r_d = c.B / std::pow(r, static_cast<int>(d));
@@ -238,12 +255,14 @@ namespace mortise
   {
     AssertIndexRange(body, coefficients.size());
     const Coefficients &c = coefficients[body];
-    // sigma_r = mean - shear / r^d; across: mean + shear / ((d-1) r^d); along the axis of a
-    // cylinder in plane strain nu (sigma_r + sigma_t) = 2 nu mean.
-    const Tensor<1, 3> x      = radius_vector(p);
-    const double       r      = x.norm();
-    const double       across = c.shear / ((d - 1) * std::pow(r, static_cast<int>(d)));
-    Tensor<2, 3>       local  = -(d * across / (r * r)) * outer_product(x, x);
+    // sigma_r = mean - shear / r^d; across: mean + shear / ((d-1) r^d); along
+    // the axis of a cylinder in plane strain nu (sigma_r + sigma_t) = 2 nu
+    // mean.
+    const Tensor<1, 3> x = radius_vector(p);
+    const double       r = x.norm();
+    const double       across =
+      c.shear / ((d - 1) * std::pow(r, static_cast<int>(d)));
+    Tensor<2, 3> local = -(d * across / (r * r)) * outer_product(x, x);
     for (unsigned int i = 0; i < d; ++i)
       local[i][i] += c.mean + across;
     if (d == 2)

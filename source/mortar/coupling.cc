@@ -1,6 +1,6 @@
-#include <mortise/mortar/coupling.h>
-
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <mortise/mortar/coupling.h>
 
 #include <algorithm>
 #include <map>
@@ -13,7 +13,8 @@ namespace mortise
   {
     using Index = types::global_dof_index;
 
-    /// Rows of a local matrix in one component: expansions of local functions in global ones.
+    /// Rows of a local matrix in one component: expansions of local functions
+    /// in global ones.
     struct Expansion
     {
       const std::vector<unsigned int> &begin;
@@ -35,8 +36,8 @@ namespace mortise
       return {rows.begin, rows.index, rows.weight, c * n};
     }
 
-    /// Entries sum_ij (row expansion of i) matrix_ij (column expansion of j), gathered row by row.
-    /// In a first pass only their places are recorded.
+    /// Entries sum_ij (row expansion of i) matrix_ij (column expansion of j),
+    /// gathered row by row. In a first pass only their places are recorded.
     class Assembler
     {
     public:
@@ -46,13 +47,20 @@ namespace mortise
       {}
 
       void
-      record(const Expansion &row, const unsigned int n_rows, const Expansion &column, const unsigned int n_columns)
+      record(const Expansion   &row,
+             const unsigned int n_rows,
+             const Expansion   &column,
+             const unsigned int n_columns)
       {
-        std::vector<Index> places(column.index.begin() + column.begin[column.offset],
-                                  column.index.begin() + column.begin[column.offset + n_columns]);
+        std::vector<Index> places(column.index.begin() +
+                                    column.begin[column.offset],
+                                  column.index.begin() +
+                                    column.begin[column.offset + n_columns]);
         std::sort(places.begin(), places.end());
         places.erase(std::unique(places.begin(), places.end()), places.end());
-        for (unsigned int e = row.begin[row.offset]; e < row.begin[row.offset + n_rows]; ++e)
+        for (unsigned int e = row.begin[row.offset];
+             e < row.begin[row.offset + n_rows];
+             ++e)
           {
             auto &entries = pattern[row.index[e]];
             entries.insert(entries.end(), places.begin(), places.end());
@@ -72,7 +80,10 @@ namespace mortise
         for (auto &row : pattern)
           {
             compress(row.first);
-            sparsity.add_entries(row.first, row.second.begin(), row.second.end(), true);
+            sparsity.add_entries(row.first,
+                                 row.second.begin(),
+                                 row.second.end(),
+                                 true);
             row.second = std::vector<Index>();
           }
         matrix.reinit(rows, columns, sparsity, comm, true);
@@ -86,10 +97,10 @@ namespace mortise
           const bool                transposed,
           SparseMatrix             &matrix)
       {
-        const unsigned int n_rows    = transposed ? local.n() : local.m();
-        const unsigned int n_columns = transposed ? local.m() : local.n();
-        const unsigned int first     = column.begin[column.offset];
-        const unsigned int last      = column.begin[column.offset + n_columns];
+        const unsigned int  n_rows    = transposed ? local.n() : local.m();
+        const unsigned int  n_columns = transposed ? local.m() : local.n();
+        const unsigned int  first     = column.begin[column.offset];
+        const unsigned int  last      = column.begin[column.offset + n_columns];
         std::vector<double> values(last - first);
         for (unsigned int i = 0; i < n_rows; ++i)
           {
@@ -97,13 +108,20 @@ namespace mortise
               for (unsigned int e = column.begin[column.offset + j];
                    e < column.begin[column.offset + j + 1];
                    ++e)
-                values[e - first] = column.weight[e] * (transposed ? local(j, i) : local(i, j));
-            for (unsigned int e = row.begin[row.offset + i]; e < row.begin[row.offset + i + 1]; ++e)
+                values[e - first] =
+                  column.weight[e] * (transposed ? local(j, i) : local(i, j));
+            for (unsigned int e = row.begin[row.offset + i];
+                 e < row.begin[row.offset + i + 1];
+                 ++e)
               {
                 std::vector<double> scaled(values);
                 for (double &value : scaled)
                   value *= factor * row.weight[e];
-                matrix.add(row.index[e], scaled.size(), &column.index[first], scaled.data(), false);
+                matrix.add(row.index[e],
+                           scaled.size(),
+                           column.index.data() + first,
+                           scaled.data(),
+                           false);
               }
           }
       }
@@ -114,16 +132,18 @@ namespace mortise
       {
         auto &entries = pattern[row];
         std::sort(entries.begin(), entries.end());
-        entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+        entries.erase(std::unique(entries.begin(), entries.end()),
+                      entries.end());
         compressed[row] = entries.size();
       }
 
-      const IndexSet                      &rows, &columns;
-      std::map<Index, std::vector<Index>>  pattern;
-      std::map<Index, std::size_t>         compressed;
+      const IndexSet                     &rows, &columns;
+      std::map<Index, std::vector<Index>> pattern;
+      std::map<Index, std::size_t>        compressed;
     };
 
-    /// Move prescribed displacements to the right hand side: g_i -= factor local_ij constant_j.
+    /// Move prescribed displacements to the right hand side: g_i -= factor
+    /// local_ij constant_j.
     void
     move_constants(const Expansion          &row,
                    const FaceTrace          &trace,
@@ -138,12 +158,15 @@ namespace mortise
           for (unsigned int j = 0; j < local.n(); ++j)
             sum += local(i, j) * trace.constant[c * trace.n_functions() + j];
           if (sum != 0.)
-            for (unsigned int e = row.begin[row.offset + i]; e < row.begin[row.offset + i + 1]; ++e)
+            for (unsigned int e = row.begin[row.offset + i];
+                 e < row.begin[row.offset + i + 1];
+                 ++e)
               rhs(row.index[e]) -= factor * row.weight[e] * sum;
         }
     }
 
-    /// Calls visit(slave trace, rows, local) for each slave face with a partner.
+    /// Calls visit(slave trace, rows, local) for each slave face with a
+    /// partner.
     template <typename Visit>
     void
     for_each_face(const std::vector<Coupling> &couplings, const Visit &visit)
@@ -166,9 +189,11 @@ namespace mortise
         for (const auto &partner : coupling.local[s].partners)
           for (unsigned int c = 0; c < dim; ++c)
             {
-              const FaceTrace &master = coupling.interface->master_traces()[partner.master];
-              const Expansion  dofs   = component(master, c);
-              if (dofs.begin[dofs.offset + master.n_functions()] > dofs.begin[dofs.offset])
+              const FaceTrace &master =
+                coupling.interface->master_traces()[partner.master];
+              const Expansion dofs = component(master, c);
+              if (dofs.begin[dofs.offset + master.n_functions()] >
+                  dofs.begin[dofs.offset])
                 state.can_follow[c] = true;
             }
         states.push_back(state);
@@ -182,42 +207,56 @@ namespace mortise
                       SparseMatrix                &coupling_matrix,
                       Vector                      &coupling_rhs)
   {
-    Assembler assembler(partition.owned_multiplier, partition.owned_displacement);
-    for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
-      const FaceTrace &slave = coupling.interface->slave().traces[s];
-      const auto      &rows  = coupling.multipliers->rows()[s];
-      const unsigned int n   = slave.n_functions();
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          assembler.record(component(rows, c), n, component(slave, c), n);
-          for (const auto &partner : coupling.local[s].partners)
-            {
-              const FaceTrace &master = coupling.interface->master_traces()[partner.master];
-              assembler.record(component(rows, c), n, component(master, c), master.n_functions());
-            }
-        }
-    });
+    Assembler assembler(partition.owned_multiplier,
+                        partition.owned_displacement);
+    for_each_face(
+      couplings, [&](const Coupling &coupling, const unsigned int s) {
+        const FaceTrace   &slave = coupling.interface->slave().traces[s];
+        const auto        &rows  = coupling.multipliers->rows()[s];
+        const unsigned int n     = slave.n_functions();
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            assembler.record(component(rows, c), n, component(slave, c), n);
+            for (const auto &partner : coupling.local[s].partners)
+              {
+                const FaceTrace &master =
+                  coupling.interface->master_traces()[partner.master];
+                assembler.record(component(rows, c),
+                                 n,
+                                 component(master, c),
+                                 master.n_functions());
+              }
+          }
+      });
     assembler.create(coupling_matrix, partition.comm);
     coupling_rhs.reinit(partition.owned_multiplier, partition.comm);
 
-    for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
-      const FaceTrace     &slave = coupling.interface->slave().traces[s];
-      const auto          &rows  = coupling.multipliers->rows()[s];
-      const LocalCoupling &local = coupling.local[s];
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const Expansion row = component(rows, c);
-          Assembler::add(row, component(slave, c), local.mass, 1., false, coupling_matrix);
-          move_constants(row, slave, c, local.mass, 1., coupling_rhs);
-          for (const auto &partner : local.partners)
-            {
-              const FaceTrace &master = coupling.interface->master_traces()[partner.master];
-              Assembler::add(
-                row, component(master, c), partner.mixed, -1., false, coupling_matrix);
-              move_constants(row, master, c, partner.mixed, -1., coupling_rhs);
-            }
-        }
-    });
+    for_each_face(
+      couplings, [&](const Coupling &coupling, const unsigned int s) {
+        const FaceTrace     &slave = coupling.interface->slave().traces[s];
+        const auto          &rows  = coupling.multipliers->rows()[s];
+        const LocalCoupling &local = coupling.local[s];
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const Expansion row = component(rows, c);
+            Assembler::add(
+              row, component(slave, c), local.mass, 1., false, coupling_matrix);
+            move_constants(row, slave, c, local.mass, 1., coupling_rhs);
+            for (const auto &partner : local.partners)
+              {
+                const FaceTrace &master =
+                  coupling.interface->master_traces()[partner.master];
+                Assembler::add(row,
+                               component(master, c),
+                               partner.mixed,
+                               -1.,
+                               false,
+                               coupling_matrix);
+                move_constants(
+                  row, master, c, partner.mixed, -1., coupling_rhs);
+              }
+          }
+      });
     coupling_matrix.compress(VectorOperation::add);
     coupling_rhs.compress(VectorOperation::add);
   }
@@ -227,32 +266,48 @@ namespace mortise
                         const CouplingPartition     &partition,
                         SparseMatrix                &jump_penalty)
   {
-    Assembler  assembler(partition.owned_displacement, partition.owned_displacement);
+    Assembler  assembler(partition.owned_displacement,
+                        partition.owned_displacement);
     const auto for_each_block = [&](const auto &block) {
-      for_each_face(couplings, [&](const Coupling &coupling, const unsigned int s) {
-        const FaceTrace     &slave = coupling.interface->slave().traces[s];
-        const LocalCoupling &local = coupling.local[s];
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            block(component(slave, c), component(slave, c), local.mass, local.penalty, false);
-            for (const auto &partner : local.partners)
-              {
-                const Expansion master =
-                  component(coupling.interface->master_traces()[partner.master], c);
-                block(component(slave, c), master, partner.mixed, -local.penalty, false);
-                block(master, component(slave, c), partner.mixed, -local.penalty, true);
-                block(master, master, partner.mass, local.penalty, false);
-              }
-          }
-      });
+      for_each_face(
+        couplings, [&](const Coupling &coupling, const unsigned int s) {
+          const FaceTrace     &slave = coupling.interface->slave().traces[s];
+          const LocalCoupling &local = coupling.local[s];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              block(component(slave, c),
+                    component(slave, c),
+                    local.mass,
+                    local.penalty,
+                    false);
+              for (const auto &partner : local.partners)
+                {
+                  const Expansion master = component(
+                    coupling.interface->master_traces()[partner.master], c);
+                  block(component(slave, c),
+                        master,
+                        partner.mixed,
+                        -local.penalty,
+                        false);
+                  block(master,
+                        component(slave, c),
+                        partner.mixed,
+                        -local.penalty,
+                        true);
+                  block(master, master, partner.mass, local.penalty, false);
+                }
+            }
+        });
     };
     for_each_block([&](const Expansion          &row,
                        const Expansion          &column,
                        const FullMatrix<double> &local,
                        const double,
                        const bool transposed) {
-      assembler.record(
-        row, transposed ? local.n() : local.m(), column, transposed ? local.m() : local.n());
+      assembler.record(row,
+                       transposed ? local.n() : local.m(),
+                       column,
+                       transposed ? local.m() : local.n());
     });
     assembler.create(jump_penalty, partition.comm);
     for_each_block([&](const Expansion          &row,

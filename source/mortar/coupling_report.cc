@@ -1,8 +1,8 @@
-#include <mortise/mortar/coupling.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/mortar/coupling.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,12 @@ namespace mortise
 
   namespace
   {
-    /// Sum over the functions of a face that are not zero on constants: those of its vertices.
+    /// Sum over the functions of a face that are not zero on constants: those
+    /// of its vertices.
     double
-    on_constants(const FullMatrix<double> &local, const unsigned int i, const unsigned int degree)
+    on_constants(const FullMatrix<double> &local,
+                 const unsigned int        i,
+                 const unsigned int        degree)
     {
       const unsigned int n = degree + 1;
       return local(i, 0) + local(i, 1) + local(i, n) + local(i, n + 1);
@@ -33,25 +36,35 @@ namespace mortise
             const unsigned int n    = coupling.local[s].mass.m();
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int i = 0; i < n; ++i)
-                for (unsigned int e = rows.begin[c * n + i]; e < rows.begin[c * n + i + 1]; ++e)
+                for (unsigned int e = rows.begin[c * n + i];
+                     e < rows.begin[c * n + i + 1];
+                     ++e)
                   visit(s, i, rows.index[e], rows.weight[e]);
           }
     }
 
     double
-    row_difference(const Coupling &coupling, const unsigned int s, const unsigned int i)
+    row_difference(const Coupling    &coupling,
+                   const unsigned int s,
+                   const unsigned int i)
     {
       const LocalCoupling &local = coupling.local[s];
-      double sum = on_constants(local.mass, i, coupling.interface->slave().traces[s].degree);
+      double               sum   = on_constants(local.mass,
+                                i,
+                                coupling.interface->slave().traces[s].degree);
       for (const auto &partner : local.partners)
         sum -= on_constants(
-          partner.mixed, i, coupling.interface->master_traces()[partner.master].degree);
+          partner.mixed,
+          i,
+          coupling.interface->master_traces()[partner.master].degree);
       return sum;
     }
   } // namespace
 
   TransferErrors
-  transfer_errors(const Coupling &coupling, const IndexSet &owned_multiplier, const MPI_Comm comm)
+  transfer_errors(const Coupling &coupling,
+                  const IndexSet &owned_multiplier,
+                  const MPI_Comm  comm)
   {
     if (owned_multiplier.size() == 0)
       return {};
@@ -73,26 +86,39 @@ namespace mortise
     for (auto &sum : sums)
       sum.reinit(owned_multiplier, ghosts, comm);
 
-    for_each_entry(coupling, [&](const unsigned int s, const unsigned int i, const auto index, const double w) {
-      const LocalCoupling &local = coupling.local[s];
-      const double         row =
-        on_constants(local.mass, i, coupling.interface->slave().traces[s].degree);
-      sums[difference](index) += w * row_difference(coupling, s, i);
-      sums[weight](index) += w * row;
-      for (unsigned int c = 0; c < dim; ++c)
-        sums[gap_x + c](index) += w * local.gap_moment[i][c];
-      // int |lambda_i| is at most the root of the area times that of int lambda_i^2
-      const double area = std::sqrt(local.mass(i, i)) * coupling.interface->slave().faces[s].size;
-      sums[scale](index) += std::fabs(w) * area * coupling.interface->slave().faces[s].size;
-    });
+    for_each_entry(
+      coupling,
+      [&](const unsigned int s,
+          const unsigned int i,
+          const auto         index,
+          const double       w) {
+        const LocalCoupling &local = coupling.local[s];
+        const double         row =
+          on_constants(local.mass,
+                       i,
+                       coupling.interface->slave().traces[s].degree);
+        sums[difference](index) += w * row_difference(coupling, s, i);
+        sums[weight](index) += w * row;
+        for (unsigned int c = 0; c < dim; ++c)
+          sums[gap_x + c](index) += w * local.gap_moment[i][c];
+        // int |lambda_i| is at most the root of the area times that of int
+        // lambda_i^2
+        const double area = std::sqrt(local.mass(i, i)) *
+                            coupling.interface->slave().faces[s].size;
+        sums[scale](index) +=
+          std::fabs(w) * area * coupling.interface->slave().faces[s].size;
+      });
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);
 
     double worst_difference = 0., largest_weight = 0., worst_gap = 0.;
     for (unsigned int i = 0; i < sums[weight].locally_owned_size(); ++i)
       {
-        worst_difference = std::max(worst_difference, std::fabs(sums[difference].local_element(i)));
-        largest_weight   = std::max(largest_weight, std::fabs(sums[weight].local_element(i)));
+        worst_difference =
+          std::max(worst_difference,
+                   std::fabs(sums[difference].local_element(i)));
+        largest_weight =
+          std::max(largest_weight, std::fabs(sums[weight].local_element(i)));
         const double gap = std::hypot(sums[gap_x].local_element(i),
                                       sums[gap_y].local_element(i),
                                       sums[gap_z].local_element(i));
@@ -109,7 +135,9 @@ namespace mortise
   }
 
   std::vector<std::vector<double>>
-  multiplier_on_faces(const Coupling &coupling, const Vector &multiplier, const MPI_Comm comm)
+  multiplier_on_faces(const Coupling &coupling,
+                      const Vector   &multiplier,
+                      const MPI_Comm  comm)
   {
     std::vector<std::vector<double>> coefficients;
     if (multiplier.size() == 0)
@@ -136,11 +164,13 @@ namespace mortise
   }
 
   ResultantErrors
-  resultant_errors(const Coupling &coupling, const Vector &multiplier, const MPI_Comm comm)
+  resultant_errors(const Coupling &coupling,
+                   const Vector   &multiplier,
+                   const MPI_Comm  comm)
   {
-    const auto      coefficients = multiplier_on_faces(coupling, multiplier, comm);
-    Tensor<1, dim>  force, moment;
-    double          squared = 0.;
+    const auto coefficients = multiplier_on_faces(coupling, multiplier, comm);
+    Tensor<1, dim> force, moment;
+    double         squared = 0.;
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       if (!coupling.local[s].partners.empty())
         {
@@ -153,18 +183,21 @@ namespace mortise
                 {
                   value[c] = coefficients[s][c * n + i];
                   for (unsigned int j = 0; j < n; ++j)
-                    squared += value[c] * local.mass(i, j) * coefficients[s][c * n + j];
+                    squared +=
+                      value[c] * local.mass(i, j) * coefficients[s][c * n + j];
                 }
               force += row_difference(coupling, s, i) * value;
               moment += cross_product_3d(local.gap_moment[i], value);
             }
         }
-    force                = Utilities::MPI::sum(force, comm);
-    moment               = Utilities::MPI::sum(moment, comm);
-    const double area    = coupling.interface->report().covered_area;
-    const double carried = std::sqrt(std::max(0., Utilities::MPI::sum(squared, comm)) * area);
+    force             = Utilities::MPI::sum(force, comm);
+    moment            = Utilities::MPI::sum(moment, comm);
+    const double area = coupling.interface->report().covered_area;
+    const double carried =
+      std::sqrt(std::max(0., Utilities::MPI::sum(squared, comm)) * area);
     if (!(carried > 0.))
       return {};
-    return {force.norm() / carried, moment.norm() / (carried * std::sqrt(area))};
+    return {force.norm() / carried,
+            moment.norm() / (carried * std::sqrt(area))};
   }
 } // namespace mortise

@@ -1,6 +1,5 @@
-#include <mortise/mortar/local_coupling.h>
-
 #include <mortise/body/legendre_basis.h>
+#include <mortise/mortar/local_coupling.h>
 
 #include <algorithm>
 
@@ -31,7 +30,8 @@ namespace mortise
         }
     }
 
-    /// w_q N_i(x_q). Weights of signed sectors may be negative, so there is no root to take.
+    /// w_q N_i(x_q). Weights of signed sectors may be negative, so there is no
+    /// root to take.
     void
     scale_rows(const FullMatrix<double>  &values,
                const std::vector<double> &weights,
@@ -43,9 +43,9 @@ namespace mortise
           scaled(q, i) *= weights[q];
     }
 
-    /// Iterations to 1e-10 on the thick sphere, degrees 1, 2, 3, 5: factor 2.5: 13, 14, 13, 11; without
-    /// factor but times the square of the degree: 13, 14, 14, 17. A tenth or ten times as much takes 1.5
-    /// times as many.
+    /// Iterations to 1e-10 on the thick sphere, degrees 1, 2, 3, 5: factor 2.5:
+    /// 13, 14, 13, 11; without factor but times the square of the degree: 13,
+    /// 14, 14, 17. A tenth or ten times as much takes 1.5 times as many.
     double
     penalty(const FaceTrace &trace, const SurfaceFace &face)
     {
@@ -59,13 +59,16 @@ namespace mortise
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
     FullMatrix<double>         slave_values, master_values, weighted;
 
-    interface.visit_pairs([&](const unsigned int s, const unsigned int m, const IntegrationPoints &points) {
-      LocalCoupling     &local        = couplings[s];
-      const FaceTrace   &slave        = interface.slave().traces[s];
-      const FaceTrace   &master       = interface.master_traces()[m];
-      const unsigned int n_slave      = slave.n_functions();
-      const double       pair_penalty = std::min(penalty(slave, interface.slave().faces[s]),
-                                           penalty(master, interface.master_faces()[m]));
+    interface.visit_pairs([&](const unsigned int       s,
+                              const unsigned int       m,
+                              const IntegrationPoints &points) {
+      LocalCoupling     &local   = couplings[s];
+      const FaceTrace   &slave   = interface.slave().traces[s];
+      const FaceTrace   &master  = interface.master_traces()[m];
+      const unsigned int n_slave = slave.n_functions();
+      const double       pair_penalty =
+        std::min(penalty(slave, interface.slave().faces[s]),
+                 penalty(master, interface.master_faces()[m]));
       if (local.partners.empty())
         {
           local.mass.reinit(n_slave, n_slave);

@@ -1,14 +1,13 @@
-#include <mortise/mortar/multiplier_faces.h>
-
-#include <mortise/body/boundary_faces.h>
-#include <mortise/body/face_topology.h>
-#include <mortise/body/fe_legendre.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_tools.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/body/boundary_faces.h>
+#include <mortise/body/face_topology.h>
+#include <mortise/body/fe_legendre.h>
+#include <mortise/mortar/multiplier_faces.h>
 
 #include <cstdint>
 
@@ -21,8 +20,8 @@ namespace mortise
     constexpr double none_below = 0.1;
     constexpr double full_above = 0.9;
 
-    /// What only the owner of a cell knows for sure, by face: 12 bits of rims, 2 of coverage, 3 of
-    /// what the partners can follow.
+    /// What only the owner of a cell knows for sure, by face: 12 bits of rims,
+    /// 2 of coverage, 3 of what the partners can follow.
     using FaceBits = std::array<std::uint32_t, 6>;
 
     class BlockedDofs
@@ -64,7 +63,9 @@ namespace mortise
     }
 
     std::uint32_t
-    owner_bits(const MultiplierFace &face, const PartnerState &partner, const BlockedDofs &blocked)
+    owner_bits(const MultiplierFace &face,
+               const PartnerState   &partner,
+               const BlockedDofs    &blocked)
     {
       const unsigned int n    = face.degree + 1;
       std::uint32_t      bits = 0;
@@ -75,13 +76,15 @@ namespace mortise
               bool               rim = true;
               const unsigned int top = face.edge_degree[1 - a][side];
               for (unsigned int k = 0; k <= top && rim; ++k)
-                rim = blocked(face.dofs[c][a == 0 ? side + n * k : k + n * side]);
+                rim =
+                  blocked(face.dofs[c][a == 0 ? side + n * k : k + n * side]);
               if (rim)
                 bits |= 1u << rim_bit(c, a, side);
             }
-      const auto status = partner.coverage < none_below ? MultiplierFace::Status::none :
-                          partner.coverage < full_above ? MultiplierFace::Status::partial :
-                                                  MultiplierFace::Status::full;
+      const auto status =
+        partner.coverage < none_below ? MultiplierFace::Status::none :
+        partner.coverage < full_above ? MultiplierFace::Status::partial :
+                                        MultiplierFace::Status::full;
       for (unsigned int c = 0; c < dim; ++c)
         if (partner.can_follow[c])
           bits |= 1u << (14 + c);
@@ -89,11 +92,13 @@ namespace mortise
     }
 
     MultiplierFace
-    describe(const Body &body, const Body::CellIterator &cell, const unsigned int f)
+    describe(const Body               &body,
+             const Body::CellIterator &cell,
+             const unsigned int        f)
     {
       MultiplierFace face;
-      face.degree      = body.degree(cell);
-      face.dofs        = face_dofs(body, cell, f);
+      face.degree = body.degree(cell);
+      face.dofs   = face_dofs(body, cell, f);
       // where degrees meet, one dof carries a mode for all cells around it
       std::vector<types::global_dof_index> masters;
       body.degrees->get_master_dofs(cell, masters);
@@ -101,7 +106,8 @@ namespace mortise
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int k = 0; k < on_face.size(); ++k)
           {
-            const auto master = masters[cell->get_fe().component_to_system_index(c, on_face[k])];
+            const auto master =
+              masters[cell->get_fe().component_to_system_index(c, on_face[k])];
             if (master != numbers::invalid_dof_index)
               face.dofs[c][k] = master;
           }
@@ -114,10 +120,13 @@ namespace mortise
     }
 
     void
-    apply_bits(const std::uint32_t bits, const Body &body, const BlockedDofs &blocked, MultiplierFace &face)
+    apply_bits(const std::uint32_t bits,
+               const Body         &body,
+               const BlockedDofs  &blocked,
+               MultiplierFace     &face)
     {
       const unsigned int n = face.degree + 1;
-      face.status          = static_cast<MultiplierFace::Status>((bits >> 12) & 3u);
+      face.status = static_cast<MultiplierFace::Status>((bits >> 12) & 3u);
       for (unsigned int c = 0; c < dim; ++c)
         {
           face.can_follow[c] = bits & (1u << (14 + c));
@@ -126,34 +135,40 @@ namespace mortise
               face.rim[c][a][side] = bits & (1u << rim_bit(c, a, side));
           for (unsigned int v = 0; v < 4; ++v)
             {
-              const auto dof            = face.dofs[c][v % 2 + n * (v / 2)];
-              face.blocked_vertex[c][v] = body.conformity.is_constrained(dof) || blocked(dof);
+              const auto dof = face.dofs[c][v % 2 + n * (v / 2)];
+              face.blocked_vertex[c][v] =
+                body.conformity.is_constrained(dof) || blocked(dof);
             }
         }
     }
   } // namespace
 
   std::vector<MultiplierFace>
-  collect_multiplier_faces(const Body                &body,
-                           const types::boundary_id   boundary,
-                           const BodySurface         &slave,
+  collect_multiplier_faces(const Body                      &body,
+                           const types::boundary_id         boundary,
+                           const BodySurface               &slave,
                            const std::vector<PartnerState> &partners,
-                           const std::vector<bool>   &blocked_owned)
+                           const std::vector<bool>         &blocked_owned)
   {
-    const BlockedDofs              blocked(body, blocked_owned);
-    std::map<CellId, FaceBits>     bits;
+    const BlockedDofs          blocked(body, blocked_owned);
+    std::map<CellId, FaceBits> bits;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       bits[slave.cells[s]->id()][slave.face_numbers[s]] =
-        owner_bits(describe(body, slave.cells[s], slave.face_numbers[s]), partners[s], blocked);
+        owner_bits(describe(body, slave.cells[s], slave.face_numbers[s]),
+                   partners[s],
+                   blocked);
 
     const auto pack = [&](const Body::CellIterator &cell) {
       const auto found = bits.find(cell->id());
       return found == bits.end() ? FaceBits{} : found->second;
     };
-    const auto unpack = [&](const Body::CellIterator &cell, const FaceBits &received) {
+    const auto unpack = [&](const Body::CellIterator &cell,
+                            const FaceBits           &received) {
       bits[cell->id()] = received;
     };
-    GridTools::exchange_cell_data_to_ghosts<FaceBits>(body.dof_handler, pack, unpack);
+    GridTools::exchange_cell_data_to_ghosts<FaceBits>(body.dof_handler,
+                                                      pack,
+                                                      unpack);
 
     std::vector<MultiplierFace> faces;
     for (const auto &[cell, f] : boundary_faces(body, boundary))

@@ -1,11 +1,10 @@
-#include <mortise/mortar/multiplier_space.h>
-
-#include <mortise/body/face_topology.h>
-#include <mortise/mortar/multiplier_faces.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/body/face_topology.h>
+#include <mortise/mortar/multiplier_faces.h>
+#include <mortise/mortar/multiplier_space.h>
 
 #include <algorithm>
 #include <limits>
@@ -22,22 +21,26 @@ namespace mortise
     /// What the faces around one dof say about its multiplier.
     struct Record
     {
-      bool            kept          = true;  ///< not above the reduced degree of a face
-      bool            on_full_face  = false; ///< some face around it is well covered
-      bool            vertex        = false;
-      bool            on_rim        = false; ///< vertices: end of an edge across a rim ...
-      bool            across_kept   = false; ///< ... that has modes left
-      bool            can_follow    = false; ///< the other side of some face around it is free
-      std::set<types::global_dof_index> neighbours; ///< across the rim, off all rims
-      std::set<types::global_dof_index> diagonal;   ///< other vertices, off all rims
-      std::set<types::global_dof_index> merged;     ///< must have the same value
+      bool kept         = true;  ///< not above the reduced degree of a face
+      bool on_full_face = false; ///< some face around it is well covered
+      bool vertex       = false;
+      bool on_rim       = false; ///< vertices: end of an edge across a rim ...
+      bool across_kept  = false; ///< ... that has modes left
+      bool can_follow =
+        false; ///< the other side of some face around it is free
+      std::set<types::global_dof_index>
+        neighbours; ///< across the rim, off all rims
+      std::set<types::global_dof_index>
+        diagonal; ///< other vertices, off all rims
+      std::set<types::global_dof_index> merged; ///< must have the same value
 
-      /// A vertex on a rim that finds no free one on the faces around it to take its value from.
+      /// A vertex on a rim that finds no free one on the faces around it to
+      /// take its value from.
       bool
       is_stranded() const
       {
-        return vertex && on_rim && !across_kept && neighbours.empty() && merged.empty() &&
-               diagonal.empty();
+        return vertex && on_rim && !across_kept && neighbours.empty() &&
+               merged.empty() && diagonal.empty();
       }
     };
     using Records = std::map<types::global_dof_index, Record>;
@@ -46,7 +49,9 @@ namespace mortise
     class FaceRules
     {
     public:
-      FaceRules(const MultiplierFace &face, const unsigned int c, Records &records)
+      FaceRules(const MultiplierFace &face,
+                const unsigned int    c,
+                Records              &records)
         : face(face)
         , c(c)
         , records(records)
@@ -63,7 +68,8 @@ namespace mortise
           for (unsigned int i = 0; i < n; ++i)
             {
               Record &record = records[dof(i, j)];
-              record.on_full_face |= face.status == MultiplierFace::Status::full;
+              record.on_full_face |=
+                face.status == MultiplierFace::Status::full;
               record.can_follow |= face.can_follow[c];
               if (i < 2 && j < 2)
                 vertex(i, j, record);
@@ -71,7 +77,8 @@ namespace mortise
                 edge(0, i, j, record);
               else if (i < 2)
                 edge(1, j, i, record);
-              else if (i + rims[0] > face.quad_degree || j + rims[1] > face.quad_degree)
+              else if (i + rims[0] > face.quad_degree ||
+                       j + rims[1] > face.quad_degree)
                 record.kept = false;
             }
       }
@@ -87,18 +94,25 @@ namespace mortise
       int
       reduced_degree(const unsigned int a, const unsigned int side) const
       {
-        return static_cast<int>(face.edge_degree[a][side]) - static_cast<int>(rims[a]);
+        return static_cast<int>(face.edge_degree[a][side]) -
+               static_cast<int>(rims[a]);
       }
 
       void
-      edge(const unsigned int a, const unsigned int mode, const unsigned int side, Record &record)
+      edge(const unsigned int a,
+           const unsigned int mode,
+           const unsigned int side,
+           Record            &record)
       {
         if (static_cast<int>(mode) > reduced_degree(a, side))
           record.kept = false;
-        // two rims and nothing but a constant between them: both edges carry one function
+        // two rims and nothing but a constant between them: both edges carry
+        // one function
         const unsigned int b = 1 - a;
-        if (rims[b] == 2 && reduced_degree(b, 0) == 0 && reduced_degree(b, 1) == 0)
-          record.merged.insert(a == 0 ? dof(mode, 1 - side) : dof(1 - side, mode));
+        if (rims[b] == 2 && reduced_degree(b, 0) == 0 &&
+            reduced_degree(b, 1) == 0)
+          record.merged.insert(a == 0 ? dof(mode, 1 - side) :
+                                        dof(1 - side, mode));
       }
 
       void
@@ -108,7 +122,7 @@ namespace mortise
         for (unsigned int a = 0; a < 2; ++a)
           if (face.rim[c][a][a == 0 ? i : j])
             {
-              record.on_rim       = true;
+              record.on_rim        = true;
               const unsigned int k = a == 0 ? 1 - i : i, l = a == 0 ? j : 1 - j;
               const int          left = reduced_degree(a, a == 0 ? j : i);
               if (left >= 1)
@@ -166,12 +180,15 @@ namespace mortise
                       const std::vector<MultiplierFace> &faces,
                       const Records                     &records)
         : owned(body.dof_handler.locally_owned_dofs())
-        , smallest(owned, body.relevant_dofs, body.triangulation.get_communicator())
+        , smallest(owned,
+                   body.relevant_dofs,
+                   body.triangulation.get_communicator())
         , follow(smallest)
       {
         smallest = none;
         for (const auto &[dof, record] : records)
-          if (owned.is_element(dof) && record.is_stranded() && !body.conformity.is_constrained(dof))
+          if (owned.is_element(dof) && record.is_stranded() &&
+              !body.conformity.is_constrained(dof))
             {
               smallest(dof) = dof;
               follow(dof)   = record.can_follow ? 1. : 0.;
@@ -193,6 +210,17 @@ namespace mortise
         return static_cast<types::global_dof_index>(smallest(dof));
       }
 
+      /// The dofs that lines of owned dofs may refer to, those of far ranks
+      /// too.
+      void
+      add_representatives(IndexSet &set) const
+      {
+        for (const auto dof : owned)
+          if (follow(dof) != 0.)
+            set.add_index(static_cast<types::global_dof_index>(smallest(dof)));
+        set.compress();
+      }
+
     private:
       static constexpr double none = -1.;
 
@@ -205,12 +233,16 @@ namespace mortise
           state = {smallest(dof), follow(dof)};
       }
 
-      /// Pass the smallest dof of each face to its stranded vertices; whether an owned one changed.
+      /// Pass the smallest dof of each face to its stranded vertices; whether
+      /// an owned one changed.
       bool
       spread(const std::vector<MultiplierFace> &faces)
       {
-        const auto state = [&](const types::global_dof_index dof) -> std::pair<double, double> & {
-          return states.try_emplace(dof, smallest(dof), follow(dof)).first->second;
+        const auto state =
+          [&](
+            const types::global_dof_index dof) -> std::pair<double, double> & {
+          return states.try_emplace(dof, smallest(dof), follow(dof))
+            .first->second;
         };
         bool again = true, changed = false;
         while (again)
@@ -219,14 +251,17 @@ namespace mortise
             for (const MultiplierFace &face : faces)
               for (unsigned int c = 0; c < dim; ++c)
                 {
-                  std::pair<double, double> best(std::numeric_limits<double>::infinity(), 0.);
-                  const auto                visit = [&](const auto &action) {
-                    for (const unsigned int k : {0U, 1U, face.degree + 1, face.degree + 2})
+                  std::pair<double, double> best(
+                    std::numeric_limits<double>::infinity(), 0.);
+                  const auto visit = [&](const auto &action) {
+                    for (const unsigned int k :
+                         {0U, 1U, face.degree + 1, face.degree + 2})
                       if (auto &s = state(face.dofs[c][k]); s.first != none)
                         action(s);
                   };
                   visit([&](const auto &s) {
-                    best = {std::min(best.first, s.first), std::max(best.second, s.second)};
+                    best = {std::min(best.first, s.first),
+                            std::max(best.second, s.second)};
                   });
                   visit([&](auto &s) {
                     again = again || s != best;
@@ -246,12 +281,13 @@ namespace mortise
         return changed;
       }
 
-      const IndexSet                                                &owned;
-      LinearAlgebra::distributed::Vector<double>                     smallest, follow;
-      std::map<types::global_dof_index, std::pair<double, double>>   states;
+      const IndexSet                            &owned;
+      LinearAlgebra::distributed::Vector<double> smallest, follow;
+      std::map<types::global_dof_index, std::pair<double, double>> states;
     };
 
-    /// The line of one dof without conformity constraints; none if it is a multiplier.
+    /// The line of one dof without conformity constraints; none if it is a
+    /// multiplier.
     void
     add_reduction(const types::global_dof_index dof,
                   const Records                &records,
@@ -288,13 +324,12 @@ namespace mortise
     }
   } // namespace
 
-  MultiplierSpace::MultiplierSpace(const Body               &body,
-                                   const types::boundary_id  boundary,
-                                   const BodySurface        &slave,
+  MultiplierSpace::MultiplierSpace(const Body                      &body,
+                                   const types::boundary_id         boundary,
+                                   const BodySurface               &slave,
                                    const std::vector<PartnerState> &partners,
-                                   const std::vector<bool>   &blocked)
+                                   const std::vector<bool>         &blocked)
     : body(body)
-    , reduction(body.relevant_dofs)
   {
     const std::vector<MultiplierFace> faces =
       collect_multiplier_faces(body, boundary, slave, partners, blocked);
@@ -310,6 +345,9 @@ namespace mortise
         }
 
     const StrandedPatches stranded(body, faces, records);
+    IndexSet              known = body.relevant_dofs;
+    stranded.add_representatives(known);
+    reduction.reinit(known);
     for (const auto dof : on_surface)
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
@@ -320,12 +358,15 @@ namespace mortise
         }
     complete_constraints(body.dof_handler, reduction);
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
-      for (const auto &component : face_dofs(body, slave.cells[s], slave.face_numbers[s]))
+      for (const auto &component :
+           face_dofs(body, slave.cells[s], slave.face_numbers[s]))
         for (const auto dof : component)
-          if (body.conformity.is_constrained(dof) && !reduction.is_constrained(dof))
+          if (body.conformity.is_constrained(dof) &&
+              !reduction.is_constrained(dof))
             {
               reduction.add_line(dof);
-              for (const auto &entry : *body.conformity.get_constraint_entries(dof))
+              for (const auto &entry :
+                   *body.conformity.get_constraint_entries(dof))
                 reduction.add_entry(dof, entry.first, entry.second);
             }
     reduction.close();
@@ -334,9 +375,10 @@ namespace mortise
   void
   MultiplierSpace::number(const BodySurface &slave, const Index first)
   {
-    LinearAlgebra::distributed::Vector<double> numbers(body.dof_handler.locally_owned_dofs(),
-                                                       reduction.get_local_lines(),
-                                                       body.triangulation.get_communicator());
+    LinearAlgebra::distributed::Vector<double> numbers(
+      body.dof_handler.locally_owned_dofs(),
+      reduction.get_local_lines(),
+      body.triangulation.get_communicator());
     for (unsigned int i = 0; i < owned_dofs.size(); ++i)
       numbers(owned_dofs[i]) = first + i;
     numbers.update_ghost_values();
@@ -345,9 +387,10 @@ namespace mortise
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       {
         FaceRows   rows;
-        const auto dofs = face_dofs(body, slave.cells[s], slave.face_numbers[s]);
-        rows.begin      = {0};
-        const auto add  = [&](const Index dof, const double weight) {
+        const auto dofs =
+          face_dofs(body, slave.cells[s], slave.face_numbers[s]);
+        rows.begin     = {0};
+        const auto add = [&](const Index dof, const double weight) {
           rows.index.push_back(static_cast<Index>(numbers(dof)));
           rows.weight.push_back(weight);
         };

@@ -1,8 +1,7 @@
 // See condensed_interiors.h.
-#include <mortise/operators/condensed_interiors.h>
-
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
+#include <mortise/operators/condensed_interiors.h>
 
 namespace mortise
 {
@@ -14,12 +13,14 @@ namespace mortise
     const Teuchos::LAPACK<int, double> lapack;
     const Teuchos::BLAS<int, double>   blas;
 
-    const int N = static_cast<int>(matrix.m()), n_b = static_cast<int>(n_boundary), n_i = N - n_b;
-    Cell      cell;
+    const int N   = static_cast<int>(matrix.m()),
+              n_b = static_cast<int>(n_boundary), n_i = N - n_b;
+    Cell cell;
     cell.particular.assign(load.begin() + n_b, load.end());
     // Symmetric, so that rows are columns: below, all is column major.
-    double *bb = &matrix(0, 0), *bi = bb + static_cast<std::size_t>(n_b) * N, *ii = bi + n_b;
-    int     info = 0;
+    double *bb = &matrix(0, 0), *bi = bb + static_cast<std::size_t>(n_b) * N,
+           *ii = bi + n_b;
+    int info   = 0;
     lapack.POTRF('L', n_i, ii, N, &info);
     if (info != 0)
       return false;
@@ -27,13 +28,35 @@ namespace mortise
 
     // with K_ii = L L^T and Z = K_bi L^{-T}: S = K_bb - Z Z^T, X^T = Z L^{-1}
     using namespace Teuchos;
-    blas.TRSM(RIGHT_SIDE, LOWER_TRI, TRANS, NON_UNIT_DIAG, n_b, n_i, 1., ii, N, bi, N);
+    blas.TRSM(
+      RIGHT_SIDE, LOWER_TRI, TRANS, NON_UNIT_DIAG, n_b, n_i, 1., ii, N, bi, N);
     blas.SYRK(LOWER_TRI, NO_TRANS, n_b, n_i, -1., bi, N, 1., bb, N);
-    blas.TRSM(RIGHT_SIDE, LOWER_TRI, NO_TRANS, NON_UNIT_DIAG, n_b, n_i, 1., ii, N, bi, N);
+    blas.TRSM(RIGHT_SIDE,
+              LOWER_TRI,
+              NO_TRANS,
+              NON_UNIT_DIAG,
+              n_b,
+              n_i,
+              1.,
+              ii,
+              N,
+              bi,
+              N);
     for (int j = 0; j < n_b; ++j)
       for (int i = j + 1; i < n_b; ++i)
-        bb[j + static_cast<std::size_t>(i) * N] = bb[i + static_cast<std::size_t>(j) * N];
-    blas.GEMV(NO_TRANS, n_b, n_i, -1., bi, N, load.begin() + n_b, 1, 1., load.begin(), 1);
+        bb[j + static_cast<std::size_t>(i) * N] =
+          bb[i + static_cast<std::size_t>(j) * N];
+    blas.GEMV(NO_TRANS,
+              n_b,
+              n_i,
+              -1.,
+              bi,
+              N,
+              load.begin() + n_b,
+              1,
+              1.,
+              load.begin(),
+              1);
 
     cell.extension.reserve(static_cast<std::size_t>(n_b) * n_i);
     for (int k = 0; k < n_i; ++k)
@@ -45,7 +68,8 @@ namespace mortise
   }
 
   std::vector<double>
-  CondensedInteriors::recover(const unsigned int cell, const std::vector<double> &boundary_values) const
+  CondensedInteriors::recover(const unsigned int         cell,
+                              const std::vector<double> &boundary_values) const
   {
     const Teuchos::BLAS<int, double> blas;
 

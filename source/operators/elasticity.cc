@@ -1,13 +1,12 @@
-#include <mortise/operators/elasticity.h>
-
-#include <mortise/base/error.h>
-#include <mortise/body/fe_legendre.h>
-
 #include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/fe/fe_values.h>
 
 #include <deal.II/lac/full_matrix.h>
+
+#include <mortise/base/error.h>
+#include <mortise/body/fe_legendre.h>
+#include <mortise/operators/elasticity.h>
 
 #include <array>
 #include <cmath>
@@ -27,30 +26,37 @@ namespace mortise
     }
 
     std::vector<types::global_dof_index>
-    scene_dofs(const Body &body, const Body::CellIterator &cell, const DisplacementNumbering &numbering)
+    scene_dofs(const Body                  &body,
+               const Body::CellIterator    &cell,
+               const DisplacementNumbering &numbering)
     {
-      std::vector<types::global_dof_index> dofs(cell->get_fe().n_dofs_per_cell());
+      std::vector<types::global_dof_index> dofs(
+        cell->get_fe().n_dofs_per_cell());
       cell->get_dof_indices(dofs);
       for (auto &dof : dofs)
         dof = numbering(body.index, dof);
       return dofs;
     }
 
-    /// What the cells of one degree share. One scalar element serves the three components.
+    /// What the cells of one degree share. One scalar element serves the three
+    /// components.
     struct Kernel
     {
-      Kernel(const Mapping<dim> &mapping, const FiniteElement<dim> &system, const unsigned int degree)
+      Kernel(const Mapping<dim>       &mapping,
+             const FiniteElement<dim> &system,
+             const unsigned int        degree)
         : element(degree)
         , n(element.n_dofs_per_cell())
         , cell_values(mapping,
                       element,
                       QGauss<dim>(degree + 1),
-                      update_values | update_gradients | update_JxW_values | update_quadrature_points)
+                      update_values | update_gradients | update_JxW_values |
+                        update_quadrature_points)
         , face_values(mapping,
                       element,
                       QGauss<dim - 1>(degree + 2),
-                      update_values | update_JxW_values | update_normal_vectors |
-                        update_quadrature_points)
+                      update_values | update_JxW_values |
+                        update_normal_vectors | update_quadrature_points)
         , matrix(dim * n)
         , load(dim * n)
       {
@@ -65,21 +71,24 @@ namespace mortise
             product.reinit(n, n);
       }
 
-      FE_Legendre                                        element;
-      unsigned int                                       n;
-      FEValues<dim>                                      cell_values;
-      FEFaceValues<dim>                                  face_values;
-      std::array<std::vector<unsigned int>, dim>         system_index;
-      std::array<FullMatrix<double>, dim>                scaled_gradients; ///< sqrt(w) dN_i/dx_c
-      std::array<std::array<FullMatrix<double>, dim>, dim> products; ///< int dN_i/dx_c dN_j/dx_d
-      FullMatrix<double>                                 matrix;
-      dealii::Vector<double>                             load;
-      FullMatrix<double>                                 boundary_matrix; ///< without the interior
-      dealii::Vector<double>                             boundary_load;
+      FE_Legendre                                element;
+      unsigned int                               n;
+      FEValues<dim>                              cell_values;
+      FEFaceValues<dim>                          face_values;
+      std::array<std::vector<unsigned int>, dim> system_index;
+      std::array<FullMatrix<double>, dim>
+        scaled_gradients; ///< sqrt(w) dN_i/dx_c
+      std::array<std::array<FullMatrix<double>, dim>, dim>
+                             products; ///< int dN_i/dx_c dN_j/dx_d
+      FullMatrix<double>     matrix;
+      dealii::Vector<double> load;
+      FullMatrix<double>     boundary_matrix; ///< without the interior
+      dealii::Vector<double> boundary_load;
     };
 
     /// K_(ic)(jd) = lambda H_cd + mu H_dc + delta_cd mu sum_e H_ee with
-    /// H_cd(i, j) = int dN_i/dx_c dN_j/dx_d. Returns whether all volumes are positive.
+    /// H_cd(i, j) = int dN_i/dx_c dN_j/dx_d. Returns whether all volumes are
+    /// positive.
     bool
     compute_matrix(const LinearElastic &material, Kernel &kernel)
     {
@@ -99,21 +108,26 @@ namespace mortise
       auto &H = kernel.products;
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int d = c; d < dim; ++d)
-          kernel.scaled_gradients[c].Tmmult(H[c][d], kernel.scaled_gradients[d]);
+          kernel.scaled_gradients[c].Tmmult(H[c][d],
+                                            kernel.scaled_gradients[d]);
 
       const double lambda = material.lame_lambda(), mu = material.lame_mu();
       for (unsigned int i = 0; i < kernel.n; ++i)
         for (unsigned int j = 0; j < kernel.n; ++j)
           {
-            const double laplace = mu * (H[0][0](i, j) + H[1][1](i, j) + H[2][2](i, j));
+            const double laplace =
+              mu * (H[0][0](i, j) + H[1][1](i, j) + H[2][2](i, j));
             for (unsigned int c = 0; c < dim; ++c)
               {
                 const auto &row = kernel.system_index[c];
-                kernel.matrix(row[i], row[j]) = (lambda + mu) * H[c][c](i, j) + laplace;
+                kernel.matrix(row[i], row[j]) =
+                  (lambda + mu) * H[c][c](i, j) + laplace;
                 for (unsigned int d = c + 1; d < dim; ++d)
                   {
-                    // H_dc(i, j) = H_cd(j, i); the block (d, c) is the transpose of (c, d)
-                    const double value = lambda * H[c][d](i, j) + mu * H[c][d](j, i);
+                    // H_dc(i, j) = H_cd(j, i); the block (d, c) is the
+                    // transpose of (c, d)
+                    const double value =
+                      lambda * H[c][d](i, j) + mu * H[c][d](j, i);
                     kernel.matrix(row[i], kernel.system_index[d][j]) = value;
                     kernel.matrix(kernel.system_index[d][j], row[i]) = value;
                   }
@@ -128,55 +142,66 @@ namespace mortise
       const auto &values = kernel.cell_values;
       for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
         {
-          const Tensor<1, dim> force = loads.body_force(values.quadrature_point(q)) * values.JxW(q);
+          const Tensor<1, dim> force =
+            loads.body_force(values.quadrature_point(q)) * values.JxW(q);
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int i = 0; i < kernel.n; ++i)
-              kernel.load(kernel.system_index[c][i]) += force[c] * values.shape_value(i, q);
+              kernel.load(kernel.system_index[c][i]) +=
+                force[c] * values.shape_value(i, q);
         }
     }
 
     void
-    add_tractions(const Body::CellIterator &cell, const Loads &loads, Kernel &kernel)
+    add_tractions(const Body::CellIterator &cell,
+                  const Loads              &loads,
+                  Kernel                   &kernel)
     {
       if (!cell->at_boundary())
         return;
       auto &values = kernel.face_values;
       for (const unsigned int f : cell->face_indices())
         for (const TractionCondition &condition : loads.tractions)
-          if (cell->face(f)->at_boundary() && cell->face(f)->boundary_id() == condition.boundary)
+          if (cell->face(f)->at_boundary() &&
+              cell->face(f)->boundary_id() == condition.boundary)
             {
-              values.reinit(typename Triangulation<dim>::cell_iterator(cell), f);
+              values.reinit(typename Triangulation<dim>::cell_iterator(cell),
+                            f);
               for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                 {
                   const Tensor<1, dim> force =
-                    condition.traction(values.quadrature_point(q), values.normal_vector(q)) *
+                    condition.traction(values.quadrature_point(q),
+                                       values.normal_vector(q)) *
                     values.JxW(q);
                   for (unsigned int c = 0; c < dim; ++c)
                     for (unsigned int i = 0; i < kernel.n; ++i)
-                      kernel.load(kernel.system_index[c][i]) += force[c] * values.shape_value(i, q);
+                      kernel.load(kernel.system_index[c][i]) +=
+                        force[c] * values.shape_value(i, q);
                 }
             }
     }
-    /// Eliminate the interior of the cell in @p kernel and add the rest. Its own rows keep a
+
+    /// Eliminate the interior of the cell and add the rest. Its own rows keep a
     /// diagonal of the same size and couple with nothing.
     void
-    add_condensed(Kernel                                     &kernel,
-                  std::vector<types::global_dof_index>        dofs,
-                  const unsigned int                          n_b,
-                  const AffineConstraints<double>            &constraints,
-                  CondensedInteriors                         &interiors,
-                  SparseMatrix                               &stiffness,
-                  Vector                                     &load)
+    add_condensed(Kernel                              &kernel,
+                  std::vector<types::global_dof_index> dofs,
+                  const unsigned int                   n_b,
+                  const AffineConstraints<double>     &constraints,
+                  CondensedInteriors                  &interiors,
+                  SparseMatrix                        &stiffness,
+                  Vector                              &load)
     {
       if (n_b == dofs.size())
         {
-          constraints.distribute_local_to_global(kernel.matrix, kernel.load, dofs, stiffness, load);
+          constraints.distribute_local_to_global(
+            kernel.matrix, kernel.load, dofs, stiffness, load);
           return;
         }
       for (unsigned int i = n_b; i < dofs.size(); ++i)
         stiffness.add(dofs[i], dofs[i], kernel.matrix(i, i));
       if (!interiors.eliminate(kernel.matrix, kernel.load, n_b))
-        throw std::runtime_error("the stiffness of a cell's interior is not positive definite");
+        throw std::runtime_error(
+          "the stiffness of a cell's interior is not positive definite");
       kernel.boundary_matrix.reinit(n_b, n_b);
       kernel.boundary_matrix.fill(kernel.matrix);
       kernel.boundary_load.reinit(n_b);
@@ -221,15 +246,20 @@ namespace mortise
         {
           auto &kernel = kernels[cell->active_fe_index()];
           if (!kernel)
-            kernel = std::make_unique<Kernel>(*body.mapping, cell->get_fe(), body.degree(cell));
+            kernel = std::make_unique<Kernel>(*body.mapping,
+                                              cell->get_fe(),
+                                              body.degree(cell));
 
-          kernel->cell_values.reinit(typename Triangulation<dim>::cell_iterator(cell));
+          kernel->cell_values.reinit(
+            typename Triangulation<dim>::cell_iterator(cell));
           if (!compute_matrix(body.material, *kernel))
             {
               std::ostringstream message;
-              message << "Body " << body.name << ": the cell with centre " << cell->center()
-                      << " is tangled (its Jacobian is not positive everywhere); every cell must "
-                         "have a positive volume. Use a finer mesh or a lower degree";
+              message
+                << "Body " << body.name << ": the cell with centre "
+                << cell->center()
+                << " is tangled (its Jacobian is not positive everywhere); every cell must "
+                   "have a positive volume. Use a finer mesh or a lower degree";
               tangled = message.str();
               break;
             }
@@ -237,8 +267,13 @@ namespace mortise
           if (loads.body_force)
             add_body_force(loads, *kernel);
           add_tractions(cell, loads, *kernel);
-          add_condensed(
-            *kernel, scene_dofs(body, cell, numbering), n_boundary_dofs(cell), constraints, interiors, stiffness, load);
+          add_condensed(*kernel,
+                        scene_dofs(body, cell, numbering),
+                        n_boundary_dofs(cell),
+                        constraints,
+                        interiors,
+                        stiffness,
+                        load);
         }
     throw_if_any(tangled, body.triangulation.get_communicator());
     return interiors;

@@ -1,6 +1,6 @@
-#include <mortise/operators/scene_system.h>
-
 #include <deal.II/base/mpi.h>
+
+#include <mortise/operators/scene_system.h>
 
 #include <algorithm>
 
@@ -9,9 +9,10 @@ namespace mortise
   using namespace dealii;
 
   AffineConstraints<double>
-  scene_constraints(const Bodies                                 &bodies,
-                    const DisplacementNumbering                  &numbering,
-                    const std::vector<AffineConstraints<double>> &body_constraints)
+  scene_constraints(
+    const Bodies                                 &bodies,
+    const DisplacementNumbering                  &numbering,
+    const std::vector<AffineConstraints<double>> &body_constraints)
   {
     IndexSet lines(numbering.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)
@@ -39,19 +40,26 @@ namespace mortise
                   const AffineConstraints<double> &constraints,
                   BlockSystem                     &system)
   {
-    const IndexSet        &owned = numbering.owned();
+    const IndexSet &owned = numbering.owned();
     {
       // rows of all dofs that the cells of this rank touch
-      DynamicSparsityPattern sparsity(owned.size(), owned.size(), constraints.get_local_lines());
+      DynamicSparsityPattern sparsity(owned.size(),
+                                      owned.size(),
+                                      constraints.get_local_lines());
       for (const auto &body : bodies)
         add_cell_couplings(*body, numbering, constraints, sparsity);
-      system.stiffness.reinit(owned, owned, sparsity, system.communicator, true);
+      system.stiffness.reinit(
+        owned, owned, sparsity, system.communicator, true);
     }
     system.load.reinit(owned, system.communicator);
     std::vector<CondensedInteriors> interiors;
     for (const auto &body : bodies)
-      interiors.push_back(assemble_elasticity(
-        *body, loads[body->index], numbering, constraints, system.stiffness, system.load));
+      interiors.push_back(assemble_elasticity(*body,
+                                              loads[body->index],
+                                              numbering,
+                                              constraints,
+                                              system.stiffness,
+                                              system.load));
     system.stiffness.compress(VectorOperation::add);
     system.load.compress(VectorOperation::add);
     return interiors;
@@ -61,7 +69,9 @@ namespace mortise
   {
     /// @p vector has the ghost values of all but interior dofs, which no other rank's cells share.
     void
-    recover_interiors(const Body &body, const CondensedInteriors &interiors, BodyVector &vector)
+    recover_interiors(const Body               &body,
+                      const CondensedInteriors &interiors,
+                      BodyVector               &vector)
     {
       if (interiors.n_cells() == 0)
         return;
@@ -102,7 +112,9 @@ namespace mortise
     for (const auto &body : bodies)
       {
         BodyVector &vector = result[body->index];
-        vector.reinit(body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
+        vector.reinit(body->dof_handler.locally_owned_dofs(),
+                      body->relevant_dofs,
+                      comm);
         for (const auto dof : body->dof_handler.locally_owned_dofs())
           vector(dof) = ghosted(numbering(body->index, dof));
         vector.update_ghost_values();
@@ -131,7 +143,8 @@ namespace mortise
       {
         std::vector<types::global_dof_index> block;
         for (unsigned int i = begin; i < end; ++i)
-          if (owned.is_element(dofs[i]) && !seen[owned.index_within_set(dofs[i])])
+          if (owned.is_element(dofs[i]) &&
+              !seen[owned.index_within_set(dofs[i])])
             {
               seen[owned.index_within_set(dofs[i])] = true;
               block.push_back(dofs[i]);
@@ -163,7 +176,8 @@ namespace mortise
               dof = numbering(body->index, dof);
 
             system.max_degree = std::max(system.max_degree, body->degree(cell));
-            const auto take   = [&](const unsigned int begin, const unsigned int n) {
+            const auto take   = [&](const unsigned int begin,
+                                  const unsigned int n) {
               auto block = collector.take(dofs, begin, begin + n);
               if (!block.empty())
                 system.entity_blocks.push_back(block);
@@ -172,18 +186,23 @@ namespace mortise
             for (const unsigned int v : cell->vertex_indices())
               {
                 const auto block = take(dim * v, dim);
-                Assert(block.empty() || block.size() == dim, ExcInternalError());
+                Assert(block.empty() || block.size() == dim,
+                       ExcInternalError());
                 if (block.empty())
                   continue;
-                system.vertex_dofs.insert(system.vertex_dofs.end(), block.begin(), block.end());
+                system.vertex_dofs.insert(system.vertex_dofs.end(),
+                                          block.begin(),
+                                          block.end());
                 system.vertex_points.push_back(cell->vertex(v));
                 system.vertex_body.push_back(body->index);
               }
             for (const unsigned int l : cell->line_indices())
-              take(fe.get_first_line_index() + l * fe.n_dofs_per_line(), fe.n_dofs_per_line());
+              take(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
+                   fe.n_dofs_per_line());
             for (const unsigned int f : cell->face_indices())
               take(fe.get_first_quad_index(f), fe.n_dofs_per_quad(f));
           }
-    system.max_degree = Utilities::MPI::max(system.max_degree, system.communicator);
+    system.max_degree =
+      Utilities::MPI::max(system.max_degree, system.communicator);
   }
 } // namespace mortise

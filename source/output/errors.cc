@@ -1,14 +1,13 @@
-#include <mortise/output/errors.h>
-
-#include <mortise/body/boundary_faces.h>
-#include <mortise/body/fe_legendre.h>
-
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/fe/fe_values.h>
 
 #include <deal.II/grid/grid_tools.h>
+
+#include <mortise/body/boundary_faces.h>
+#include <mortise/body/fe_legendre.h>
+#include <mortise/output/errors.h>
 
 #include <cmath>
 #include <map>
@@ -19,9 +18,11 @@ namespace mortise
 
   namespace
   {
-    /// Coefficients of the three components on one cell, in the order of the scalar element.
+    /// Coefficients of the three components on one cell, in the order of the
+    /// scalar element.
     std::array<std::vector<double>, dim>
-    cell_coefficients(const Body::CellIterator &cell, const BodyVector &displacement)
+    cell_coefficients(const Body::CellIterator &cell,
+                      const BodyVector         &displacement)
     {
       const auto                          &fe = cell->get_fe();
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
@@ -29,7 +30,8 @@ namespace mortise
       std::array<std::vector<double>, dim> coefficients;
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int i = 0; i < fe.n_dofs_per_cell() / dim; ++i)
-          coefficients[c].push_back(displacement(dofs[fe.component_to_system_index(c, i)]));
+          coefficients[c].push_back(
+            displacement(dofs[fe.component_to_system_index(c, i)]));
       return coefficients;
     }
 
@@ -67,7 +69,9 @@ namespace mortise
     class ValuesByDegree
     {
     public:
-      ValuesByDegree(const Body &body, const unsigned int extra_points, const UpdateFlags flags)
+      ValuesByDegree(const Body        &body,
+                     const unsigned int extra_points,
+                     const UpdateFlags  flags)
         : body(body)
         , extra_points(extra_points)
         , flags(flags)
@@ -80,7 +84,8 @@ namespace mortise
         if (!values)
           values = std::make_unique<Values>(
             *body.mapping,
-            *elements.emplace(degree, std::make_unique<FE_Legendre>(degree)).first->second,
+            *elements.emplace(degree, std::make_unique<FE_Legendre>(degree))
+               .first->second,
             Quadrature<Values::integral_dimension>(
               QGauss<Values::integral_dimension>(degree + extra_points)),
             flags);
@@ -88,11 +93,12 @@ namespace mortise
       }
 
     private:
-      const Body                                          &body;
-      const unsigned int                                   extra_points;
-      const UpdateFlags                                    flags;
-      std::map<unsigned int, std::unique_ptr<FE_Legendre>> elements; ///< outlive the values
-      std::map<unsigned int, std::unique_ptr<Values>>      all;
+      const Body        &body;
+      const unsigned int extra_points;
+      const UpdateFlags  flags;
+      std::map<unsigned int, std::unique_ptr<FE_Legendre>>
+        elements; ///< outlive the values
+      std::map<unsigned int, std::unique_ptr<Values>> all;
     };
 
     using TriaCell = Triangulation<dim>::cell_iterator;
@@ -103,29 +109,37 @@ namespace mortise
                       const std::vector<BodyVector> &displacements,
                       const ExactSolution           &exact)
   {
-    std::array<double, 4> sums{}; // squares: L2 error, L2 norm, energy error, energy norm
+    std::array<double, 4>
+      sums{}; // squares: L2 error, L2 norm, energy error, energy norm
     for (const auto &body : bodies)
       {
         ValuesByDegree<FEValues<dim>> by_degree(*body,
                                                 3,
-                                                update_values | update_gradients |
-                                                  update_quadrature_points | update_JxW_values);
+                                                update_values |
+                                                  update_gradients |
+                                                  update_quadrature_points |
+                                                  update_JxW_values);
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
               auto &values = by_degree(body->degree(cell));
               values.reinit(TriaCell(cell));
-              const auto coefficients = cell_coefficients(cell, displacements[body->index]);
+              const auto coefficients =
+                cell_coefficients(cell, displacements[body->index]);
               for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                 {
-                  const Point<dim>    &x      = values.quadrature_point(q);
-                  const Tensor<1, dim> u      = exact.displacement(x, body->index);
-                  const auto           strain = symmetrize(exact.gradient(x, body->index));
-                  const auto strain_error     = symmetrize(gradient(values, coefficients, q)) - strain;
-                  const double weight         = values.JxW(q);
-                  sums[0] += weight * (value(values, coefficients, q) - u).norm_square();
+                  const Point<dim>    &x = values.quadrature_point(q);
+                  const Tensor<1, dim> u = exact.displacement(x, body->index);
+                  const auto           strain =
+                    symmetrize(exact.gradient(x, body->index));
+                  const auto strain_error =
+                    symmetrize(gradient(values, coefficients, q)) - strain;
+                  const double weight = values.JxW(q);
+                  sums[0] +=
+                    weight * (value(values, coefficients, q) - u).norm_square();
                   sums[1] += weight * u.norm_square();
-                  sums[2] += weight * (body->material.stress(strain_error) * strain_error);
+                  sums[2] += weight * (body->material.stress(strain_error) *
+                                       strain_error);
                   sums[3] += weight * (body->material.stress(strain) * strain);
                 }
             }
@@ -141,11 +155,12 @@ namespace mortise
   }
 
   double
-  multiplier_error(const Bodies                                        &bodies,
-                   const std::vector<Coupling>                         &couplings,
-                   const std::vector<unsigned int>                     &slave_bodies,
-                   const std::vector<std::vector<std::vector<double>>> &coefficients,
-                   const ExactSolution                                 &exact)
+  multiplier_error(
+    const Bodies                                        &bodies,
+    const std::vector<Coupling>                         &couplings,
+    const std::vector<unsigned int>                     &slave_bodies,
+    const std::vector<std::vector<std::vector<double>>> &coefficients,
+    const ExactSolution                                 &exact)
   {
     double error = 0., norm = 0., stress_norm = 0.;
     for (unsigned int n = 0; n < couplings.size(); ++n)
@@ -153,8 +168,10 @@ namespace mortise
         const Body                       &body = *bodies[slave_bodies[n]];
         ValuesByDegree<FEFaceValues<dim>> by_degree(body,
                                                     3,
-                                                    update_values | update_normal_vectors |
-                                                      update_quadrature_points | update_JxW_values);
+                                                    update_values |
+                                                      update_normal_vectors |
+                                                      update_quadrature_points |
+                                                      update_JxW_values);
         const BodySurface &slave = couplings[n].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
           if (!couplings[n].local[s].partners.empty())
@@ -162,17 +179,22 @@ namespace mortise
               const unsigned int degree = slave.traces[s].degree;
               auto              &values = by_degree(degree);
               values.reinit(TriaCell(slave.cells[s]), slave.face_numbers[s]);
-              const auto on_face = face_dof_indices(degree, slave.face_numbers[s]);
+              const auto on_face =
+                face_dof_indices(degree, slave.face_numbers[s]);
               for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                 {
-                  // lambda acts on the master: it is minus the traction on the slave
-                  const auto           stress   = exact.stress(values.quadrature_point(q), body.index);
-                  const Tensor<1, dim> traction = stress * values.normal_vector(q);
+                  // lambda acts on the master: it is minus the traction on the
+                  // slave
+                  const auto stress =
+                    exact.stress(values.quadrature_point(q), body.index);
+                  const Tensor<1, dim> traction =
+                    stress * values.normal_vector(q);
                   Tensor<1, dim> difference = traction;
                   for (unsigned int c = 0; c < dim; ++c)
                     for (unsigned int k = 0; k < on_face.size(); ++k)
-                      difference[c] += coefficients[n][s][c * on_face.size() + k] *
-                                       values.shape_value(on_face[k], q);
+                      difference[c] +=
+                        coefficients[n][s][c * on_face.size() + k] *
+                        values.shape_value(on_face[k], q);
                   error += values.JxW(q) * difference.norm_square();
                   norm += values.JxW(q) * traction.norm_square();
                   stress_norm += values.JxW(q) * (stress * stress);
@@ -183,14 +205,17 @@ namespace mortise
     error               = Utilities::MPI::sum(error, comm);
     norm                = Utilities::MPI::sum(norm, comm);
     stress_norm         = Utilities::MPI::sum(stress_norm, comm);
-    // where the interface bears nothing but rounding, the stress beside it is the measure
+    // where the interface bears nothing but rounding, the stress beside it is
+    // the measure
     if (norm < 1e-20 * stress_norm)
       norm = stress_norm;
     return std::sqrt(norm > 0. ? error / norm : error);
   }
 
   std::optional<Tensor<1, dim>>
-  point_value(const Body &body, const BodyVector &displacement, const Point<dim> &point)
+  point_value(const Body       &body,
+              const BodyVector &displacement,
+              const Point<dim> &point)
   {
     // the owner of the lowest rank that has the point answers
     const MPI_Comm     comm    = body.triangulation.get_communicator();
@@ -221,14 +246,17 @@ namespace mortise
             result[c] += coefficients[c][i] * element.shape_value(i, unit);
         found = true;
       }
-    const unsigned int answers = Utilities::MPI::min(found ? me : n_ranks, comm);
+    const unsigned int answers =
+      Utilities::MPI::min(found ? me : n_ranks, comm);
     if (answers == n_ranks)
       return {};
     return Utilities::MPI::broadcast(comm, result, answers);
   }
 
   Tensor<1, dim>
-  resultant(const Body &body, const BodyVector &displacement, const types::boundary_id boundary)
+  resultant(const Body              &body,
+            const BodyVector        &displacement,
+            const types::boundary_id boundary)
   {
     Tensor<1, dim>                    force;
     ValuesByDegree<FEFaceValues<dim>> by_degree(
@@ -240,9 +268,9 @@ namespace mortise
           values.reinit(TriaCell(cell), f);
           const auto coefficients = cell_coefficients(cell, displacement);
           for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-            force +=
-              values.JxW(q) * (body.material.stress(symmetrize(gradient(values, coefficients, q))) *
-                               values.normal_vector(q));
+            force += values.JxW(q) * (body.material.stress(symmetrize(
+                                        gradient(values, coefficients, q))) *
+                                      values.normal_vector(q));
         }
     return Utilities::MPI::sum(force, body.triangulation.get_communicator());
   }

@@ -1,10 +1,10 @@
-#include <mortise/output/fields.h>
-
 #include <deal.II/lac/vector.h>
 
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_out_faces.h>
 #include <deal.II/numerics/data_postprocessor.h>
+
+#include <mortise/output/fields.h>
 
 #include <cmath>
 
@@ -33,8 +33,9 @@ namespace mortise
       std::vector<DataComponentInterpretation::DataComponentInterpretation>
       get_data_component_interpretation() const override
       {
-        std::vector<DataComponentInterpretation::DataComponentInterpretation> kinds(
-          dim * dim, DataComponentInterpretation::component_is_part_of_tensor);
+        std::vector<DataComponentInterpretation::DataComponentInterpretation>
+          kinds(dim * dim,
+                DataComponentInterpretation::component_is_part_of_tensor);
         kinds.push_back(DataComponentInterpretation::component_is_scalar);
         return kinds;
       }
@@ -46,15 +47,17 @@ namespace mortise
       }
 
       void
-      evaluate_vector_field(const DataPostprocessorInputs::Vector<dim> &input,
-                            std::vector<dealii::Vector<double>> &computed) const override
+      evaluate_vector_field(
+        const DataPostprocessorInputs::Vector<dim> &input,
+        std::vector<dealii::Vector<double>>        &computed) const override
       {
         for (unsigned int q = 0; q < computed.size(); ++q)
           {
             Tensor<2, dim> gradient;
             for (unsigned int c = 0; c < dim; ++c)
               gradient[c] = input.solution_gradients[q][c];
-            const SymmetricTensor<2, dim> stress = material.stress(symmetrize(gradient));
+            const SymmetricTensor<2, dim> stress =
+              material.stress(symmetrize(gradient));
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
                 computed[q](dim * i + j) = stress[i][j];
@@ -112,11 +115,12 @@ namespace mortise
       return result;
     }
 
-    const std::vector<DataComponentInterpretation::DataComponentInterpretation> vector_field(
-      dim, DataComponentInterpretation::component_is_part_of_vector);
+    const std::vector<DataComponentInterpretation::DataComponentInterpretation>
+      vector_field(dim,
+                   DataComponentInterpretation::component_is_part_of_vector);
 
-    /// A field on a slave surface as coefficients of the body's displacement space, from
-    /// coefficients on faces; where faces disagree, their mean.
+    /// A field on a slave surface as coefficients of the body's displacement
+    /// space, from coefficients on faces; where faces disagree, their mean.
     BodyVector
     from_faces(const Body                             &body,
                const BodySurface                      &surface,
@@ -131,11 +135,13 @@ namespace mortise
         {
           if (coefficients[s].empty())
             continue;
-          const auto dofs = face_dofs(body, surface.cells[s], surface.face_numbers[s]);
+          const auto dofs =
+            face_dofs(body, surface.cells[s], surface.face_numbers[s]);
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int k = 0; k < dofs[c].size(); ++k)
               {
-                vector(dofs[c][k]) += factor * coefficients[s][c * dofs[c].size() + k];
+                vector(dofs[c][k]) +=
+                  factor * coefficients[s][c * dofs[c].size() + k];
                 count(dofs[c][k]) += 1.;
               }
         }
@@ -147,13 +153,15 @@ namespace mortise
       return vector;
     }
 
-    /// Gap by local L2 projection on each face: mass^{-1} int N_i (x_master - x_slave).
+    /// Gap by local L2 projection on each face: mass^{-1} int N_i (x_master -
+    /// x_slave).
     std::vector<std::vector<double>>
     gap_coefficients(const Coupling &coupling)
     {
       std::vector<std::vector<double>> result(coupling.local.size());
       for (unsigned int s = 0; s < coupling.local.size(); ++s)
-        if (!coupling.local[s].partners.empty() && coupling.interface->coverage()[s] > 0.5)
+        if (!coupling.local[s].partners.empty() &&
+            coupling.interface->coverage()[s] > 0.5)
           {
             const auto        &local = coupling.local[s];
             const unsigned int n     = local.mass.m();
@@ -163,7 +171,8 @@ namespace mortise
             for (unsigned int i = 0; i < n; ++i)
               for (unsigned int j = 0; j < n; ++j)
                 for (unsigned int c = 0; c < dim; ++c)
-                  result[s][c * n + i] += inverse(i, j) * local.gap_moment[j][c];
+                  result[s][c * n + i] +=
+                    inverse(i, j) * local.gap_moment[j][c];
           }
       return result;
     }
@@ -202,10 +211,12 @@ namespace mortise
                          const BodyVector                       &displacement,
                          const std::string                      &directory)
   {
-    const BodySurface &surface  = coupling.interface->slave();
-    const unsigned int degree   = slave_body.fe[slave_body.fe.size() - 1].degree;
-    const BodyVector   traction = from_faces(slave_body, surface, coefficients, -1.);
-    const BodyVector   gap      = from_faces(slave_body, surface, gap_coefficients(coupling), 1.);
+    const BodySurface &surface = coupling.interface->slave();
+    const unsigned int degree  = slave_body.fe[slave_body.fe.size() - 1].degree;
+    const BodyVector   traction =
+      from_faces(slave_body, surface, coefficients, -1.);
+    const BodyVector gap =
+      from_faces(slave_body, surface, gap_coefficients(coupling), 1.);
 
     SurfaceOutput output(surface);
     output.set_flags(flags(degree));
@@ -220,7 +231,8 @@ namespace mortise
     add(gap, "gap");
     add(displacement, "displacement");
     output.build_patches(*slave_body.mapping, degree);
-    output.write_vtu_in_parallel(directory + "/" + coupling.interface->name() + ".vtu",
+    output.write_vtu_in_parallel(directory + "/" + coupling.interface->name() +
+                                   ".vtu",
                                  slave_body.triangulation.get_communicator());
   }
 } // namespace mortise

@@ -1,11 +1,9 @@
-#include <mortise/output/summary.h>
-
-#include <mortise/base/error.h>
-
 #include <deal.II/base/config.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/error.h>
+#include <mortise/output/summary.h>
 #include <nlohmann/json.hpp>
 
 #include <cerrno>
@@ -20,8 +18,8 @@
 
 namespace mortise
 {
-  // Keys keep the order in which they are set. A double is written with the digits that read back
-  // to the same value, and null if it is not finite.
+  // Keys keep the order in which they are set. A double is written with the
+  // digits that read back to the same value, and null if it is not finite.
   using Json = nlohmann::ordered_json;
 
   ProgramInfo
@@ -83,11 +81,15 @@ namespace mortise
                    {"quadrature_points", interface.quadrature_points},
                    {"slave_area", interface.slave_area},
                    {"covered_area", interface.covered_area}};
-      set(json, "worst_face_coverage_error", interface.worst_face_coverage_error);
+      set(json,
+          "worst_face_coverage_error",
+          interface.worst_face_coverage_error);
       set(json, "partition_of_unity_error", interface.partition_of_unity_error);
       set(json, "force_residual", interface.force_residual);
       set(json, "moment_residual", interface.moment_residual);
-      set(json, "linear_completeness_error", interface.linear_completeness_error);
+      set(json,
+          "linear_completeness_error",
+          interface.linear_completeness_error);
       return json;
     }
 
@@ -152,7 +154,8 @@ namespace mortise
         {
           const int reason = errno == 0 ? EIO : errno;
           std::filesystem::remove(unfinished, error);
-          return what + std::strerror(reason) + "; choose another Output/Directory";
+          return what + std::strerror(reason) +
+                 "; choose another Output/Directory";
         }
       std::filesystem::rename(unfinished, file, error);
       return error ? what + error.message() : "";
@@ -176,18 +179,22 @@ namespace mortise
     json["timings_s"] = Json::object();
     for (const auto &[name, seconds] : summary.timings)
       json["timings_s"][name] = seconds;
-    json["memory_mib"] = {{"peak_sum_over_ranks", summary.memory.sum_over_ranks},
+    json["memory_mib"] = {{"peak_sum_over_ranks",
+                           summary.memory.sum_over_ranks},
                           {"peak_max_rank", summary.memory.max_rank}};
     // A title in another encoding than UTF-8 must not end the run.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   }
 
   void
-  write_summary(const Summary &summary, const std::string &directory, const MPI_Comm comm)
+  write_summary(const Summary     &summary,
+                const std::string &directory,
+                const MPI_Comm     comm)
   {
     std::string message;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      message = write_whole(to_json(summary), std::filesystem::path(directory) / "summary.json");
+      message = write_whole(to_json(summary),
+                            std::filesystem::path(directory) / "summary.json");
     throw_if_any(message, comm);
   }
 } // namespace mortise

@@ -1,7 +1,6 @@
-#include <mortise/problem/command_line.h>
-
 #include <mortise/base/error.h>
 #include <mortise/output/summary.h>
+#include <mortise/problem/command_line.h>
 #include <mortise/problem/parameter_file.h>
 
 namespace mortise
@@ -10,19 +9,26 @@ namespace mortise
   {
     using Action = CommandLine::Action;
 
-    const std::vector<std::string> option_names = {
-      "--set", "--output", "--validate", "--parameters", "--help", "--version"};
+    const std::vector<std::string> option_names = {"--set",
+                                                   "--output",
+                                                   "--validate",
+                                                   "--parameters",
+                                                   "--help",
+                                                   "--version"};
 
     [[noreturn]] void
     fail(const std::string &what)
     {
-      throw InputError("command line: " + what +
-                       "\nusage: mortise [OPTION]... FILE.prm (see mortise --help)");
+      throw InputError(
+        "command line: " + what +
+        "\nusage: mortise [OPTION]... FILE.prm (see mortise --help)");
     }
 
     /// The value of "--set VALUE" or "--set=VALUE"; advances @p i over it.
     std::string
-    value_of(const std::vector<std::string> &arguments, std::size_t &i, const std::string &example)
+    value_of(const std::vector<std::string> &arguments,
+             std::size_t                    &i,
+             const std::string              &example)
     {
       const std::string &argument = arguments[i];
       const std::size_t  equals   = argument.find('=');
@@ -34,25 +40,32 @@ namespace mortise
     }
 
     void
-    set_action(CommandLine &line, const Action action, const std::string &option)
+    set_action(CommandLine       &line,
+               const Action       action,
+               const std::string &option)
     {
       if (line.action != Action::run && line.action != action)
-        fail("got " + option +
-             " and another option that asks for something else; allowed is one of "
-             "--validate, --parameters, --help, --version");
+        fail(
+          "got " + option +
+          " and another option that asks for something else; allowed is one of "
+          "--validate, --parameters, --help, --version");
       line.action = action;
     }
 
     /// The option at position @p i; advances over its value.
     void
-    read_option(CommandLine &line, const std::vector<std::string> &arguments, std::size_t &i)
+    read_option(CommandLine                    &line,
+                const std::vector<std::string> &arguments,
+                std::size_t                    &i)
     {
       const std::string option = arguments[i].substr(0, arguments[i].find('='));
       const bool        value  = option.size() < arguments[i].size();
       if (option == "--set")
         {
-          line.settings.push_back(value_of(arguments, i, "\"Body inner/Degree=3\""));
-          scan_setting(line.settings.back()); // says now what cannot be understood
+          line.settings.push_back(
+            value_of(arguments, i, "\"Body inner/Degree=3\""));
+          scan_setting(
+            line.settings.back()); // says now what cannot be understood
         }
       else if (option == "--output")
         {
@@ -62,7 +75,8 @@ namespace mortise
           line.settings.push_back("Output/Directory=" + directory);
         }
       else if (value)
-        fail("unknown option \"" + arguments[i] + "\"" + did_you_mean(option, option_names) +
+        fail("unknown option \"" + arguments[i] + "\"" +
+             did_you_mean(option, option_names) +
              "; allowed: " + join_names(option_names));
       else if (option == "--validate")
         set_action(line, Action::validate, option);
@@ -73,7 +87,8 @@ namespace mortise
       else if (option == "--version")
         set_action(line, Action::print_version, option);
       else
-        fail("unknown option \"" + option + "\"" + did_you_mean(option, option_names) +
+        fail("unknown option \"" + option + "\"" +
+             did_you_mean(option, option_names) +
              "; allowed: " + join_names(option_names));
     }
   } // namespace
@@ -86,11 +101,13 @@ namespace mortise
       if (arguments[i].size() > 1 && arguments[i][0] == '-')
         read_option(line, arguments, i);
       else if (!line.file.empty())
-        fail("got two parameter files, \"" + line.file + "\" and \"" + arguments[i] +
+        fail("got two parameter files, \"" + line.file + "\" and \"" +
+             arguments[i] +
              "\"; allowed is one (a value with blanks needs quotes)");
       else
         line.file = arguments[i];
-    const bool needs_file = line.action == Action::run || line.action == Action::validate;
+    const bool needs_file =
+      line.action == Action::run || line.action == Action::validate;
     if (needs_file && line.file.empty())
       fail("a parameter file is needed, as in: mortise prm/thick_sphere.prm");
     return line;
@@ -126,7 +143,7 @@ namespace mortise
   version_text()
   {
     const ProgramInfo info = program_info(1);
-    return info.name + " " + info.version + " (deal.II " + info.dealii + ", " + info.build_type +
-           ")\n";
+    return info.name + " " + info.version + " (deal.II " + info.dealii + ", " +
+           info.build_type + ")\n";
   }
 } // namespace mortise

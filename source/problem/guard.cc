@@ -1,8 +1,7 @@
-#include <mortise/problem/guard.h>
+#include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-
-#include <deal.II/base/mpi.h>
+#include <mortise/problem/guard.h>
 
 #include <chrono>
 #include <new>
@@ -23,10 +22,11 @@ namespace mortise
     Outcome
     defect(const std::string &what)
     {
-      return {ExitCode::defect,
-              "error: a defect of mortise, not of its input. Please report it with the parameter "
-              "file, the command line, the output of `mortise --version`, and this:\n" +
-                what};
+      return {
+        ExitCode::defect,
+        "error: a defect of mortise, not of its input. Please report it with the parameter "
+        "file, the command line, the output of `mortise --version`, and this:\n" +
+          what};
     }
 
     Outcome
@@ -43,13 +43,15 @@ namespace mortise
         }
       catch (const ConvergenceError &e)
         {
-          return {ExitCode::not_converged, std::string("not converged: ") + e.what()};
+          return {ExitCode::not_converged,
+                  std::string("not converged: ") + e.what()};
         }
       catch (const std::bad_alloc &)
         {
-          return {ExitCode::defect,
-                  "error: not enough memory for this scene. Take fewer cells, a lower degree, or "
-                  "more machines."};
+          return {
+            ExitCode::defect,
+            "error: not enough memory for this scene. Take fewer cells, a lower degree, or "
+            "more machines."};
         }
       catch (const std::exception &e)
         {
@@ -75,7 +77,8 @@ namespace mortise
           if (done)
             return true;
           if (patience >= 0. &&
-              std::chrono::duration<double>(Clock::now() - start).count() > patience)
+              std::chrono::duration<double>(Clock::now() - start).count() >
+                patience)
             return false;
           if (round > 1000)
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -89,7 +92,8 @@ namespace mortise
               std::ostream                &error,
               const double                 patience)
   {
-    // Its own communicator: a rank that failed must not answer a collective call of the others.
+    // Its own communicator: a rank that failed must not answer a collective
+    // call of the others.
     MPI_Comm agreement;
     MPI_Comm_dup(comm, &agreement);
     const int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);

@@ -1,6 +1,5 @@
-#include <mortise/problem/parameter_schema.h>
-
 #include <mortise/base/error.h>
+#include <mortise/problem/parameter_schema.h>
 #include <mortise/problem/parameters.h>
 
 #include <sstream>
@@ -10,7 +9,6 @@ namespace mortise
   namespace
   {
     namespace Patterns = dealii::Patterns;
-
     std::string
     text_of(const double value)
     {
@@ -19,23 +17,22 @@ namespace mortise
       return stream.str();
     }
 
+    template <std::size_t n>
     std::string
-    text_of(const std::array<double, 3> &v)
+    text_of(const std::array<double, n> &v)
     {
-      return text_of(v[0]) + ", " + text_of(v[1]) + ", " + text_of(v[2]);
-    }
-
-    std::string
-    text_of(const std::array<double, 2> &v)
-    {
-      return text_of(v[0]) + ", " + text_of(v[1]);
+      std::string text = text_of(v[0]);
+      for (std::size_t i = 1; i < n; ++i)
+        text += ", " + text_of(v[i]);
+      return text;
     }
 
     /// Collects the declarations of one subsection.
     class Declare
     {
     public:
-      Declare(std::vector<ParameterDeclaration> &declared, const std::vector<std::string> &sections)
+      Declare(std::vector<ParameterDeclaration> &declared,
+              const std::vector<std::string>    &sections)
         : declared(declared)
         , sections(sections)
       {}
@@ -65,7 +62,11 @@ namespace mortise
               const std::string &allowed,
               const unsigned int at_most)
       {
-        add(name, value, meaning, allowed, Patterns::List(Patterns::Double(), 0, at_most));
+        add(name,
+            value,
+            meaning,
+            allowed,
+            Patterns::List(Patterns::Double(), 0, at_most));
       }
 
       void
@@ -80,14 +81,21 @@ namespace mortise
             meaning,
             most == Patterns::Integer::max_int_value ?
               "an integer of " + std::to_string(least) + " or more" :
-              "an integer from " + std::to_string(least) + " to " + std::to_string(most),
+              "an integer from " + std::to_string(least) + " to " +
+                std::to_string(most),
             Patterns::Integer(least, most));
       }
 
       void
-      yes_no(const std::string &name, const bool value, const std::string &meaning)
+      yes_no(const std::string &name,
+             const bool         value,
+             const std::string &meaning)
       {
-        add(name, value ? "true" : "false", meaning, "true or false", Patterns::Bool());
+        add(name,
+            value ? "true" : "false",
+            meaning,
+            "true or false",
+            Patterns::Bool());
       }
 
       void
@@ -114,7 +122,8 @@ namespace mortise
           const std::string           &allowed,
           const Patterns::PatternBase &pattern)
       {
-        declared.push_back({sections, name, value, meaning, allowed, {}, pattern.clone()});
+        declared.push_back(
+          {sections, name, value, meaning, allowed, {}, pattern.clone()});
       }
 
     private:
@@ -126,8 +135,14 @@ namespace mortise
     declare_mesh_source(Declare declare)
     {
       const MeshParameters mesh;
-      declare.choice("Source", mesh.source, "Where the mesh comes from.", mesh_source_names());
-      declare.choice("Cells", mesh.cells, "Shape of the cells.", {"hexahedra", "tetrahedra"});
+      declare.choice("Source",
+                     mesh.source,
+                     "Where the mesh comes from.",
+                     mesh_source_names());
+      declare.choice("Cells",
+                     mesh.cells,
+                     "Shape of the cells.",
+                     {"hexahedra", "tetrahedra"});
       declare.numbers(
         "Extent",
         "",
@@ -144,24 +159,27 @@ namespace mortise
         "nz, or nx, ny, nz_lower, nz_upper for both halves.",
         "2 to 4 integers of 1 or more, as the generator needs",
         Patterns::List(Patterns::Integer(1), 0, 4));
-      declare.integer("Refinements",
-                      mesh.refinements,
-                      "How often all cells are cut into eight, after Subdivisions or File.",
-                      0);
-      declare.text("Refine near",
-                   mesh.refine_near,
-                   "Local refinement after that: cells that reach into a ball are cut the given "
-                   "number of times [lengths, in moved coordinates].",
-                   "\"x, y, z, radius, times; ...\"");
+      declare.integer(
+        "Refinements",
+        mesh.refinements,
+        "How often all cells are cut into eight, after Subdivisions or File.",
+        0);
+      declare.text(
+        "Refine near",
+        mesh.refine_near,
+        "Local refinement after that: cells that reach into a ball are cut the given "
+        "number of times [lengths, in moved coordinates].",
+        "\"x, y, z, radius, times; ...\"");
       declare.text("File",
                    mesh.file,
                    "Mesh for the source file; from gmsh, say.",
                    "name of a file");
-      declare.numbers("Rotate",
-                      text_of(mesh.rotate),
-                      "Rotates the body about the axes x, then y, then z [degrees].",
-                      "3 numbers",
-                      3);
+      declare.numbers(
+        "Rotate",
+        text_of(mesh.rotate),
+        "Rotates the body about the axes x, then y, then z [degrees].",
+        "3 numbers",
+        3);
       declare.numbers("Translate",
                       text_of(mesh.translate),
                       "Moves the body, after Rotate [length].",
@@ -173,16 +191,18 @@ namespace mortise
     declare_mesh_shape(Declare declare)
     {
       const MeshParameters mesh;
-      declare.numbers("Bottom slope",
-                      text_of(mesh.bottom_slope),
-                      "box: the face zmin lies in z = z0 + sx (x - x0) + sy (y - y0) [-].",
-                      "2 numbers: sx, sy",
-                      2);
-      declare.numbers("Top slope",
-                      text_of(mesh.top_slope),
-                      "box: the face zmax lies in z = z1 + sx (x - x0) + sy (y - y0) [-].",
-                      "2 numbers: sx, sy",
-                      2);
+      declare.numbers(
+        "Bottom slope",
+        text_of(mesh.bottom_slope),
+        "box: the face zmin lies in z = z0 + sx (x - x0) + sy (y - y0) [-].",
+        "2 numbers: sx, sy",
+        2);
+      declare.numbers(
+        "Top slope",
+        text_of(mesh.top_slope),
+        "box: the face zmax lies in z = z1 + sx (x - x0) + sy (y - y0) [-].",
+        "2 numbers: sx, sy",
+        2);
       declare.number(
         "Distort",
         mesh.distort,
@@ -200,27 +220,31 @@ namespace mortise
         "f(s, t) with s, t in [-1, 1] across the block. bump: cos(pi s/2) cos(pi t/2); "
         "saddle: (s^2 - t^2 + s/2) / 1.5; wave: sin(pi s/2 + 1/2) cos(pi t/2).",
         {"bump", "saddle", "wave"});
-      declare.number("Amplitude",
-                     mesh.amplitude,
-                     "curved block: height of that surface [length].",
-                     "a number smaller in magnitude than the height of each half");
-      declare.number("Middle",
-                     mesh.middle,
-                     "curved block: z_middle as a fraction of the block's height [-].",
-                     "a number between 0 and 1");
+      declare.number(
+        "Amplitude",
+        mesh.amplitude,
+        "curved block: height of that surface [length].",
+        "a number smaller in magnitude than the height of each half");
+      declare.number(
+        "Middle",
+        mesh.middle,
+        "curved block: z_middle as a fraction of the block's height [-].",
+        "a number between 0 and 1");
     }
 
     void
     declare_boundary(Declare declare)
     {
-      declare.text("Pressure",
-                   "",
-                   "Pressure, acting against the outward normal [force per area]. Empty: none.",
-                   "an expression in x, y, z; or exact");
-      declare.text("Traction",
-                   "",
-                   "Force on the surface, added to Pressure [force per area]. Empty: none.",
-                   "three expressions \"tx; ty; tz\"; or exact");
+      declare.text(
+        "Pressure",
+        "",
+        "Pressure, acting against the outward normal [force per area]. Empty: none.",
+        "an expression in x, y, z; or exact");
+      declare.text(
+        "Traction",
+        "",
+        "Force on the surface, added to Pressure [force per area]. Empty: none.",
+        "three expressions \"tx; ty; tz\"; or exact");
       declare.text(
         "Displacement",
         "",
@@ -235,22 +259,30 @@ namespace mortise
     {
       const BodyParameters body;
       Declare              declare(declared, {section});
-      declare.integer(
-        "Degree", body.degree, "Polynomial degree of the displacement.", min_degree, max_degree);
-      declare.text("Degree by region",
-                   "",
-                   "Other degrees for cells with the given material ids of the mesh.",
-                   "\"material id: degree; ...\"");
-      declare.text("Body force",
-                   "auto",
-                   "Force on the volume [force per volume]. auto: what balances the exact solution "
-                   "if that is given by expressions, else zero.",
-                   "three expressions \"bx; by; bz\" in x, y, z; exact; or auto");
+      declare.integer("Degree",
+                      body.degree,
+                      "Polynomial degree of the displacement.",
+                      min_degree,
+                      max_degree);
+      declare.text(
+        "Degree by region",
+        "",
+        "Other degrees for cells with the given material ids of the mesh.",
+        "\"material id: degree; ...\"");
+      declare.text(
+        "Body force",
+        "auto",
+        "Force on the volume [force per volume]. auto: what balances the exact solution "
+        "if that is given by expressions, else zero.",
+        "three expressions \"bx; by; bz\" in x, y, z; exact; or auto");
       declare_mesh_source({declared, {section, "Mesh"}});
       declare_mesh_shape({declared, {section, "Mesh"}});
 
       Declare material(declared, {section, "Material"});
-      material.choice("Law", body.material.law, "Material law.", {"linear elastic"});
+      material.choice("Law",
+                      body.material.law,
+                      "Material law.",
+                      {"linear elastic"});
       material.number("Young modulus",
                       body.material.young_modulus,
                       "Young's modulus [force per area].",
@@ -269,7 +301,7 @@ namespace mortise
       const InterfaceParameters interface;
       declare.text("Slave",
                    "",
-                   "The side that carries the multiplier: the finer mesh or the softer body.",
+                   "Side of the multiplier: the finer mesh or the softer body.",
                    "\"body: boundary\"");
       declare.text("Master", "", "The other side.", "\"body: boundary\"");
       declare.choice("Law", interface.law, "What the interface does.", {"tie"});
@@ -277,66 +309,71 @@ namespace mortise
                      interface.multiplier,
                      "Space of the Lagrange multiplier (the traction).",
                      {"standard"});
-      declare.number("Search distance",
-                     interface.search_distance,
-                     "Largest gap or penetration that is bridged, as a fraction of the size of the "
-                     "larger face [-].",
-                     "a positive number");
-      declare.text(
-        "Quadrature points",
-        "auto",
-        "Points per direction on an integration cell. auto: as many as the degrees need.",
-        "auto, or an integer of 1 or more");
+      declare.number(
+        "Search distance",
+        interface.search_distance,
+        "Largest gap or penetration that is bridged, as a fraction of the size of the "
+        "larger face [-].",
+        "a positive number");
+      declare.text("Quadrature points",
+                   "auto",
+                   "Points per direction on a cell. auto: as many as needed.",
+                   "auto, or an integer of 1 or more");
     }
 
     void
     declare_rest(std::vector<ParameterDeclaration> &declared)
     {
       Declare exact(declared, {"Exact solution"});
-      exact.text("Displacement",
-                 "",
-                 "Exact displacement [length]: relative errors are computed when it is given.",
-                 "three expressions \"ux; uy; uz\" in x, y, z; thick sphere; or thick cylinder "
-                 "(which take pressure, radii and materials from the scene)");
+      exact.text(
+        "Displacement",
+        "",
+        "Exact displacement [length]: relative errors are computed when it is given.",
+        "three expressions \"ux; uy; uz\" in x, y, z; thick sphere; or thick cylinder "
+        "(which take pressure, radii and materials from the scene)");
 
       const SolverParameters solver;
       Declare                declare(declared, {"Solver"});
       declare.choice("Method",
                      "auto",
-                     "How the system is solved. auto: by its size.",
+                     "Solver. auto: by size.",
                      solver_method_names());
-      declare.number("Tolerance",
-                     solver.tolerance,
-                     "Residual relative to the right hand side at which the solver stops [-].",
-                     "a number between 0 and 1, both excluded");
+      declare.number(
+        "Tolerance",
+        solver.tolerance,
+        "Residual relative to the right hand side at which the solver stops [-].",
+        "a number between 0 and 1, both excluded");
       declare.integer("Max iterations",
                       solver.max_iterations,
                       "After so many iterations the run ends with exit code 3.",
                       1);
-      declare.yes_no("Print iterations", solver.print_iterations, "One line per iteration.");
+      declare.yes_no("Print iterations",
+                     solver.print_iterations,
+                     "A line for each.");
 
       Declare output(declared, {"Output"});
-      output.text("Directory",
-                  "",
-                  "Where summary.json and the files of fields go; made when the first is written. "
-                  "Empty: results/NAME for a parameter file NAME.prm.",
-                  "name of a directory");
+      output.text(
+        "Directory",
+        "",
+        "Where summary.json and the files of fields go; made when the first is written. "
+        "Empty: results/NAME for a parameter file NAME.prm.",
+        "name of a directory");
       output.text(
         "Fields",
         "",
         "Fields to write for ParaView (.vtu), a file for each body and, with traction (and "
         "gap), for each interface. Empty: no files of fields.",
         "a list of: " + join_names(field_names()));
-      output.text("Points",
-                  "",
-                  "Displacements to report in the summary, at points of bodies [length].",
-                  "\"name: body: x, y, z; ...\"");
+      output.text(
+        "Points",
+        "",
+        "Displacements to report in the summary, at points of bodies [length].",
+        "\"name: body: x, y, z; ...\"");
       output.text("Resultants",
                   "",
                   "Forces to report in the summary, on boundaries of bodies.",
                   "\"name: body: boundary; ...\"");
     }
-
   } // namespace
 
   std::vector<ParameterDeclaration>
@@ -351,8 +388,7 @@ namespace mortise
                  "names separated by commas");
     declare.text("Interfaces",
                  "",
-                 "Names of the interfaces that tie bodies; each has a subsection \"Interface "
-                 "NAME\". Empty: none.",
+                 "Names of interfaces; each has an \"Interface NAME\".",
                  "names separated by commas");
     for (unsigned int b = 0; b < names.bodies.size(); ++b)
       declare_body(declared, "Body " + names.bodies[b], names.boundaries[b]);

@@ -1,6 +1,5 @@
-#include <mortise/problem/parameter_file.h>
-
 #include <mortise/base/error.h>
+#include <mortise/problem/parameter_file.h>
 
 #include <algorithm>
 #include <cctype>
@@ -18,7 +17,8 @@ namespace mortise
     std::string path;
     for (const std::string &section : sections)
       path += section + "/";
-    return opens_section() && !path.empty() ? path.substr(0, path.size() - 1) : path + name;
+    return opens_section() && !path.empty() ? path.substr(0, path.size() - 1) :
+                                              path + name;
   }
 
   std::string
@@ -66,19 +66,23 @@ namespace mortise
     const std::string what = "parameter file \"" + file + "\"" + from + ": ";
     std::error_code   ignored;
     if (std::filesystem::is_directory(file, ignored))
-      throw InputError(what + "this is a directory; the name of a file is needed");
+      throw InputError(what +
+                       "this is a directory; the name of a file is needed");
     errno = 0;
     std::ifstream stream(file);
     if (!stream)
       {
         const std::filesystem::path path(file);
         std::vector<std::string>    beside;
-        const auto                  directory = path.has_parent_path() ? path.parent_path() : ".";
-        for (const auto &entry : std::filesystem::directory_iterator(directory, ignored))
+        const auto                  directory =
+          path.has_parent_path() ? path.parent_path() : ".";
+        for (const auto &entry :
+             std::filesystem::directory_iterator(directory, ignored))
           if (entry.path().extension() == ".prm")
             beside.push_back(entry.path().filename().string());
         std::sort(beside.begin(), beside.end());
-        throw InputError(what + "cannot be read: " + std::strerror(errno == 0 ? ENOENT : errno) +
+        throw InputError(what + "cannot be read: " +
+                         std::strerror(errno == 0 ? ENOENT : errno) +
                          did_you_mean(path.filename().string(), beside));
       }
     std::ostringstream text;
@@ -119,12 +123,14 @@ namespace mortise
           if (continued)
             continue;
           if (!normalised(joined).empty())
-            lines.push_back({normalised(joined), "line " + std::to_string(first) + " of " + file});
+            lines.push_back({normalised(joined),
+                             "line " + std::to_string(first) + " of " + file});
           joined.clear();
         }
       if (continued)
-        throw InputError("line " + std::to_string(number) + " of " + file +
-                         ": the file ends with \\, which continues a line; got no next line");
+        throw InputError(
+          "line " + std::to_string(number) + " of " + file +
+          ": the file ends with \\, which continues a line; got no next line");
       return lines;
     }
 
@@ -139,7 +145,8 @@ namespace mortise
         for (const Line &line : lines_of(text, file))
           scan_line(line, file, depth);
         if (sections.size() > depth)
-          throw InputError("subsection \"" + sections.back() + "\" (" + opened_at.back() +
+          throw InputError("subsection \"" + sections.back() + "\" (" +
+                           opened_at.back() +
                            "): \"end\" is missing before the end of " + file);
       }
 
@@ -147,12 +154,15 @@ namespace mortise
 
     private:
       void
-      scan_line(const Line &line, const std::string &file, const std::size_t depth)
+      scan_line(const Line        &line,
+                const std::string &file,
+                const std::size_t  depth)
       {
         std::string keyword = line.text.substr(0, line.text.find(' '));
-        std::transform(keyword.begin(), keyword.end(), keyword.begin(), [](unsigned char c) {
-          return std::tolower(c);
-        });
+        std::transform(keyword.begin(),
+                       keyword.end(),
+                       keyword.begin(),
+                       [](unsigned char c) { return std::tolower(c); });
         const std::string rest = normalised(line.text.substr(keyword.size()));
         if (keyword == "set")
           scan_set(line, rest);
@@ -161,17 +171,19 @@ namespace mortise
         else if (keyword == "end" && rest.empty())
           {
             if (sections.size() == depth)
-              throw InputError(line.origin + ": \"end\" without an open subsection");
+              throw InputError(line.origin +
+                               ": \"end\" without an open subsection");
             sections.pop_back();
             opened_at.pop_back();
           }
         else if (keyword == "include")
           include(line, rest, file);
         else
-          throw InputError(line.origin + ": cannot understand \"" + line.text +
-                           "\"; allowed are: set NAME = VALUE, subsection NAME, end, include FILE, "
-                           "and comments after #" +
-                           did_you_mean(keyword, {"set", "subsection", "end", "include"}));
+          throw InputError(
+            line.origin + ": cannot understand \"" + line.text +
+            "\"; allowed are: set NAME = VALUE, subsection NAME, end, include FILE, "
+            "and comments after #" +
+            did_you_mean(keyword, {"set", "subsection", "end", "include"}));
       }
 
       void
@@ -182,31 +194,36 @@ namespace mortise
         if (equals == std::string::npos || name.empty())
           throw InputError(line.origin + ": cannot understand \"" + line.text +
                            "\"; allowed is: set NAME = VALUE");
-        assignments.push_back({sections, name, normalised(rest.substr(equals + 1)), line.origin});
+        assignments.push_back(
+          {sections, name, normalised(rest.substr(equals + 1)), line.origin});
       }
 
       void
       open(const Line &line, const std::string &name)
       {
         if (name.empty())
-          throw InputError(line.origin +
-                           ": a subsection needs a name, as in \"subsection Solver\"");
+          throw InputError(
+            line.origin +
+            ": a subsection needs a name, as in \"subsection Solver\"");
         sections.push_back(name);
         opened_at.push_back(line.origin);
         assignments.push_back({sections, "", "", line.origin});
       }
 
       void
-      include(const Line &line, const std::string &name, const std::string &file)
+      include(const Line        &line,
+              const std::string &name,
+              const std::string &file)
       {
         constexpr unsigned int deepest = 20;
         const std::string      from    = " (included at " + line.origin + ")";
         if (name.empty())
           throw InputError(line.origin + ": include needs the name of a file");
         if (++nesting > deepest)
-          throw InputError("parameter file \"" + name + "\"" + from +
-                           ": more than 20 files within each other; does one include itself?");
-        const auto        beside = std::filesystem::path(file).parent_path() / name;
+          throw InputError(
+            "parameter file \"" + name + "\"" + from +
+            ": more than 20 files within each other; does one include itself?");
+        const auto beside = std::filesystem::path(file).parent_path() / name;
         std::error_code   ignored;
         const bool        found = std::filesystem::exists(beside, ignored);
         const std::string path  = found ? beside.string() : name;
@@ -237,11 +254,14 @@ namespace mortise
     for (std::string part; std::getline(stream, part, '/');)
       path.push_back(normalised(part));
     const bool empty_part =
-      std::any_of(path.begin(), path.end(), [](const std::string &part) { return part.empty(); });
+      std::any_of(path.begin(), path.end(), [](const std::string &part) {
+        return part.empty();
+      });
     if (equals == std::string::npos || path.empty() || empty_part)
-      throw InputError(origin +
-                       ": cannot understand this; allowed is SECTION/SUBSECTION/NAME=VALUE, "
-                       "for example --set \"Body inner/Mesh/Refinements=1\"");
+      throw InputError(
+        origin +
+        ": cannot understand this; allowed is SECTION/SUBSECTION/NAME=VALUE, "
+        "for example --set \"Body inner/Mesh/Refinements=1\"");
     const std::string name = path.back();
     path.pop_back();
     return {path, name, normalised(setting.substr(equals + 1)), origin};

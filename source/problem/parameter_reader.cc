@@ -1,6 +1,6 @@
-#include <mortise/problem/parameter_reader.h>
-
 #include <deal.II/base/utilities.h>
+
+#include <mortise/problem/parameter_reader.h>
 
 namespace mortise
 {
@@ -23,7 +23,8 @@ namespace mortise
                         const std::string &got,
                         const std::string &allowed) const
   {
-    throw InputError(where(name) + ": got \"" + got + "\"; allowed: " + allowed);
+    throw InputError(where(name) + ": got \"" + got +
+                     "\"; allowed: " + allowed);
   }
 
   std::string
@@ -47,11 +48,13 @@ namespace mortise
   std::vector<double>
   ParameterReader::numbers(const std::string &name) const
   {
-    return dealii::Utilities::string_to_double(split_outside_parentheses(text(name), ','));
+    return dealii::Utilities::string_to_double(
+      split_outside_parentheses(text(name), ','));
   }
 
   std::optional<Components>
-  ParameterReader::components(const std::string &name, const std::string &allowed) const
+  ParameterReader::components(const std::string &name,
+                              const std::string &allowed) const
   {
     const std::string value = text(name);
     if (value.empty())
@@ -63,7 +66,8 @@ namespace mortise
     if (parts.size() != 3)
       fail(name,
            value,
-           allowed + " (these are " + std::to_string(parts.size()) + " components, not 3)");
+           allowed + " (these are " + std::to_string(parts.size()) +
+             " components, not 3)");
     return Components{{parts[0], parts[1], parts[2]}};
   }
 
@@ -84,7 +88,8 @@ namespace mortise
   }
 
   unsigned int
-  ParameterReader::body_index(const std::string &name, const std::string &body) const
+  ParameterReader::body_index(const std::string &name,
+                              const std::string &body) const
   {
     std::vector<std::string> names;
     for (const BodyParameters &b : parameters.bodies)
@@ -92,7 +97,8 @@ namespace mortise
     const auto position = std::find(names.begin(), names.end(), body);
     if (position == names.end())
       throw InputError(where(name) + ": there is no body \"" + body + "\"" +
-                       did_you_mean(body, names) + "; bodies are: " + join_names(names));
+                       did_you_mean(body, names) +
+                       "; bodies are: " + join_names(names));
     return position - names.begin();
   }
 } // namespace mortise

@@ -1,6 +1,5 @@
-#include <mortise/problem/parameter_schema.h>
-
 #include <mortise/base/error.h>
+#include <mortise/problem/parameter_schema.h>
 
 #include <algorithm>
 #include <sstream>
@@ -49,7 +48,9 @@ namespace mortise
         for (const ParameterDeclaration &p : declared)
           if (p.sections.size() > parent.size() &&
               std::equal(parent.begin(), parent.end(), p.sections.begin()) &&
-              std::find(known.begin(), known.end(), p.sections[parent.size()]) == known.end())
+              std::find(known.begin(),
+                        known.end(),
+                        p.sections[parent.size()]) == known.end())
             known.push_back(p.sections[parent.size()]);
         if (std::find(known.begin(), known.end(), section) == known.end())
           {
@@ -57,19 +58,22 @@ namespace mortise
             if (parent.size() == 1 && starts_with(parent[0], "Body "))
               {
                 known.push_back("Boundary NAME");
-                near.push_back("Boundary" +
-                               section.substr(std::min(section.find(' '), section.size())));
+                near.push_back(
+                  "Boundary" +
+                  section.substr(std::min(section.find(' '), section.size())));
               }
             std::string why;
             if (parent.empty() && starts_with(section, "Body "))
-              why = ": \"set Bodies = " + join_names(names.bodies) + "\" does not name this body";
+              why = ": \"set Bodies = " + join_names(names.bodies) +
+                    "\" does not name this body";
             else if (parent.empty() && starts_with(section, "Interface "))
               why = ": \"set Interfaces = " + join_names(names.interfaces) +
                     "\" does not name this interface";
-            throw InputError("unknown subsection \"" + section + "\"" +
-                             (parent.empty() ? "" : " in \"" + path_of(parent) + "\"") + " (" +
-                             assignment.origin + ")" + why + did_you_mean(section, near) +
-                             "; allowed here: " + join_names(known));
+            throw InputError(
+              "unknown subsection \"" + section + "\"" +
+              (parent.empty() ? "" : " in \"" + path_of(parent) + "\"") + " (" +
+              assignment.origin + ")" + why + did_you_mean(section, near) +
+              "; allowed here: " + join_names(known));
           }
         parent.push_back(section);
       }
@@ -91,18 +95,21 @@ namespace mortise
     std::string              hint   = did_you_mean(assignment.name, here);
     std::vector<std::string> itself = assignment.sections;
     itself.push_back(assignment.name);
-    const bool is_section = std::any_of(declared.begin(), declared.end(), [&](const auto &p) {
-      return p.sections.size() >= itself.size() &&
-             std::equal(itself.begin(), itself.end(), p.sections.begin());
-    });
+    const bool is_section =
+      std::any_of(declared.begin(), declared.end(), [&](const auto &p) {
+        return p.sections.size() >= itself.size() &&
+               std::equal(itself.begin(), itself.end(), p.sections.begin());
+      });
     if (is_section)
       hint = " (it is a subsection)";
     else if (!elsewhere.empty())
       hint = " (it belongs into: " + join_names(elsewhere) + ")";
-    throw InputError(
-      "unknown parameter \"" + assignment.name + "\"" +
-      (assignment.sections.empty() ? "" : " in \"" + path_of(assignment.sections) + "\"") + " (" +
-      assignment.origin + ")" + hint + "; allowed here: " + join_names(here));
+    throw InputError("unknown parameter \"" + assignment.name + "\"" +
+                     (assignment.sections.empty() ?
+                        "" :
+                        " in \"" + path_of(assignment.sections) + "\"") +
+                     " (" + assignment.origin + ")" + hint +
+                     "; allowed here: " + join_names(here));
   }
 
   void
@@ -113,9 +120,10 @@ namespace mortise
       return;
     const ParameterDeclaration &p = find(assignment);
     if (!p.pattern->match(assignment.value))
-      throw InputError(path_of(p.sections) + (p.sections.empty() ? "" : "/") + p.name + " (" +
-                       assignment.origin + "): got \"" + assignment.value + "\"" +
-                       did_you_mean(assignment.value, p.choices) + "; allowed: " + p.allowed);
+      throw InputError(
+        path_of(p.sections) + (p.sections.empty() ? "" : "/") + p.name + " (" +
+        assignment.origin + "): got \"" + assignment.value + "\"" +
+        did_you_mean(assignment.value, p.choices) + "; allowed: " + p.allowed);
     for (const std::string &section : p.sections)
       handler.enter_subsection(section);
     handler.set(p.name, assignment.value);
@@ -124,7 +132,8 @@ namespace mortise
   }
 
   std::string
-  ParameterSchema::get(const std::vector<std::string> &sections, const std::string &name) const
+  ParameterSchema::get(const std::vector<std::string> &sections,
+                       const std::string              &name) const
   {
     return handler.get(sections, name);
   }
@@ -172,12 +181,13 @@ namespace mortise
   {
     std::string              text = reference_heading;
     std::vector<std::string> open;
-    const auto               indent = [&open] { return std::string(2 * open.size(), ' '); };
-    const auto               close  = [&] {
+    const auto indent = [&open] { return std::string(2 * open.size(), ' '); };
+    const auto close  = [&] {
       open.pop_back();
       text += indent() + "end\n";
     };
-    for (const ParameterDeclaration &p : declare_parameters({{"NAME"}, {{"NAME"}}, {"NAME"}}))
+    for (const ParameterDeclaration &p :
+         declare_parameters({{"NAME"}, {{"NAME"}}, {"NAME"}}))
       {
         while (open.size() > p.sections.size() ||
                !std::equal(open.begin(), open.end(), p.sections.begin()))
@@ -188,11 +198,13 @@ namespace mortise
             text += "\n" + indent() + "subsection " + section + "\n";
             open.push_back(section);
           }
-        const bool names = p.sections.empty() && (p.name == "Bodies" || p.name == "Interfaces");
+        const bool names =
+          p.sections.empty() && (p.name == "Bodies" || p.name == "Interfaces");
         const std::string value = names ? "NAME" : p.default_value;
         text += "\n" + comment(p.meaning, indent()) +
-                comment("Allowed: " + p.allowed + ".", indent()) + indent() + "set " + p.name +
-                " =" + (value.empty() ? "" : " " + value) + "\n";
+                comment("Allowed: " + p.allowed + ".", indent()) + indent() +
+                "set " + p.name + " =" + (value.empty() ? "" : " " + value) +
+                "\n";
       }
     while (!open.empty())
       close();

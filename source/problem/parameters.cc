@@ -1,11 +1,10 @@
-#include <mortise/problem/parameters.h>
-
-#include <mortise/base/error.h>
-#include <mortise/problem/parameter_reader.h>
-
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
+
+#include <mortise/base/error.h>
+#include <mortise/problem/parameter_reader.h>
+#include <mortise/problem/parameters.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -22,10 +21,13 @@ namespace mortise
   Parameters::where(const std::string &path) const
   {
     auto origin = origins.find(path);
-    if (origin == origins.end()) // a subsection that only --set opens: its first parameter
+    if (origin ==
+        origins
+          .end()) // a subsection that only --set opens: its first parameter
       {
         origin = origins.lower_bound(path + "/");
-        if (origin != origins.end() && origin->first.compare(0, path.size() + 1, path + "/") != 0)
+        if (origin != origins.end() &&
+            origin->first.compare(0, path.size() + 1, path + "/") != 0)
           origin = origins.end();
       }
     return origin == origins.end() ? path : path + " (" + origin->second + ")";
@@ -40,7 +42,9 @@ namespace mortise
   const std::vector<std::string> &
   field_names()
   {
-    static const std::vector<std::string> names = {"displacement", "stress", "traction"};
+    static const std::vector<std::string> names = {"displacement",
+                                                   "stress",
+                                                   "traction"};
     return names;
   }
 
@@ -75,17 +79,22 @@ namespace mortise
     std::map<unsigned int, unsigned int>
     read_degrees(const ParameterReader &reader)
     {
-      const std::string name    = "Degree by region";
-      const std::string allowed = "\"material id: degree; ...\", two integers of 0 or more each";
+      const std::string name = "Degree by region";
+      const std::string allowed =
+        "\"material id: degree; ...\", two integers of 0 or more each";
       std::map<unsigned int, unsigned int> degrees;
       for (const Strings &record : reader.records(name, 2, allowed))
         {
           for (const std::string &part : record)
-            if (part.size() > 9 || part.find_first_not_of("0123456789") != std::string::npos)
+            if (part.size() > 9 ||
+                part.find_first_not_of("0123456789") != std::string::npos)
               reader.fail(name, record[0] + ": " + record[1], allowed);
           const unsigned int id = dealii::Utilities::string_to_int(record[0]);
-          if (!degrees.emplace(id, dealii::Utilities::string_to_int(record[1])).second)
-            reader.fail(name, record[0] + ": " + record[1], "each material id only once");
+          if (!degrees.emplace(id, dealii::Utilities::string_to_int(record[1]))
+                 .second)
+            reader.fail(name,
+                        record[0] + ": " + record[1],
+                        "each material id only once");
         }
       return degrees;
     }
@@ -97,10 +106,11 @@ namespace mortise
       if (!reader.text("Pressure").empty())
         boundary.pressure = reader.text("Pressure");
       boundary.traction =
-        reader.components("Traction", "three expressions \"tx; ty; tz\", or exact");
-      boundary.displacement =
-        reader.components("Displacement",
-                          "three of: an expression, -, or exact, as in \"-, -, 0\"; or exact");
+        reader.components("Traction",
+                          "three expressions \"tx; ty; tz\", or exact");
+      boundary.displacement = reader.components(
+        "Displacement",
+        "three of: an expression, -, or exact, as in \"-, -, 0\"; or exact");
       return boundary;
     }
 
@@ -119,14 +129,16 @@ namespace mortise
       body.degree_by_region = read_degrees(reader);
       if (reader.text("Body force") != "auto")
         body.body_force =
-          reader.components("Body force", "three expressions \"bx; by; bz\", exact, or auto");
-      body.mesh         = read_mesh(ParameterReader(schema, parameters, {section, "Mesh"}));
-      body.material.law = material.text("Law");
+          reader.components("Body force",
+                            "three expressions \"bx; by; bz\", exact, or auto");
+      body.mesh =
+        read_mesh(ParameterReader(schema, parameters, {section, "Mesh"}));
+      body.material.law           = material.text("Law");
       body.material.young_modulus = material.number("Young modulus");
       body.material.poisson_ratio = material.number("Poisson ratio");
       for (const std::string &boundary : boundaries)
-        body.boundaries[boundary] =
-          read_boundary(ParameterReader(schema, parameters, {section, "Boundary " + boundary}));
+        body.boundaries[boundary] = read_boundary(ParameterReader(
+          schema, parameters, {section, "Boundary " + boundary}));
       return body;
     }
 
@@ -154,8 +166,11 @@ namespace mortise
       if (points != "auto")
         {
           if (points.empty() || points.size() > 4 ||
-              points.find_first_not_of("0123456789") != std::string::npos || std::stoi(points) == 0)
-            reader.fail("Quadrature points", points, "auto, or an integer of 1 or more");
+              points.find_first_not_of("0123456789") != std::string::npos ||
+              std::stoi(points) == 0)
+            reader.fail("Quadrature points",
+                        points,
+                        "auto, or an integer of 1 or more");
           interface.quadrature_points = std::stoi(points);
         }
       return interface;
@@ -174,10 +189,12 @@ namespace mortise
       const std::string allowed =
         "three expressions \"ux; uy; uz\", thick sphere, or thick cylinder";
       if (text.find_first_of(";,") == std::string::npos || text == "exact")
-        throw InputError(reader.where("Displacement") + ": got \"" + text + "\"" +
-                         did_you_mean(text, {"thick sphere", "thick cylinder"}) +
-                         "; allowed: " + allowed);
-      return {ExactKind::expressions, *reader.components("Displacement", allowed)};
+        throw InputError(
+          reader.where("Displacement") + ": got \"" + text + "\"" +
+          did_you_mean(text, {"thick sphere", "thick cylinder"}) +
+          "; allowed: " + allowed);
+      return {ExactKind::expressions,
+              *reader.components("Displacement", allowed)};
     }
 
     OutputParameters
@@ -186,35 +203,44 @@ namespace mortise
       OutputParameters output;
       output.directory = reader.text("Directory");
       if (output.directory.empty())
-        output.directory =
-          (std::filesystem::path("results") / std::filesystem::path(file).stem()).string();
-      for (const std::string &field : split_outside_parentheses(reader.text("Fields"), ','))
+        output.directory = (std::filesystem::path("results") /
+                            std::filesystem::path(file).stem())
+                             .string();
+      for (const std::string &field :
+           split_outside_parentheses(reader.text("Fields"), ','))
         {
-          if (std::find(field_names().begin(), field_names().end(), field) == field_names().end())
-            throw InputError(reader.where("Fields") + ": got \"" + field + "\"" +
-                             did_you_mean(field, field_names()) + "; allowed: a list of " +
+          if (std::find(field_names().begin(), field_names().end(), field) ==
+              field_names().end())
+            throw InputError(reader.where("Fields") + ": got \"" + field +
+                             "\"" + did_you_mean(field, field_names()) +
+                             "; allowed: a list of " +
                              join_names(field_names()));
           output.fields.push_back(field);
         }
       const std::string point = "\"name: body: x, y, z; ...\"";
       for (const Strings &record : reader.records("Points", 3, point))
         {
-          if (!dealii::Patterns::List(dealii::Patterns::Double(), 3, 3).match(record[2]))
+          if (!dealii::Patterns::List(dealii::Patterns::Double(), 3, 3)
+                 .match(record[2]))
             reader.fail("Points", record[2], point);
-          const auto x =
-            dealii::Utilities::string_to_double(split_outside_parentheses(record[2], ','));
-          output.points.push_back(
-            {record[0], reader.body_index("Points", record[1]), {x[0], x[1], x[2]}});
+          const auto x = dealii::Utilities::string_to_double(
+            split_outside_parentheses(record[2], ','));
+          output.points.push_back({record[0],
+                                   reader.body_index("Points", record[1]),
+                                   {x[0], x[1], x[2]}});
         }
-      for (const Strings &record : reader.records("Resultants", 3, "\"name: body: boundary; ...\""))
+      for (const Strings &record :
+           reader.records("Resultants", 3, "\"name: body: boundary; ...\""))
         output.resultants.push_back(
           {record[0], reader.body_index("Resultants", record[1]), record[2]});
       return output;
     }
 
-    /// Names in "set Bodies = ..." or "set Interfaces = ...": the first pass over the file.
+    /// Names in "set Bodies = ..." or "set Interfaces = ...": the first pass
+    /// over the file.
     Strings
-    read_names(const std::vector<Assignment> &assignments, const std::string &parameter)
+    read_names(const std::vector<Assignment> &assignments,
+               const std::string             &parameter)
     {
       Strings     names;
       std::string origin;
@@ -227,8 +253,9 @@ namespace mortise
       for (const std::string &name : names)
         {
           if (name.empty() || name.find_first_of(":;/") != std::string::npos)
-            throw InputError(origin + "got the name \"" + name +
-                             "\"; a name is not empty and contains none of : ; /");
+            throw InputError(
+              origin + "got the name \"" + name +
+              "\"; a name is not empty and contains none of : ; /");
           if (std::count(names.begin(), names.end(), name) > 1)
             throw InputError(origin + "the name \"" + name +
                              "\" stands there twice; each name only once");
@@ -238,14 +265,16 @@ namespace mortise
 
     /// Bodies, their boundaries and interfaces that the file and --set name.
     SceneNames
-    read_scene_names(const std::vector<Assignment> &assignments, const std::string &file)
+    read_scene_names(const std::vector<Assignment> &assignments,
+                     const std::string             &file)
     {
       SceneNames names;
       names.bodies = read_names(assignments, "Bodies");
       if (names.bodies.empty())
-        throw InputError("Bodies (" + file +
-                         "): got no name of a body; needed is at least one, as in \"set Bodies = "
-                         "block\", with a subsection \"Body block\"");
+        throw InputError(
+          "Bodies (" + file +
+          "): got no name of a body; needed is at least one, as in \"set Bodies = "
+          "block\", with a subsection \"Body block\"");
       names.interfaces         = read_names(assignments, "Interfaces");
       const std::string prefix = "Boundary ";
       for (const std::string &body : names.bodies)
@@ -256,7 +285,8 @@ namespace mortise
                 a.sections[1].compare(0, prefix.size(), prefix) == 0)
               {
                 const std::string name = a.sections[1].substr(prefix.size());
-                if (std::find(boundaries.begin(), boundaries.end(), name) == boundaries.end())
+                if (std::find(boundaries.begin(), boundaries.end(), name) ==
+                    boundaries.end())
                   boundaries.push_back(name);
               }
           names.boundaries.push_back(boundaries);
@@ -281,22 +311,27 @@ namespace mortise
       for (const std::string &body : names.bodies)
         parameters.bodies.emplace_back().name = body; // others may refer to it
       for (unsigned int b = 0; b < names.bodies.size(); ++b)
-        parameters.bodies[b] = read_body(schema, parameters, names.bodies[b], names.boundaries[b]);
+        parameters.bodies[b] =
+          read_body(schema, parameters, names.bodies[b], names.boundaries[b]);
       for (const std::string &name : names.interfaces)
         parameters.interfaces.push_back(
           read_interface({schema, parameters, {"Interface " + name}}, name));
-      parameters.exact_solution = read_exact_solution({schema, parameters, {"Exact solution"}});
+      parameters.exact_solution =
+        read_exact_solution({schema, parameters, {"Exact solution"}});
       const ParameterReader solver(schema, parameters, {"Solver"});
-      parameters.solver.method           = solver_method_from_name(solver.text("Method"));
-      parameters.solver.tolerance        = solver.number("Tolerance");
-      parameters.solver.max_iterations   = solver.integer("Max iterations");
-      parameters.solver.print_iterations = solver.text("Print iterations") == "true";
-      parameters.output                  = read_output({schema, parameters, {"Output"}}, file);
+      parameters.solver.method = solver_method_from_name(solver.text("Method"));
+      parameters.solver.tolerance      = solver.number("Tolerance");
+      parameters.solver.max_iterations = solver.integer("Max iterations");
+      parameters.solver.print_iterations =
+        solver.text("Print iterations") == "true";
+      parameters.output = read_output({schema, parameters, {"Output"}}, file);
       return parameters;
     }
 
     std::vector<Assignment>
-    collect(const std::string &text, const std::string &file, const Settings &settings)
+    collect(const std::string &text,
+            const std::string &file,
+            const Settings    &settings)
     {
       std::vector<Assignment> assignments = scan_parameter_text(text, file);
       for (const std::string &setting : settings)
@@ -306,24 +341,32 @@ namespace mortise
   } // namespace
 
   Parameters
-  parse_parameters(const std::string &text, const std::string &file, const Settings &settings)
+  parse_parameters(const std::string &text,
+                   const std::string &file,
+                   const Settings    &settings)
   {
     return parse(collect(text, file, settings), file);
   }
 
   Parameters
-  read_parameters(const std::string &file, const Settings &settings, const MPI_Comm comm)
+  read_parameters(const std::string &file,
+                  const Settings    &settings,
+                  const MPI_Comm     comm)
   {
-    // Rank 0 reads the files; all parse the same lines, so that all see the same error.
+    // Rank 0 reads the files; all parse the same lines, so that all see the
+    // same error.
     std::string          message;
     std::vector<Strings> lines;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       try
         {
-          for (const Assignment &a : collect(read_text_file(file), file, settings))
+          for (const Assignment &a :
+               collect(read_text_file(file), file, settings))
             {
               lines.push_back({a.name, a.value, a.origin});
-              lines.back().insert(lines.back().end(), a.sections.begin(), a.sections.end());
+              lines.back().insert(lines.back().end(),
+                                  a.sections.begin(),
+                                  a.sections.end());
             }
         }
       catch (const InputError &e)
@@ -333,7 +376,8 @@ namespace mortise
     throw_if_any(message, comm);
     std::vector<Assignment> assignments;
     for (const Strings &line : dealii::Utilities::MPI::broadcast(comm, lines))
-      assignments.push_back({Strings(line.begin() + 3, line.end()), line[0], line[1], line[2]});
+      assignments.push_back(
+        {Strings(line.begin() + 3, line.end()), line[0], line[1], line[2]});
     return parse(assignments, file);
   }
 } // namespace mortise

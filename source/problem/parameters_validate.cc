@@ -1,11 +1,9 @@
-#include <mortise/problem/parameters.h>
+#include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
 #include <mortise/problem/parameter_file.h>
-
-#include <deal.II/base/mpi.h>
-
+#include <mortise/problem/parameters.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -34,17 +32,21 @@ namespace mortise
          const T           &got,
          const std::string &allowed)
     {
-      throw InputError(parameters.where(path) + ": got " + text_of(got) + "; allowed: " + allowed);
+      throw InputError(parameters.where(path) + ": got " + text_of(got) +
+                       "; allowed: " + allowed);
     }
 
     void
-    check_degree(const Parameters &parameters, const std::string &path, const unsigned int degree)
+    check_degree(const Parameters  &parameters,
+                 const std::string &path,
+                 const unsigned int degree)
     {
       if (degree < min_degree || degree > max_degree)
         fail(parameters,
              path,
              "degree " + std::to_string(degree),
-             "a degree from " + std::to_string(min_degree) + " to " + std::to_string(max_degree));
+             "a degree from " + std::to_string(min_degree) + " to " +
+               std::to_string(max_degree));
     }
 
     void
@@ -54,9 +56,15 @@ namespace mortise
     {
       const double E = material.young_modulus, nu = material.poisson_ratio;
       if (material.law != "linear elastic")
-        fail(parameters, section + "/Law", "\"" + material.law + "\"", "linear elastic");
+        fail(parameters,
+             section + "/Law",
+             "\"" + material.law + "\"",
+             "linear elastic");
       if (!(E > 0.) || !std::isfinite(E))
-        fail(parameters, section + "/Young modulus", E, "a positive number (force per area)");
+        fail(parameters,
+             section + "/Young modulus",
+             E,
+             "a positive number (force per area)");
       if (nu >= 0.5)
         fail(
           parameters,
@@ -65,7 +73,10 @@ namespace mortise
           "a number below 0.5; at and above it a displacement form does not exist, and the mixed "
           "form of displacement and pressure is not available yet");
       if (!(nu > -1.))
-        fail(parameters, section + "/Poisson ratio", nu, "a number above -1 and below 0.5");
+        fail(parameters,
+             section + "/Poisson ratio",
+             nu,
+             "a number above -1 and below 0.5");
     }
 
     /// Components are "-" (if @p may_be_free), "exact" (if there is an exact solution), or parse.
@@ -85,10 +96,12 @@ namespace mortise
             fail(parameters,
                  path,
                  "\"" + text + "\" as component " + names[d],
-                 may_be_free ? "an expression in x, y, z, - (free), or exact" :
-                               "an expression in x, y, z, or exact; 0 for nothing");
+                 may_be_free ?
+                   "an expression in x, y, z, - (free), or exact" :
+                   "an expression in x, y, z, or exact; 0 for nothing");
           if (text != "exact")
-            Expression(text, parameters.where(path) + ", component " + names[d]);
+            Expression(text,
+                       parameters.where(path) + ", component " + names[d]);
           else if (parameters.exact_solution.kind == ExactKind::none)
             fail(parameters,
                  path,
@@ -103,9 +116,15 @@ namespace mortise
                    const BoundaryParameters &boundary)
     {
       if (boundary.traction)
-        check_components(parameters, section + "/Traction", *boundary.traction, false);
+        check_components(parameters,
+                         section + "/Traction",
+                         *boundary.traction,
+                         false);
       if (boundary.displacement)
-        check_components(parameters, section + "/Displacement", *boundary.displacement, true);
+        check_components(parameters,
+                         section + "/Displacement",
+                         *boundary.displacement,
+                         true);
       if (!boundary.pressure)
         return;
       const std::string path = section + "/Pressure";
@@ -118,7 +137,8 @@ namespace mortise
              "an expression, or give Exact solution/Displacement");
     }
 
-    /// The named exact solutions take the pressures of the scene: they cannot give them.
+    /// The named exact solutions take the pressures of the scene: they cannot
+    /// give them.
     void
     check_loads_of_named_solution(const Parameters         &parameters,
                                   const std::string        &section,
@@ -126,7 +146,8 @@ namespace mortise
                                   const BoundaryParameters &boundary)
     {
       const ExactKind kind = parameters.exact_solution.kind;
-      if ((kind != ExactKind::thick_sphere && kind != ExactKind::thick_cylinder) ||
+      if ((kind != ExactKind::thick_sphere &&
+           kind != ExactKind::thick_cylinder) ||
           (name != "inside" && name != "outside"))
         return;
       const char *const allowed =
@@ -134,7 +155,10 @@ namespace mortise
       if (boundary.pressure == "exact")
         fail(parameters, section + "/Pressure", "\"exact\"", allowed);
       if (boundary.traction)
-        fail(parameters, section + "/Traction", "\"" + joined(*boundary.traction) + "\"", allowed);
+        fail(parameters,
+             section + "/Traction",
+             "\"" + joined(*boundary.traction) + "\"",
+             allowed);
     }
 
     void
@@ -152,18 +176,25 @@ namespace mortise
       validate(body.mesh, parameters.where(section + "/Mesh"));
       check_material(parameters, section + "/Material", body.material);
       if (body.body_force)
-        check_components(parameters, section + "/Body force", *body.body_force, false);
+        check_components(parameters,
+                         section + "/Body force",
+                         *body.body_force,
+                         false);
       for (const auto &[name, boundary] : body.boundaries)
         {
           check_boundary(parameters, section + "/Boundary " + name, boundary);
-          check_loads_of_named_solution(parameters, section + "/Boundary " + name, name, boundary);
+          check_loads_of_named_solution(parameters,
+                                        section + "/Boundary " + name,
+                                        name,
+                                        boundary);
         }
     }
 
     std::string
     side_text(const Parameters &parameters, const SideParameters &side)
     {
-      return "\"" + parameters.bodies[side.body].name + ": " + side.boundary + "\"";
+      return "\"" + parameters.bodies[side.body].name + ": " + side.boundary +
+             "\"";
     }
 
     bool
@@ -173,7 +204,8 @@ namespace mortise
     }
 
     void
-    check_interface(const Parameters &parameters, const InterfaceParameters &interface)
+    check_interface(const Parameters          &parameters,
+                    const InterfaceParameters &interface)
     {
       const std::string     section = "Interface " + interface.name;
       const SideParameters &slave = interface.slave, &master = interface.master;
@@ -185,8 +217,12 @@ namespace mortise
       if (interface.law != "tie")
         fail(parameters, section + "/Law", "\"" + interface.law + "\"", "tie");
       if (interface.multiplier != "standard")
-        fail(parameters, section + "/Multiplier", "\"" + interface.multiplier + "\"", "standard");
-      if (!(interface.search_distance > 0.) || !std::isfinite(interface.search_distance))
+        fail(parameters,
+             section + "/Multiplier",
+             "\"" + interface.multiplier + "\"",
+             "standard");
+      if (!(interface.search_distance > 0.) ||
+          !std::isfinite(interface.search_distance))
         fail(parameters,
              section + "/Search distance",
              interface.search_distance,
@@ -199,10 +235,12 @@ namespace mortise
       const auto &boundaries = parameters.bodies[slave.body].boundaries;
       const auto  slave_side = boundaries.find(slave.boundary);
       if (slave_side != boundaries.end() && slave_side->second.displacement)
-        fail(parameters,
-             section + "/Slave",
-             side_text(parameters, slave) + ", which has a prescribed displacement",
-             "a boundary without; exchange slave and master, or drop the displacement");
+        fail(
+          parameters,
+          section + "/Slave",
+          side_text(parameters, slave) +
+            ", which has a prescribed displacement",
+          "a boundary without; exchange slave and master, or drop the displacement");
     }
 
     /// No two interfaces tie the same two boundaries.
@@ -211,8 +249,9 @@ namespace mortise
     {
       for (const InterfaceParameters &a : parameters.interfaces)
         for (const InterfaceParameters &b : parameters.interfaces)
-          if (&a < &b && ((same(a.slave, b.slave) && same(a.master, b.master)) ||
-                          (same(a.slave, b.master) && same(a.master, b.slave))))
+          if (&a < &b &&
+              ((same(a.slave, b.slave) && same(a.master, b.master)) ||
+               (same(a.slave, b.master) && same(a.master, b.slave))))
             fail(parameters,
                  "Interface " + b.name + "/Slave",
                  "the same two boundaries as those of interface " + a.name,
@@ -228,7 +267,10 @@ namespace mortise
         return;
       for (const std::string &text : exact.displacement)
         if (text == "exact" || text == "-" || text.empty())
-          fail(parameters, path, "\"" + text + "\"", "an expression in x, y, z");
+          fail(parameters,
+               path,
+               "\"" + text + "\"",
+               "an expression in x, y, z");
       check_components(parameters, path, exact.displacement, false);
     }
 
@@ -236,7 +278,8 @@ namespace mortise
     check_output(const OutputParameters &output, const Parameters &parameters)
     {
       std::set<std::string> names;
-      const auto check_name = [&](const std::string &parameter, const std::string &name) {
+      const auto            check_name = [&](const std::string &parameter,
+                                  const std::string &name) {
         if (!names.insert(name).second)
           fail(parameters,
                "Output/" + parameter,
@@ -255,16 +298,18 @@ namespace mortise
     {
       namespace fs = std::filesystem;
       std::error_code error;
-      fs::path        existing = fs::absolute(directory, error).lexically_normal();
+      fs::path existing = fs::absolute(directory, error).lexically_normal();
       if (error)
         return error.message();
-      while (!fs::exists(fs::symlink_status(existing, error)) && existing.has_relative_path())
+      while (!fs::exists(fs::symlink_status(existing, error)) &&
+             existing.has_relative_path())
         existing = existing.parent_path();
       const std::string quoted = "\"" + existing.string() + "\" ";
       if (fs::is_symlink(existing, error) && !fs::exists(existing, error))
         return quoted + "is a link to nothing";
       if (!fs::is_directory(existing, error))
-        return quoted + (error ? "cannot be looked at: " + error.message() : "is not a directory");
+        return quoted + (error ? "cannot be looked at: " + error.message() :
+                                 "is not a directory");
       if (access(existing.c_str(), W_OK | X_OK) != 0)
         return quoted + "is not writable by this user";
       return {};
@@ -284,7 +329,10 @@ namespace mortise
     check_exact_solution(parameters);
     const double tolerance = parameters.solver.tolerance;
     if (!(tolerance > 0. && tolerance < 1.))
-      fail(parameters, "Solver/Tolerance", tolerance, "a number between 0 and 1, both excluded");
+      fail(parameters,
+           "Solver/Tolerance",
+           tolerance,
+           "a number between 0 and 1, both excluded");
     if (parameters.solver.max_iterations == 0)
       fail(parameters, "Solver/Max iterations", 0, "an integer of 1 or more");
     check_output(parameters.output, parameters);
@@ -297,9 +345,11 @@ namespace mortise
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       message = why_not_writable(parameters.output.directory);
     if (!message.empty())
-      message = parameters.where("Output/Directory") + ": got \"" + parameters.output.directory +
-                "\", where nothing can be written: " + message +
-                "; allowed: a directory that exists or can be made, and written";
+      message =
+        parameters.where("Output/Directory") + ": got \"" +
+        parameters.output.directory +
+        "\", where nothing can be written: " + message +
+        "; allowed: a directory that exists or can be made, and written";
     throw_if_any(message, comm);
   }
 
@@ -307,17 +357,21 @@ namespace mortise
   check_boundary_names(const Parameters                            &parameters,
                        const std::vector<std::vector<std::string>> &names)
   {
-    const auto check =
-      [&](const std::string &path, const unsigned int body, const std::string &name) {
-        const auto &existing = names[body];
-        if (std::find(existing.begin(), existing.end(), name) == existing.end())
-          throw InputError(parameters.where(path) + ": body \"" + parameters.bodies[body].name +
-                           "\" has no boundary \"" + name + "\"" + did_you_mean(name, existing) +
-                           "; its boundaries are: " + join_names(existing));
-      };
+    const auto check = [&](const std::string &path,
+                           const unsigned int body,
+                           const std::string &name) {
+      const auto &existing = names[body];
+      if (std::find(existing.begin(), existing.end(), name) == existing.end())
+        throw InputError(
+          parameters.where(path) + ": body \"" + parameters.bodies[body].name +
+          "\" has no boundary \"" + name + "\"" + did_you_mean(name, existing) +
+          "; its boundaries are: " + join_names(existing));
+    };
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       for (const auto &[name, boundary] : parameters.bodies[b].boundaries)
-        check("Body " + parameters.bodies[b].name + "/Boundary " + name, b, name);
+        check("Body " + parameters.bodies[b].name + "/Boundary " + name,
+              b,
+              name);
     for (const InterfaceParameters &interface : parameters.interfaces)
       {
         check("Interface " + interface.name + "/Slave",

@@ -1,6 +1,5 @@
-#include <mortise/problem/scene_data.h>
-
 #include <mortise/base/error.h>
+#include <mortise/problem/scene_data.h>
 
 #include <algorithm>
 
@@ -13,7 +12,8 @@ namespace mortise
   {
     std::vector<LinearElastic> result;
     for (const BodyParameters &body : parameters.bodies)
-      result.push_back({body.material.young_modulus, body.material.poisson_ratio});
+      result.push_back(
+        {body.material.young_modulus, body.material.poisson_ratio});
     return result;
   }
 
@@ -21,49 +21,60 @@ namespace mortise
   {
     /// Pressure on boundary @p name of body @p b; zero if there is none.
     double
-    constant_pressure(const Parameters &parameters, const unsigned int b, const std::string &name)
+    constant_pressure(const Parameters  &parameters,
+                      const unsigned int b,
+                      const std::string &name)
     {
       const auto &boundaries = parameters.bodies[b].boundaries;
       const auto  found      = boundaries.find(name);
-      if (found == boundaries.end() || !found->second.pressure || *found->second.pressure == "exact")
+      if (found == boundaries.end() || !found->second.pressure ||
+          *found->second.pressure == "exact")
         return 0.;
       const std::string where =
-        parameters.where("Body " + parameters.bodies[b].name + "/Boundary " + name + "/Pressure");
+        parameters.where("Body " + parameters.bodies[b].name + "/Boundary " +
+                         name + "/Pressure");
       const Expression pressure(*found->second.pressure, where);
       if (!pressure.is_constant())
-        throw InputError(where + ": got \"" + *found->second.pressure +
-                         "\"; the named exact solutions need a constant pressure");
+        throw InputError(
+          where + ": got \"" + *found->second.pressure +
+          "\"; the named exact solutions need a constant pressure");
       return pressure.value(Point<dim>());
     }
 
     std::shared_ptr<const ExactSolution>
-    make_lame_solution(const Parameters &parameters, const LameSolution::Geometry geometry)
+    make_lame_solution(const Parameters            &parameters,
+                       const LameSolution::Geometry geometry)
     {
       const bool        sphere = geometry == LameSolution::Geometry::sphere;
       const std::string source = sphere ? "shell octant" : "cylinder sector";
-      const std::string where  = parameters.where("Exact solution/Displacement");
+      const std::string where = parameters.where("Exact solution/Displacement");
       std::vector<LameSolution::Layer> layers;
       unsigned int                     innermost = 0, outermost = 0;
       for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
         {
           const MeshParameters &mesh = parameters.bodies[b].mesh;
           if (mesh.source != source || mesh.extent.size() < 2)
-            throw InputError(where + ": the named solution needs bodies of Source = " + source +
-                             "; body '" + parameters.bodies[b].name + "' has Source = " + mesh.source);
-          layers.push_back({mesh.extent[0], mesh.extent[1], materials(parameters)[b]});
+            throw InputError(where +
+                             ": the named solution needs bodies of Source = " +
+                             source + "; body '" + parameters.bodies[b].name +
+                             "' has Source = " + mesh.source);
+          layers.push_back(
+            {mesh.extent[0], mesh.extent[1], materials(parameters)[b]});
           if (mesh.extent[0] < layers[innermost].inner_radius)
             innermost = b;
           if (mesh.extent[1] > layers[outermost].outer_radius)
             outermost = b;
         }
-      return std::make_shared<LameSolution>(geometry,
-                                            layers,
-                                            constant_pressure(parameters, innermost, "inside"),
-                                            constant_pressure(parameters, outermost, "outside"),
-                                            rigid_motion(parameters.bodies[innermost].mesh));
+      return std::make_shared<LameSolution>(
+        geometry,
+        layers,
+        constant_pressure(parameters, innermost, "inside"),
+        constant_pressure(parameters, outermost, "outside"),
+        rigid_motion(parameters.bodies[innermost].mesh));
     }
 
-    /// One component of a given vector field: an expression, the exact solution's, or free.
+    /// One component of a given vector field: an expression, the exact
+    /// solution's, or free.
     struct Component
     {
       Component(const std::string &text, const std::string &where)
@@ -88,16 +99,19 @@ namespace mortise
     bool
     all_zero(const std::vector<Component> &field)
     {
-      return std::all_of(field.begin(), field.end(), [](const Component &component) {
-        return !component.exact && component.expression.is_constant() &&
-               component.expression.value(Point<dim>()) == 0.;
-      });
+      return std::all_of(
+        field.begin(), field.end(), [](const Component &component) {
+          return !component.exact && component.expression.is_constant() &&
+                 component.expression.value(Point<dim>()) == 0.;
+        });
     }
 
     /// Values of @p field at x, components that are "exact" from @p exact_value.
     template <typename ExactValue>
     Tensor<1, dim>
-    evaluate(const std::vector<Component> &field, const Point<dim> &x, const ExactValue &exact_value)
+    evaluate(const std::vector<Component> &field,
+             const Point<dim>             &x,
+             const ExactValue             &exact_value)
     {
       Tensor<1, dim> value;
       for (unsigned int c = 0; c < dim; ++c)
@@ -122,7 +136,8 @@ namespace mortise
         case ExactKind::thick_sphere:
           return make_lame_solution(parameters, LameSolution::Geometry::sphere);
         case ExactKind::thick_cylinder:
-          return make_lame_solution(parameters, LameSolution::Geometry::cylinder);
+          return make_lame_solution(parameters,
+                                    LameSolution::Geometry::cylinder);
         case ExactKind::expressions:
           {
             const Components &text = parameters.exact_solution.displacement;
@@ -147,24 +162,30 @@ namespace mortise
     Loads                 loads;
     if (given.body_force)
       {
-        const auto field = components(*given.body_force, parameters.where(path + "/Body force"));
+        const auto field =
+          components(*given.body_force, parameters.where(path + "/Body force"));
         if (!all_zero(field))
           loads.body_force = [=](const Point<dim> &x) {
-            return evaluate(field, x, [&](const Point<dim> &p) { return exact->body_force(p, b); });
+            return evaluate(field, x, [&](const Point<dim> &p) {
+              return exact->body_force(p, b);
+            });
           };
       }
     else if (parameters.exact_solution.kind == ExactKind::expressions)
-      loads.body_force = [=](const Point<dim> &x) { return exact->body_force(x, b); };
+      loads.body_force = [=](const Point<dim> &x) {
+        return exact->body_force(x, b);
+      };
 
     for (const auto &entry : given.boundaries)
       {
         const BoundaryParameters &boundary = entry.second;
         const std::string         where    = path + "/Boundary " + entry.first;
-        const auto                id       = body.boundary_id(entry.first, parameters.where(where));
+        const auto id = body.boundary_id(entry.first, parameters.where(where));
         if (boundary.traction)
           {
             const auto field =
-              components(*boundary.traction, parameters.where(where + "/Traction"));
+              components(*boundary.traction,
+                         parameters.where(where + "/Traction"));
             if (!all_zero(field))
               loads.tractions.push_back(
                 {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
@@ -174,15 +195,18 @@ namespace mortise
                  }});
           }
         if (boundary.pressure && *boundary.pressure == "exact")
-          loads.tractions.push_back({id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
-                                       return (normal * (exact->stress(x, b) * normal)) * normal;
-                                     }});
+          loads.tractions.push_back(
+            {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
+               return (normal * (exact->stress(x, b) * normal)) * normal;
+             }});
         else if (boundary.pressure)
           {
-            const Expression pressure(*boundary.pressure, parameters.where(where + "/Pressure"));
-            loads.tractions.push_back({id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
-                                         return -pressure.value(x) * normal;
-                                       }});
+            const Expression pressure(*boundary.pressure,
+                                      parameters.where(where + "/Pressure"));
+            loads.tractions.push_back(
+              {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
+                 return -pressure.value(x) * normal;
+               }});
           }
       }
     return loads;
@@ -198,17 +222,21 @@ namespace mortise
     for (const auto &entry : parameters.bodies[b].boundaries)
       if (entry.second.displacement)
         {
-          const std::string where = "Body " + body.name + "/Boundary " + entry.first;
-          const auto        field = components(*entry.second.displacement,
-                                        parameters.where(where + "/Displacement"));
+          const std::string where =
+            "Body " + body.name + "/Boundary " + entry.first;
+          const auto field =
+            components(*entry.second.displacement,
+                       parameters.where(where + "/Displacement"));
           DirichletCondition condition;
-          condition.boundary = body.boundary_id(entry.first, parameters.where(where));
+          condition.boundary =
+            body.boundary_id(entry.first, parameters.where(where));
           for (unsigned int c = 0; c < dim; ++c)
             condition.fixed[c] = !field[c].free;
           if (!all_zero(field))
             condition.value = [=](const Point<dim> &x) {
-              return evaluate(
-                field, x, [&](const Point<dim> &p) { return exact->displacement(p, b); });
+              return evaluate(field, x, [&](const Point<dim> &p) {
+                return exact->displacement(p, b);
+              });
             };
           conditions.push_back(condition);
         }

@@ -1,12 +1,11 @@
-#include <mortise/problem/simulation.h>
+#include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
 #include <mortise/body/boundary_faces.h>
 #include <mortise/problem/rigid_motions.h>
 #include <mortise/problem/scene_data.h>
+#include <mortise/problem/simulation.h>
 #include <mortise/solvers/solve.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <sstream>
 
@@ -14,7 +13,9 @@ namespace mortise
 {
   using namespace dealii;
 
-  Simulation::Simulation(const Parameters &parameters, RunLog &log, const MPI_Comm comm)
+  Simulation::Simulation(const Parameters &parameters,
+                         RunLog           &log,
+                         const MPI_Comm    comm)
     : parameters(parameters)
     , log(log)
     , comm(comm)
@@ -35,7 +36,8 @@ namespace mortise
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       {
         const BodyParameters &body = parameters.bodies[b];
-        bodies.push_back(std::make_unique<Body>(body.name, b, materials(parameters)[b], comm));
+        bodies.push_back(
+          std::make_unique<Body>(body.name, b, materials(parameters)[b], comm));
         bodies[b]->create_mesh(body.mesh, "Body " + body.name + ", Mesh");
         n_cells += bodies[b]->triangulation.n_global_active_cells();
         boundary_names.emplace_back();
@@ -43,7 +45,8 @@ namespace mortise
           boundary_names.back().push_back(name.first);
       }
     check_boundary_names(parameters, boundary_names);
-    stage.details(std::to_string(bodies.size()) + (bodies.size() == 1 ? " body, " : " bodies, ") +
+    stage.details(std::to_string(bodies.size()) +
+                  (bodies.size() == 1 ? " body, " : " bodies, ") +
                   std::to_string(n_cells) + " cells");
   }
 
@@ -56,7 +59,9 @@ namespace mortise
     for (const auto &body : bodies)
       {
         const BodyParameters &given = parameters.bodies[body->index];
-        body->create_space(given.degree, given.degree_by_region, "Body " + body->name);
+        body->create_space(given.degree,
+                           given.degree_by_region,
+                           "Body " + body->name);
         handlers.push_back(&body->dof_handler);
         dirichlet.push_back(make_dirichlet(parameters, *body, exact));
       }
@@ -69,11 +74,13 @@ namespace mortise
       {
         body_constraints.emplace_back();
         body_constraints.back().copy_from(body->conformity);
-        add_dirichlet_constraints(*body, dirichlet[body->index], body_constraints.back());
+        add_dirichlet_constraints(*body,
+                                  dirichlet[body->index],
+                                  body_constraints.back());
         occupied.emplace_back(body->dof_handler.n_locally_owned_dofs(), false);
       }
-    numbering                 = DisplacementNumbering(handlers, comm);
-    constraints               = scene_constraints(bodies, numbering, body_constraints);
+    numbering   = DisplacementNumbering(handlers, comm);
+    constraints = scene_constraints(bodies, numbering, body_constraints);
     system.owned_displacement = numbering.owned();
 
     StepSummary &step = summary.steps.back();
@@ -90,7 +97,9 @@ namespace mortise
     unsigned int max_degree = 1;
     for (const BodySummary &body : step.bodies)
       max_degree = std::max(max_degree, body.degree_max);
-    method = choose_solver(parameters.solver.method, numbering.size(), max_degree).method;
+    method =
+      choose_solver(parameters.solver.method, numbering.size(), max_degree)
+        .method;
 
     step.dofs.displacement = numbering.size();
     step.dofs.total        = numbering.size();
@@ -107,7 +116,8 @@ namespace mortise
         const auto surface = [&](const SideParameters &side) {
           const Body &body = *bodies[side.body];
           return extract_surface(body,
-                                 body.boundary_id(side.boundary, "Interface " + given.name),
+                                 body.boundary_id(side.boundary,
+                                                  "Interface " + given.name),
                                  numbering,
                                  constraints);
         };
@@ -115,9 +125,15 @@ namespace mortise
         options.search_fraction      = given.search_distance;
         options.points_per_direction = given.quadrature_points;
         couplings.emplace_back();
-        couplings.back().interface = std::make_unique<InterfaceHandler>(
-          given.name, surface(given.slave), surface(given.master), options, comm);
-        faces += Utilities::MPI::sum(couplings.back().interface->slave().faces.size(), comm);
+        couplings.back().interface =
+          std::make_unique<InterfaceHandler>(given.name,
+                                             surface(given.slave),
+                                             surface(given.master),
+                                             options,
+                                             comm);
+        faces +=
+          Utilities::MPI::sum(couplings.back().interface->slave().faces.size(),
+                              comm);
       }
     stage.details(std::to_string(faces) + " slave faces");
   }
@@ -125,7 +141,7 @@ namespace mortise
   void
   Simulation::couple()
   {
-    const auto total = timers.scope("coupling");
+    const auto total    = timers.scope("coupling");
     double     clipping = 0.;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
@@ -137,24 +153,29 @@ namespace mortise
         if (report.pairs == 0)
           {
             const InterfaceParameters &given = parameters.interfaces[i];
-            throw InputError("Interface " + given.name + ": the surfaces " +
-                             bodies[given.slave.body]->name + ": " + given.slave.boundary + " and " +
-                             bodies[given.master.body]->name + ": " + given.master.boundary +
-                             " do not meet: no pair of faces overlaps within the search distance of " +
-                             RunLog::number(given.search_distance) +
-                             " face sizes. Check positions, names and Search distance");
+            throw InputError(
+              "Interface " + given.name + ": the surfaces " +
+              bodies[given.slave.body]->name + ": " + given.slave.boundary +
+              " and " + bodies[given.master.body]->name + ": " +
+              given.master.boundary +
+              " do not meet: no pair of faces overlaps within the search distance of " +
+              RunLog::number(given.search_distance) +
+              " face sizes. Check positions, names and Search distance");
           }
         if (report.failed_pairs > 0)
-          log.warning("interface " + parameters.interfaces[i].name + ": the projection of " +
-                      std::to_string(report.failed_pairs) + " pairs of faces did not converge");
+          log.warning("interface " + parameters.interfaces[i].name +
+                      ": the projection of " +
+                      std::to_string(report.failed_pairs) +
+                      " pairs of faces did not converge");
         if (report.covered_area < 0.999 * report.slave_area)
           {
             std::ostringstream text;
-            text << "interface " << parameters.interfaces[i].name << ": only "
-                 << RunLog::number(100. * report.covered_area / report.slave_area)
-                 << " % of the slave surface has a partner; worst is the face at "
-                 << report.worst_face_centre << " (" << RunLog::number(100. * report.worst_face_error)
-                 << " % off)";
+            text
+              << "interface " << parameters.interfaces[i].name << ": only "
+              << RunLog::number(100. * report.covered_area / report.slave_area)
+              << " % of the slave surface has a partner; worst is the face at "
+              << report.worst_face_centre << " ("
+              << RunLog::number(100. * report.worst_face_error) << " % off)";
             log.warning(text.str());
           }
       }
@@ -170,7 +191,8 @@ namespace mortise
     unsigned int      i       = 0;
     for (const auto dof : bodies[b]->dof_handler.locally_owned_dofs())
       {
-        if (body_constraints[b].is_constrained(dof) && !bodies[b]->conformity.is_constrained(dof))
+        if (body_constraints[b].is_constrained(dof) &&
+            !bodies[b]->conformity.is_constrained(dof))
           blocked[i] = true;
         ++i;
       }
@@ -180,8 +202,10 @@ namespace mortise
   void
   Simulation::occupy(const unsigned int i)
   {
-    const SideParameters &slave = parameters.interfaces[i].slave, &master = parameters.interfaces[i].master;
-    const auto mark = [&](const unsigned int b, const types::global_dof_index dof) {
+    const SideParameters &slave  = parameters.interfaces[i].slave,
+                         &master = parameters.interfaces[i].master;
+    const auto mark              = [&](const unsigned int            b,
+                          const types::global_dof_index dof) {
       const IndexSet &owned = bodies[b]->dof_handler.locally_owned_dofs();
       if (owned.is_element(dof))
         occupied[b][owned.index_within_set(dof)] = true;
@@ -189,7 +213,8 @@ namespace mortise
     for (const auto dof : couplings[i].multipliers->slave_dofs())
       mark(slave.body, dof);
     const Body &body = *bodies[master.body];
-    for (const auto &[cell, f] : boundary_faces(body, body.boundary_id(master.boundary, "")))
+    for (const auto &[cell, f] :
+         boundary_faces(body, body.boundary_id(master.boundary, "")))
       for (const auto &component : face_dofs(body, cell, f))
         for (const auto dof : component)
           mark(master.body, dof);
@@ -200,19 +225,21 @@ namespace mortise
   {
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
-        const SideParameters &slave = parameters.interfaces[i].slave;
-        const Body           &body  = *bodies[slave.body];
+        const SideParameters &slave    = parameters.interfaces[i].slave;
+        const Body           &body     = *bodies[slave.body];
         Coupling             &coupling = couplings[i];
         coupling.multipliers =
           std::make_unique<MultiplierSpace>(body,
-                                            body.boundary_id(slave.boundary, ""),
+                                            body.boundary_id(slave.boundary,
+                                                             ""),
                                             coupling.interface->slave(),
                                             partner_states(coupling),
                                             blocked_dofs(slave.body));
         if (Utilities::MPI::sum(coupling.multipliers->n_owned(), comm) == 0)
-          log.warning("interface " + parameters.interfaces[i].name +
-                      ": no multipliers are left, since every displacement of both surfaces is "
-                      "prescribed; nothing is tied");
+          log.warning(
+            "interface " + parameters.interfaces[i].name +
+            ": no multipliers are left, since every displacement of both surfaces is "
+            "prescribed; nothing is tied");
         if (i + 1 < couplings.size())
           occupy(i);
       }
@@ -244,16 +271,22 @@ namespace mortise
       {
         auto stage = log.stage(timers, "coupling");
         number_multipliers();
-        const CouplingPartition partition{system.owned_displacement, system.owned_multiplier, comm};
+        const CouplingPartition partition{system.owned_displacement,
+                                          system.owned_multiplier,
+                                          comm};
         if (system.owned_multiplier.size() > 0)
           {
-            assemble_constraint(couplings, partition, system.coupling, system.coupling_rhs);
+            assemble_constraint(couplings,
+                                partition,
+                                system.coupling,
+                                system.coupling_rhs);
             if (method != SolverMethod::direct)
               assemble_jump_penalty(couplings, partition, system.jump_penalty);
           }
         for (unsigned int i = 0; i < couplings.size(); ++i)
           summarise_interface(i);
-        stage.details(std::to_string(system.owned_multiplier.size()) + " multipliers");
+        stage.details(std::to_string(system.owned_multiplier.size()) +
+                      " multipliers");
       }
     else
       {
@@ -265,15 +298,17 @@ namespace mortise
       loads.push_back(make_loads(parameters, *body, exact));
     interiors = assemble_bodies(bodies, loads, numbering, constraints, system);
     describe_structure(bodies, numbering, system);
-    stage.details(std::to_string(system.stiffness.n_nonzero_elements()) + " entries");
+    stage.details(std::to_string(system.stiffness.n_nonzero_elements()) +
+                  " entries");
   }
 
   void
   Simulation::summarise_interface(const unsigned int i)
   {
     const InterfaceReport &report = couplings[i].interface->report();
-    const TransferErrors   errors = transfer_errors(couplings[i], system.owned_multiplier, comm);
-    InterfaceSummary       result;
+    const TransferErrors   errors =
+      transfer_errors(couplings[i], system.owned_multiplier, comm);
+    InterfaceSummary result;
     result.name                      = couplings[i].interface->name();
     result.slave_faces               = report.slave_faces;
     result.master_faces              = report.master_faces;
@@ -297,7 +332,8 @@ namespace mortise
     options.tolerance      = parameters.solver.tolerance;
     options.max_iterations = parameters.solver.max_iterations;
     if (parameters.solver.print_iterations)
-      options.monitor = [&](const unsigned int iteration, const double residual) {
+      options.monitor = [&](const unsigned int iteration,
+                            const double       residual) {
         log.line("    iteration " + std::to_string(iteration) + "  residual " +
                  RunLog::number(residual));
       };
@@ -305,17 +341,21 @@ namespace mortise
 
     timers.add("solver_setup", solve_report.setup_seconds);
     timers.add("solve", solve_report.solve_seconds);
-    log.stage_line("solver_setup", solve_report.setup_seconds, solve_report.preconditioner);
+    log.stage_line("solver_setup",
+                   solve_report.setup_seconds,
+                   solve_report.preconditioner);
     log.stage_line("solve",
                    solve_report.solve_seconds,
-                   solve_report.method + ", " + std::to_string(solve_report.iterations) +
-                     " iterations, residual " + RunLog::number(solve_report.relative_residual));
+                   solve_report.method + ", " +
+                     std::to_string(solve_report.iterations) +
+                     " iterations, residual " +
+                     RunLog::number(solve_report.relative_residual));
     SolverSummary result;
-    result.method            = solve_report.method;
-    result.preconditioner    = solve_report.preconditioner;
-    result.iterations        = solve_report.iterations;
-    result.relative_residual = solve_report.relative_residual;
+    result.method               = solve_report.method;
+    result.preconditioner       = solve_report.preconditioner;
+    result.iterations           = solve_report.iterations;
+    result.relative_residual    = solve_report.relative_residual;
     summary.steps.back().solver = result;
-    summary.status              = solve_report.converged ? "done" : "not converged";
+    summary.status = solve_report.converged ? "done" : "not converged";
   }
 } // namespace mortise

@@ -1,8 +1,8 @@
+#include <deal.II/base/mpi.h>
+
 #include <mortise/output/fields.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/simulation.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -35,7 +35,8 @@ namespace mortise
     print_table();
     if (!solve_report.converged)
       throw ConvergenceError(
-        "The solver (" + solve_report.method + ") did not converge: relative residual " +
+        "The solver (" + solve_report.method +
+        ") did not converge: relative residual " +
         RunLog::number(solve_report.relative_residual) + " after " +
         std::to_string(solve_report.iterations) + " iterations, allowed is " +
         RunLog::number(parameters.solver.tolerance) +
@@ -47,44 +48,55 @@ namespace mortise
   {
     auto         stage = log.stage(timers, "postprocess");
     StepSummary &step  = summary.steps.back();
-    displacements      = body_displacements(bodies, numbering, constraints, interiors, displacement);
+    displacements      = body_displacements(
+      bodies, numbering, constraints, interiors, displacement);
 
     std::vector<unsigned int> slave_bodies;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
-        tractions.push_back(multiplier_on_faces(couplings[i], multiplier, comm));
+        tractions.push_back(
+          multiplier_on_faces(couplings[i], multiplier, comm));
         slave_bodies.push_back(parameters.interfaces[i].slave.body);
-        const ResultantErrors errors    = resultant_errors(couplings[i], multiplier, comm);
+        const ResultantErrors errors =
+          resultant_errors(couplings[i], multiplier, comm);
         step.interfaces[i].force_residual  = errors.force;
         step.interfaces[i].moment_residual = errors.moment;
       }
     if (exact)
       {
-        const DisplacementErrors errors = displacement_errors(bodies, displacements, *exact);
-        ErrorSummary             result;
+        const DisplacementErrors errors =
+          displacement_errors(bodies, displacements, *exact);
+        ErrorSummary result;
         result.displacement_l2 = errors.l2;
         result.energy          = errors.energy;
         if (!couplings.empty())
-          result.multiplier_l2 = multiplier_error(bodies, couplings, slave_bodies, tractions, *exact);
+          result.multiplier_l2 = multiplier_error(
+            bodies, couplings, slave_bodies, tractions, *exact);
         step.errors = result;
       }
     for (const PointQuantity &quantity : parameters.output.points)
       {
-        const auto value =
-          point_value(*bodies[quantity.body], displacements[quantity.body], quantity.point);
+        const auto value = point_value(*bodies[quantity.body],
+                                       displacements[quantity.body],
+                                       quantity.point);
         if (!value)
-          log.warning("Output/Points: " + quantity.name + " lies outside of body " +
-                      bodies[quantity.body]->name);
+          log.warning("Output/Points: " + quantity.name +
+                      " lies outside of body " + bodies[quantity.body]->name);
         step.quantities.emplace_back(quantity.name,
-                                     value ? std::vector<double>{(*value)[0], (*value)[1], (*value)[2]} :
+                                     value ? std::vector<double>{(*value)[0],
+                                                                 (*value)[1],
+                                                                 (*value)[2]} :
                                              std::vector<double>{});
       }
     for (const ResultantQuantity &quantity : parameters.output.resultants)
       {
         const Body          &body = *bodies[quantity.body];
         const Tensor<1, dim> force =
-          resultant(body, displacements[quantity.body], body.boundary_id(quantity.boundary, ""));
-        step.quantities.emplace_back(quantity.name, std::vector<double>{force[0], force[1], force[2]});
+          resultant(body,
+                    displacements[quantity.body],
+                    body.boundary_id(quantity.boundary, ""));
+        step.quantities.emplace_back(
+          quantity.name, std::vector<double>{force[0], force[1], force[2]});
       }
   }
 
@@ -99,19 +111,27 @@ namespace mortise
         const auto wants = [&](const std::string &name) {
           return std::find(fields.begin(), fields.end(), name) != fields.end();
         };
-        const FieldSelection selection{wants("displacement"), wants("stress"), wants("traction")};
+        const FieldSelection selection{wants("displacement"),
+                                       wants("stress"),
+                                       wants("traction")};
         if (Utilities::MPI::this_mpi_process(comm) == 0)
           std::filesystem::create_directories(directory);
         MPI_Barrier(comm);
         if (selection.displacement || selection.stress)
           for (const auto &body : bodies)
-            write_body_fields(*body, displacements[body->index], selection, directory);
+            write_body_fields(*body,
+                              displacements[body->index],
+                              selection,
+                              directory);
         if (selection.traction)
           for (unsigned int i = 0; i < couplings.size(); ++i)
             {
               const unsigned int slave = parameters.interfaces[i].slave.body;
-              write_interface_fields(
-                *bodies[slave], couplings[i], tractions[i], displacements[slave], directory);
+              write_interface_fields(*bodies[slave],
+                                     couplings[i],
+                                     tractions[i],
+                                     displacements[slave],
+                                     directory);
             }
         stage.details(directory);
       }
@@ -125,38 +145,50 @@ namespace mortise
   {
     const StepSummary &step = summary.steps.back();
     log.line();
-    std::vector<std::vector<std::string>> rows = {{"body", "cells", "degree", "dofs"}};
+    std::vector<std::vector<std::string>> rows = {
+      {"body", "cells", "degree", "dofs"}};
     for (const BodySummary &body : step.bodies)
       rows.push_back({body.name,
                       std::to_string(body.cells),
                       body.degree_min == body.degree_max ?
                         std::to_string(body.degree_min) :
-                        std::to_string(body.degree_min) + ".." + std::to_string(body.degree_max),
+                        std::to_string(body.degree_min) + ".." +
+                          std::to_string(body.degree_max),
                       std::to_string(body.dofs)});
     log.table(rows);
     if (!step.interfaces.empty())
       {
         log.line();
-        rows = {{"interface", "pairs", "points", "coverage", "unity", "force", "moment", "linear"}};
+        rows = {{"interface",
+                 "pairs",
+                 "points",
+                 "coverage",
+                 "unity",
+                 "force",
+                 "moment",
+                 "linear"}};
         for (const InterfaceSummary &interface : step.interfaces)
-          rows.push_back({interface.name,
-                          std::to_string(interface.pairs),
-                          std::to_string(interface.quadrature_points),
-                          RunLog::number(interface.covered_area / interface.slave_area),
-                          RunLog::number(*interface.partition_of_unity_error),
-                          RunLog::number(*interface.force_residual),
-                          RunLog::number(*interface.moment_residual),
-                          RunLog::number(*interface.linear_completeness_error)});
+          rows.push_back(
+            {interface.name,
+             std::to_string(interface.pairs),
+             std::to_string(interface.quadrature_points),
+             RunLog::number(interface.covered_area / interface.slave_area),
+             RunLog::number(*interface.partition_of_unity_error),
+             RunLog::number(*interface.force_residual),
+             RunLog::number(*interface.moment_residual),
+             RunLog::number(*interface.linear_completeness_error)});
         log.table(rows);
       }
     if (step.errors)
       {
         log.line();
         rows = {{"relative error", ""},
-                {"displacement, L2", RunLog::number(*step.errors->displacement_l2)},
+                {"displacement, L2",
+                 RunLog::number(*step.errors->displacement_l2)},
                 {"energy", RunLog::number(*step.errors->energy)}};
         if (step.errors->multiplier_l2)
-          rows.push_back({"multiplier, L2", RunLog::number(*step.errors->multiplier_l2)});
+          rows.push_back(
+            {"multiplier, L2", RunLog::number(*step.errors->multiplier_l2)});
         log.table(rows);
       }
     if (!step.quantities.empty())

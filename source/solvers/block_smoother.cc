@@ -1,10 +1,9 @@
 // See block_smoother.h.
-#include <mortise/solvers/block_smoother.h>
-#include <mortise/solvers/epetra_tools.h>
-
 #include <Epetra_SerialComm.h>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
+#include <mortise/solvers/block_smoother.h>
+#include <mortise/solvers/epetra_tools.h>
 
 #include <algorithm>
 #include <set>
@@ -12,8 +11,9 @@
 namespace mortise
 {
   bool
-  BlockSmoother::initialize(const Epetra_CrsMatrix                                          &global,
-                            const std::vector<std::vector<dealii::types::global_dof_index>> &block_rows)
+  BlockSmoother::initialize(
+    const Epetra_CrsMatrix                                          &global,
+    const std::vector<std::vector<dealii::types::global_dof_index>> &block_rows)
   {
     patches.clear();
     matrix = &global;
@@ -46,7 +46,8 @@ namespace mortise
           position[block.rows[i]] = -1;
         int info = 0;
         lapack.POTRF('L', n, block.inverse.data(), n, &info);
-        // The inverse itself: a product streams it once, two triangular solves wait at each row.
+        // The inverse itself: a product streams it once, two triangular solves
+        // wait at each row.
         if (info == 0)
           lapack.POTRI('L', n, block.inverse.data(), n, &info);
         for (int j = 0; j < n; ++j)
@@ -66,15 +67,16 @@ namespace mortise
   {
     // Owned rows first, then those of other ranks that occur in the blocks.
     std::vector<int> rows(global.RowMap().MyGlobalElements(),
-                          global.RowMap().MyGlobalElements() + global.NumMyRows());
+                          global.RowMap().MyGlobalElements() +
+                            global.NumMyRows());
     std::set<int>    foreign;
     for (const auto &block : block_rows)
       for (const auto row : block)
         if (!global.RowMap().MyGID(static_cast<int>(row)))
           foreign.insert(static_cast<int>(row));
     rows.insert(rows.end(), foreign.begin(), foreign.end());
-    local_map =
-      std::make_unique<Epetra_Map>(-1, static_cast<int>(rows.size()), rows.data(), 0, global.Comm());
+    local_map = std::make_unique<Epetra_Map>(
+      -1, static_cast<int>(rows.size()), rows.data(), 0, global.Comm());
     to_local = std::make_unique<Epetra_Import>(*local_map, global.RowMap());
     x_local  = std::make_unique<Epetra_Vector>(*local_map);
     r_local  = std::make_unique<Epetra_Vector>(*local_map);
@@ -87,7 +89,8 @@ namespace mortise
     const Epetra_SerialComm self;
     const int               n = static_cast<int>(rows.size());
     const Epetra_Map        own_map(n, 0, self);
-    local_matrix = std::make_unique<Epetra_CrsMatrix>(Copy, own_map, own_map, 0);
+    local_matrix =
+      std::make_unique<Epetra_CrsMatrix>(Copy, own_map, own_map, 0);
     std::vector<int>    columns;
     std::vector<double> values;
     for (int i = 0; i < n; ++i)
@@ -96,12 +99,17 @@ namespace mortise
         columns.clear();
         values.clear();
         for (int k = 0; k < row.length; ++k)
-          if (const int column = local_map->LID(overlapping.ColMap().GID(row.columns[k])); column >= 0)
+          if (const int column =
+                local_map->LID(overlapping.ColMap().GID(row.columns[k]));
+              column >= 0)
             {
               columns.push_back(column);
               values.push_back(row.values[k]);
             }
-        local_matrix->InsertMyValues(i, static_cast<int>(columns.size()), values.data(), columns.data());
+        local_matrix->InsertMyValues(i,
+                                     static_cast<int>(columns.size()),
+                                     values.data(),
+                                     columns.data());
       }
     local_matrix->FillComplete();
     local_matrix->OptimizeStorage();
@@ -131,10 +139,26 @@ namespace mortise
           a -= v[k] * x[j[k]];
         workspace[i] = (a + b) + (c + d);
       }
-    Teuchos::BLAS<int, double> blas;
-    double                    *y = workspace.data() + n;
-    blas.GEMV(
-      Teuchos::NO_TRANS, n, n, 1., block.inverse.data(), n, workspace.data(), 1, 0., y, 1);
+    add_solution(block, x);
+  }
+
+  void
+  BlockSmoother::add_solution(const Block &block, double *x) const
+  {
+    const Teuchos::BLAS<int, double> blas;
+    const int                        n = static_cast<int>(block.rows.size());
+    double                          *y = workspace.data() + n;
+    blas.GEMV(Teuchos::NO_TRANS,
+              n,
+              n,
+              1.,
+              block.inverse.data(),
+              n,
+              workspace.data(),
+              1,
+              0.,
+              y,
+              1);
     for (int i = 0; i < n; ++i)
       x[block.rows[i]] += y[i];
   }
@@ -159,18 +183,12 @@ namespace mortise
     const double *source = to_local ? r_local->Values() : r.Values();
     double       *target = to_local ? x_local->Values() : x.Values();
     std::fill(target, target + matrix->NumMyRows(), 0.);
-    const Teuchos::BLAS<int, double> blas;
     for (const unsigned int b : selected)
       {
         const Block &block = patches[b];
-        const int    n     = static_cast<int>(block.rows.size());
-        double      *y     = workspace.data() + n;
-        for (int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < block.rows.size(); ++i)
           workspace[i] = source[block.rows[i]];
-        blas.GEMV(
-          Teuchos::NO_TRANS, n, n, 1., block.inverse.data(), n, workspace.data(), 1, 0., y, 1);
-        for (int i = 0; i < n; ++i)
-          target[block.rows[i]] += y[i];
+        add_solution(block, target);
       }
     if (to_local)
       {

@@ -1,10 +1,10 @@
 // See condensed.h.
+#include <deal.II/base/timer.h>
+
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/constraint_projector.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/scaled_residual.h>
-
-#include <deal.II/base/timer.h>
 
 #include <cmath>
 #include <memory>
@@ -15,16 +15,17 @@ namespace mortise
 
   namespace
   {
-    /// Conjugate gradients for (u, lambda) in the subspace of @p projector, or in the whole space without
-    /// one.
+    /// Conjugate gradients for (u, lambda) in the subspace of the projector, or
+    /// in the whole space without one.
     class ProjectedConjugateGradients
     {
     public:
-      ProjectedConjugateGradients(const BlockSystem                &system,
-                                  const ScaledResidual             &residual,
-                                  const HierarchicalPreconditioner &preconditioner,
-                                  const ConstraintProjector        *projector,
-                                  const SolverOptions              &options)
+      ProjectedConjugateGradients(
+        const BlockSystem                &system,
+        const ScaledResidual             &residual,
+        const HierarchicalPreconditioner &preconditioner,
+        const ConstraintProjector        *projector,
+        const SolverOptions              &options)
         : system(system)
         , residual(residual)
         , preconditioner(preconditioner)
@@ -47,7 +48,8 @@ namespace mortise
           projector->project(u, &system.coupling_rhs);
         residual.compute(u, lambda, r, r_lambda);
         double rho_old = 0.;
-        for (bool first = true; report.iterations < options.max_iterations; first = false)
+        for (bool first = true; report.iterations < options.max_iterations;
+             first      = false)
           {
             if (projector != nullptr)
               projector->project_residual(r, lambda);
@@ -62,7 +64,8 @@ namespace mortise
             if (projector != nullptr)
               projector->project(z);
             const double rho = r * z; // estimates the energy of the error
-            if (reached <= target && rho <= std::pow(options.energy_tolerance(), 2) * energy_of_u)
+            if (reached <= target &&
+                rho <= std::pow(options.energy_tolerance(), 2) * energy_of_u)
               break;
             if (first)
               d = z;
@@ -78,7 +81,8 @@ namespace mortise
       }
 
     private:
-      /// Move along d; false when the matrix is not positive definite there, or not a number.
+      /// Move along d; false when the matrix is not positive definite there, or
+      /// not a number.
       bool
       step(Vector &u, const double rho)
       {
@@ -111,14 +115,15 @@ namespace mortise
   {
     SolveReport report;
     report.method = "condensed";
-    Timer                                timer;
-    HierarchicalPreconditioner           preconditioner;
-    bool                                 valid = preconditioner.initialize(system);
-    std::unique_ptr<InterfaceLifting>    lifting;
+    Timer                             timer;
+    HierarchicalPreconditioner        preconditioner;
+    bool                              valid = preconditioner.initialize(system);
+    std::unique_ptr<InterfaceLifting> lifting;
     std::unique_ptr<ConstraintProjector> projector;
     if (valid && system.owned_multiplier.size() > 0)
       {
-        lifting   = std::make_unique<InterfaceLifting>(system, preconditioner.smoother());
+        lifting =
+          std::make_unique<InterfaceLifting>(system, preconditioner.smoother());
         projector = std::make_unique<ConstraintProjector>(system, *lifting);
         valid     = projector->is_valid();
       }
@@ -129,13 +134,15 @@ namespace mortise
 
     u.reinit(system.owned_displacement, system.communicator);
     lambda.reinit(system.owned_multiplier, system.communicator);
-    const double rhs_norm = residual.right_hand_side_norm();
-    const double target   = options.tolerance * rhs_norm;
-    double       reached  = rhs_norm;
-    ProjectedConjugateGradients solver(system, residual, preconditioner, projector.get(), options);
-    // Rounding makes the carried residual drift from the true one: start again from what was reached.
-    for (unsigned int start = 0;
-         start < 3 && valid && reached > target && report.iterations < options.max_iterations;
+    const double                rhs_norm = residual.right_hand_side_norm();
+    const double                target   = options.tolerance * rhs_norm;
+    double                      reached  = rhs_norm;
+    ProjectedConjugateGradients solver(
+      system, residual, preconditioner, projector.get(), options);
+    // Rounding makes the carried residual drift from the true one: start again
+    // from what was reached.
+    for (unsigned int start = 0; start < 3 && valid && reached > target &&
+                                 report.iterations < options.max_iterations;
          ++start)
       reached = solver.run(u, lambda, report);
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;

@@ -4,7 +4,8 @@
 
 namespace mortise
 {
-  ConstraintProjector::ConstraintProjector(const BlockSystem &system, const InterfaceLifting &lifting)
+  ConstraintProjector::ConstraintProjector(const BlockSystem      &system,
+                                           const InterfaceLifting &lifting)
     : system(system)
     , lifting(lifting)
     , jump(system.owned_multiplier, system.communicator)

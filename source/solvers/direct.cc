@@ -1,18 +1,17 @@
 // See direct.h.
-#include <mortise/solvers/direct.h>
-#include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/scaled_residual.h>
-#include <mortise/solvers/sparse_factorization.h>
-
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/timer.h>
 
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
+#include <mortise/solvers/direct.h>
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/scaled_residual.h>
+#include <mortise/solvers/sparse_factorization.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <memory>
 
 namespace mortise
 {
@@ -22,16 +21,19 @@ namespace mortise
   {
     using Index = types::global_dof_index;
 
-    /// One numbering of (u, lambda), rank by rank: what a rank owns of u, then of lambda.
+    /// One numbering of (u, lambda), rank by rank: what a rank owns of u, then
+    /// of lambda.
     class MonolithicNumbering
     {
     public:
       explicit MonolithicNumbering(const BlockSystem &system)
       {
-        const auto n_u = Utilities::MPI::all_gather(system.communicator,
-                                                    system.owned_displacement.n_elements());
-        const auto n_l = Utilities::MPI::all_gather(system.communicator,
-                                                    system.owned_multiplier.n_elements());
+        const auto n_u =
+          Utilities::MPI::all_gather(system.communicator,
+                                     system.owned_displacement.n_elements());
+        const auto n_l =
+          Utilities::MPI::all_gather(system.communicator,
+                                     system.owned_multiplier.n_elements());
         u_start.push_back(0);
         l_start.push_back(0);
         for (unsigned int r = 0; r < n_u.size(); ++r)
@@ -69,67 +71,32 @@ namespace mortise
       static unsigned int
       owner(const std::vector<Index> &start, const Index i)
       {
-        return std::upper_bound(start.begin(), start.end(), i) - start.begin() - 1;
+        return std::upper_bound(start.begin(), start.end(), i) - start.begin() -
+               1;
       }
 
       std::vector<Index> u_start, l_start;
     };
 
-    struct Entry
-    {
-      Index  row;
-      Index  column;
-      double value;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &row &column &value;
-      }
-    };
-
-    /// The rows of B^T that this rank owns, as (displacement, multiplier, value), sorted by row.
-    std::vector<Entry>
-    transposed_coupling(const BlockSystem &system, const MonolithicNumbering &numbering)
-    {
-      std::map<unsigned int, std::vector<Entry>> to_send;
-      // Rows by view: deal.II's iterators copy a row at each comparison with end().
-      const auto &coupling = system.coupling.trilinos_matrix();
-      int         local    = 0;
-      for (const auto k : system.owned_multiplier)
-        {
-          const EpetraRow row(coupling, local++);
-          for (int e = 0; e < row.length; ++e)
-            if (row.values[e] != 0.)
-              {
-                const Index i = coupling.ColMap().GID(row.columns[e]);
-                to_send[numbering.u_owner(i)].push_back({i, k, row.values[e]});
-              }
-        }
-      std::vector<Entry> entries;
-      for (const auto &from : Utilities::MPI::some_to_some(system.communicator, to_send))
-        entries.insert(entries.end(), from.second.begin(), from.second.end());
-      std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
-        return a.row != b.row ? a.row < b.row : a.column < b.column;
-      });
-      return entries;
-    }
-
-    /// Square roots of the inverse diagonals of the residual's norm, in the monolithic numbering: they
-    /// make the matrix free of units, so that pivoting compares like with like.
+    /// Square roots of the inverse diagonals of the residual's norm, in the
+    /// monolithic numbering: they make the matrix free of units, so that
+    /// pivoting compares like with like.
     void
-    set_scaling(Epetra_Vector &scale, const ScaledResidual &residual, const int n_displacements)
+    set_scaling(Epetra_Vector        &scale,
+                const ScaledResidual &residual,
+                const int             n_displacements)
     {
       for (int i = 0; i < scale.MyLength(); ++i)
-        scale[i] = std::sqrt(i < n_displacements ?
-                               residual.inverse_diagonal_u()[i] :
-                               residual.inverse_diagonal_lambda()[i - n_displacements]);
+        scale[i] =
+          std::sqrt(i < n_displacements ?
+                      residual.inverse_diagonal_u()[i] :
+                      residual.inverse_diagonal_lambda()[i - n_displacements]);
     }
 
     /// [K B^T; B 0], not scaled.
     std::unique_ptr<Epetra_CrsMatrix>
-    monolithic_matrix(const BlockSystem &system, const MonolithicNumbering &numbering)
+    monolithic_matrix(const BlockSystem         &system,
+                      const MonolithicNumbering &numbering)
     {
       std::vector<int> my_rows;
       for (const auto i : system.owned_displacement)
@@ -142,19 +109,26 @@ namespace mortise
                            0,
                            system.stiffness.trilinos_matrix().Comm());
 
-      const auto transposed = transposed_coupling(system, numbering);
-      auto       matrix     = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
+      std::unique_ptr<Epetra_CrsMatrix> transposed;
+      if (system.owned_multiplier.size() > 0)
+        transposed = transpose(system.coupling.trilinos_matrix(),
+                               system.stiffness.trilinos_matrix().RowMap());
+      auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
 
       std::vector<int>    columns;
       std::vector<double> values;
-      const auto          add_row = [&](const Epetra_CrsMatrix &part, const int local) {
-        const EpetraRow row(part, local);
-        for (int e = 0; e < row.length; ++e)
-          {
-            columns.push_back(static_cast<int>(numbering.u(part.ColMap().GID(row.columns[e]))));
-            values.push_back(row.values[e]);
-          }
-      };
+      const auto          add_row =
+        [&](const Epetra_CrsMatrix &part, const int local, const auto &number) {
+          const EpetraRow row(part, local);
+          for (int e = 0; e < row.length; ++e)
+            {
+              const Index column = part.ColMap().GID(row.columns[e]);
+              columns.push_back(static_cast<int>(number(column)));
+              values.push_back(row.values[e]);
+            }
+        };
+      const auto u      = [&](const Index i) { return numbering.u(i); };
+      const auto l      = [&](const Index k) { return numbering.l(k); };
       const auto insert = [&](const Index row) {
         matrix->InsertGlobalValues(static_cast<int>(row),
                                    static_cast<int>(columns.size()),
@@ -163,22 +137,19 @@ namespace mortise
         columns.clear();
         values.clear();
       };
-      auto t     = transposed.begin();
-      int  local = 0;
+      int local = 0;
       for (const auto i : system.owned_displacement)
         {
-          add_row(system.stiffness.trilinos_matrix(), local++);
-          for (; t != transposed.end() && t->row == i; ++t)
-            {
-              columns.push_back(static_cast<int>(numbering.l(t->column)));
-              values.push_back(t->value);
-            }
+          add_row(system.stiffness.trilinos_matrix(), local, u);
+          if (transposed)
+            add_row(*transposed, local, l);
+          ++local;
           insert(numbering.u(i));
         }
       local = 0;
       for (const auto k : system.owned_multiplier)
         {
-          add_row(system.coupling.trilinos_matrix(), local++);
+          add_row(system.coupling.trilinos_matrix(), local++, u);
           columns.push_back(static_cast<int>(numbering.l(k)));
           values.push_back(0.);
           insert(numbering.l(k));
@@ -193,7 +164,8 @@ namespace mortise
     {
       const unsigned int n = a.locally_owned_size();
       for (int i = 0; i < v.MyLength(); ++i)
-        v[i] = i < static_cast<int>(n) ? a.trilinos_vector()[0][i] : b.trilinos_vector()[0][i - n];
+        v[i] = i < static_cast<int>(n) ? a.trilinos_vector()[0][i] :
+                                         b.trilinos_vector()[0][i - n];
     }
 
     void
@@ -201,12 +173,16 @@ namespace mortise
     {
       const unsigned int n = a.locally_owned_size();
       for (int i = 0; i < v.MyLength(); ++i)
-        (i < static_cast<int>(n) ? a.trilinos_vector()[0][i] : b.trilinos_vector()[0][i - n]) += v[i];
+        (i < static_cast<int>(n) ? a.trilinos_vector()[0][i] :
+                                   b.trilinos_vector()[0][i - n]) += v[i];
     }
   } // namespace
 
   SolveReport
-  solve_direct(const BlockSystem &system, const SolverOptions &options, Vector &u, Vector &lambda)
+  solve_direct(const BlockSystem   &system,
+               const SolverOptions &options,
+               Vector              &u,
+               Vector              &lambda)
   {
     constexpr unsigned int max_refinements = 4;
 
@@ -218,7 +194,9 @@ namespace mortise
     const auto                matrix = monolithic_matrix(system, numbering);
     const ScaledResidual      residual(system);
     Epetra_Vector             scale(matrix->RowMap());
-    set_scaling(scale, residual, static_cast<int>(system.owned_displacement.n_elements()));
+    set_scaling(scale,
+                residual,
+                static_cast<int>(system.owned_displacement.n_elements()));
     matrix->LeftScale(scale);
     matrix->RightScale(scale);
 
@@ -230,12 +208,14 @@ namespace mortise
 
     u.reinit(system.owned_displacement, system.communicator);
     lambda.reinit(system.owned_multiplier, system.communicator);
-    Vector               r_u(u), r_lambda(lambda);
-    const double         rhs_norm = residual.right_hand_side_norm();
-    report.converged              = rhs_norm == 0.;
+    Vector       r_u(u), r_lambda(lambda);
+    const double rhs_norm = residual.right_hand_side_norm();
+    report.converged      = rhs_norm == 0.;
     Epetra_Vector r(matrix->RowMap()), x(matrix->RowMap());
     double        previous = std::numeric_limits<double>::infinity();
-    for (unsigned int step = 0; factorized && rhs_norm > 0. && step <= max_refinements; ++step)
+    for (unsigned int step = 0;
+         factorized && rhs_norm > 0. && step <= max_refinements;
+         ++step)
       {
         residual.compute(u, lambda, r_u, r_lambda);
         join(r, r_u, r_lambda);
@@ -257,7 +237,8 @@ namespace mortise
           break;
       }
     if (rhs_norm > 0.)
-      report.converged = factorized && report.relative_residual <= options.tolerance;
+      report.converged =
+        factorized && report.relative_residual <= options.tolerance;
     report.solve_seconds = timer.wall_time();
     return report;
   }

@@ -1,8 +1,8 @@
 // See entity_graph.h.
+#include <deal.II/base/mpi.h>
+
 #include <mortise/solvers/entity_graph.h>
 #include <mortise/solvers/epetra_tools.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <set>
@@ -23,15 +23,19 @@ namespace mortise
     bool
     contains(const std::vector<int> &larger, const std::vector<int> &smaller)
     {
-      return std::includes(larger.begin(), larger.end(), smaller.begin(), smaller.end());
+      return std::includes(larger.begin(),
+                           larger.end(),
+                           smaller.begin(),
+                           smaller.end());
     }
   } // namespace
 
   EntityGraph::EntityGraph(const BlockSystem &system)
   {
     const auto n_blocks = static_cast<int>(system.entity_blocks.size());
-    const auto counts   = Utilities::MPI::all_gather(system.communicator, n_blocks);
-    const auto rank     = Utilities::MPI::this_mpi_process(system.communicator);
+    const auto counts =
+      Utilities::MPI::all_gather(system.communicator, n_blocks);
+    const auto rank = Utilities::MPI::this_mpi_process(system.communicator);
     rank_start.assign(1, 0);
     for (const int count : counts)
       rank_start.push_back(rank_start.back() + count);
@@ -82,7 +86,9 @@ namespace mortise
     for (unsigned int b = 0; b < n_blocks; ++b)
       if (jump_neighbors[b].size() > 1)
         {
-          neighbors[b].insert(neighbors[b].end(), jump_neighbors[b].begin(), jump_neighbors[b].end());
+          neighbors[b].insert(neighbors[b].end(),
+                              jump_neighbors[b].begin(),
+                              jump_neighbors[b].end());
           sort_and_remove_duplicates(neighbors[b]);
         }
   }
@@ -99,18 +105,21 @@ namespace mortise
             if (!is_owned(o))
               wanted.insert(o);
       for (const int o : wanted)
-        requests[std::upper_bound(rank_start.begin(), rank_start.end(), o) - rank_start.begin() - 1]
+        requests[std::upper_bound(rank_start.begin(), rank_start.end(), o) -
+                 rank_start.begin() - 1]
           .push_back(o);
     }
     std::map<unsigned int, std::vector<std::pair<int, Ghost>>> answers;
-    for (const auto &from : Utilities::MPI::some_to_some(system.communicator, requests))
+    for (const auto &from :
+         Utilities::MPI::some_to_some(system.communicator, requests))
       for (const int o : from.second)
         {
           const unsigned int b = o - first_block;
           answers[from.first].push_back(
             {o, {system.entity_blocks[b], neighbors[b], jump_neighbors[b]}});
         }
-    for (auto &from : Utilities::MPI::some_to_some(system.communicator, answers))
+    for (auto &from :
+         Utilities::MPI::some_to_some(system.communicator, answers))
       for (auto &answer : from.second)
         ghosts.insert(std::move(answer));
   }
@@ -119,12 +128,13 @@ namespace mortise
   EntityGraph::patches(const BlockSystem &system) const
   {
     std::vector<std::vector<types::global_dof_index>> result;
-    std::vector<bool>                                 covered(neighbors.size(), false);
-    const auto belongs = [&](const unsigned int      v,
+    std::vector<bool> covered(neighbors.size(), false);
+    const auto        belongs = [&](const unsigned int      v,
                              const std::vector<int> &around,
                              const std::vector<int> &jump_around) {
       return contains(neighbors[v], around) ||
-             (jump_around.size() > 1 && contains(jump_neighbors[v], jump_around));
+             (jump_around.size() > 1 &&
+              contains(jump_neighbors[v], jump_around));
     };
     for (unsigned int v = 0; v < neighbors.size(); ++v)
       if (vertex[v])

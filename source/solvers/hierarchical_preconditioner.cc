@@ -1,12 +1,11 @@
 // See hierarchical_preconditioner.h.
+#include <deal.II/base/mpi.h>
+
+#include <EpetraExt_MatrixMatrix.h>
 #include <mortise/solvers/block_smoother.h>
 #include <mortise/solvers/entity_graph.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/vertex_solver.h>
-
-#include <deal.II/base/mpi.h>
-
-#include <EpetraExt_MatrixMatrix.h>
 
 namespace mortise
 {
@@ -24,8 +23,13 @@ namespace mortise
         if (system.owned_multiplier.size() == 0)
           return;
         Epetra_CrsMatrix *result = nullptr;
-        EpetraExt::MatrixMatrix::Add(
-          *matrix, false, 1., system.jump_penalty.trilinos_matrix(), false, 1., result);
+        EpetraExt::MatrixMatrix::Add(*matrix,
+                                     false,
+                                     1.,
+                                     system.jump_penalty.trilinos_matrix(),
+                                     false,
+                                     1.,
+                                     result);
         sum.reset(result);
         sum->FillComplete(matrix->DomainMap(), matrix->RangeMap());
         sum->OptimizeStorage();
@@ -55,7 +59,9 @@ namespace mortise
     {
       valid = coarse.initialize(system, *bulk);
       if (has_high_modes || system.owned_multiplier.size() > 0)
-        valid = smoother.initialize(*bulk, EntityGraph(system).patches(system)) && valid;
+        valid =
+          smoother.initialize(*bulk, EntityGraph(system).patches(system)) &&
+          valid;
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
     }
 
@@ -85,8 +91,9 @@ namespace mortise
     Epetra_Vector x(View, matrix.RowMap(), dst.trilinos_vector()[0]);
     data.r = *src.trilinos_vector()(0);
 
-    // Q + (I - Q A) M (I - A Q), positive definite for any positive definite M and any positive
-    // semi-definite Q, exact or not (Tang, Nabben, Vuik and Erlangga 2009, "BNN").
+    // Q + (I - Q A) M (I - A Q), positive definite for any positive definite M
+    // and any positive semi-definite Q, exact or not (Tang, Nabben, Vuik and
+    // Erlangga 2009, "BNN").
     data.coarse.vmult(x, data.r);
     if (data.has_high_modes)
       {
@@ -113,4 +120,3 @@ namespace mortise
            implementation->coarse.description();
   }
 } // namespace mortise
-

@@ -1,10 +1,9 @@
 // See interface_lifting.h.
-#include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/interface_lifting.h>
-
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <Teuchos_BLAS.hpp>
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/interface_lifting.h>
 
 #include <algorithm>
 
@@ -14,17 +13,20 @@ namespace mortise
 
   namespace
   {
-    /// A patch of a much coarser side couples more multipliers than it has dofs to follow them: the
-    /// other side does better and keeps C sparse. These bounds leave ratios of size up to eight alone.
-    constexpr std::size_t always_allowed     = 1000;
+    /// A patch of a much coarser side couples more multipliers than it has dofs
+    /// to follow them: the other side does better and keeps C sparse. These
+    /// bounds leave ratios of size up to eight alone.
+    constexpr std::size_t always_allowed      = 1000;
     constexpr std::size_t multipliers_per_dof = 4;
   } // namespace
 
-  InterfaceLifting::InterfaceLifting(const BlockSystem &system, const BlockSmoother &smoother)
+  InterfaceLifting::InterfaceLifting(const BlockSystem   &system,
+                                     const BlockSmoother &smoother)
     : smoother(smoother)
   {
     const auto transposed =
-      transpose(system.coupling.trilinos_matrix(), system.stiffness.trilinos_matrix().RowMap());
+      transpose(system.coupling.trilinos_matrix(),
+                system.stiffness.trilinos_matrix().RowMap());
     std::unique_ptr<Epetra_CrsMatrix> imported;
     if (smoother.importer() != nullptr)
       {
@@ -46,13 +48,15 @@ namespace mortise
   }
 
   InterfaceLifting::PatchCoupling
-  InterfaceLifting::couple(const unsigned int block, const Epetra_CrsMatrix &transposed) const
+  InterfaceLifting::couple(const unsigned int      block,
+                           const Epetra_CrsMatrix &transposed) const
   {
     PatchCoupling patch;
     patch.block      = block;
     const auto &rows = smoother.blocks()[block].rows;
     const auto  gid  = [&](const int column) {
-      return static_cast<types::global_dof_index>(transposed.ColMap().GID(column));
+      return static_cast<types::global_dof_index>(
+        transposed.ColMap().GID(column));
     };
     for (unsigned int i = 0; i < rows.size(); ++i)
       {
@@ -65,7 +69,8 @@ namespace mortise
           patch.dofs.push_back(static_cast<int>(i));
       }
     std::sort(patch.multipliers.begin(), patch.multipliers.end());
-    patch.multipliers.erase(std::unique(patch.multipliers.begin(), patch.multipliers.end()),
+    patch.multipliers.erase(std::unique(patch.multipliers.begin(),
+                                        patch.multipliers.end()),
                             patch.multipliers.end());
     const std::size_t n = patch.multipliers.size();
     patch.values.assign(n * patch.dofs.size(), 0.);
@@ -83,7 +88,8 @@ namespace mortise
   }
 
   void
-  InterfaceLifting::select(std::vector<PatchCoupling> &patches, const BlockSystem &system) const
+  InterfaceLifting::select(std::vector<PatchCoupling> &patches,
+                           const BlockSystem          &system) const
   {
     const auto is_light = [&](const PatchCoupling &patch) {
       return patch.multipliers.size() <=
@@ -109,13 +115,16 @@ namespace mortise
                                    return !is_light(patch) &&
                                           std::all_of(patch.multipliers.begin(),
                                                       patch.multipliers.end(),
-                                                      [&](const auto k) { return known(k) > 0.; });
+                                                      [&](const auto k) {
+                                                        return known(k) > 0.;
+                                                      });
                                  }),
                   patches.end());
   }
 
   void
-  InterfaceLifting::assemble(const std::vector<PatchCoupling> &patches, const BlockSystem &system)
+  InterfaceLifting::assemble(const std::vector<PatchCoupling> &patches,
+                             const BlockSystem                &system)
   {
     IndexSet rows = system.owned_multiplier;
     for (const PatchCoupling &patch : patches)
@@ -124,9 +133,15 @@ namespace mortise
     DynamicSparsityPattern sparsity(rows.size(), rows.size(), rows);
     for (const PatchCoupling &patch : patches)
       for (const auto k : patch.multipliers)
-        sparsity.add_entries(k, patch.multipliers.begin(), patch.multipliers.end(), true);
-    schur.reinit(
-      system.owned_multiplier, system.owned_multiplier, sparsity, system.communicator, true);
+        sparsity.add_entries(k,
+                             patch.multipliers.begin(),
+                             patch.multipliers.end(),
+                             true);
+    schur.reinit(system.owned_multiplier,
+                 system.owned_multiplier,
+                 sparsity,
+                 system.communicator,
+                 true);
 
     const Teuchos::BLAS<int, double> blas;
     std::vector<double>              inverse, product;
@@ -134,18 +149,44 @@ namespace mortise
     for (const PatchCoupling &patch : patches)
       {
         const auto &block = smoother.blocks()[patch.block];
-        const int   n = static_cast<int>(block.rows.size()), m = static_cast<int>(patch.dofs.size()),
-                  l = static_cast<int>(patch.multipliers.size());
+        const int   n     = static_cast<int>(block.rows.size()),
+                  m       = static_cast<int>(patch.dofs.size()),
+                  l       = static_cast<int>(patch.multipliers.size());
         inverse.resize(static_cast<std::size_t>(m) * m);
         product.resize(static_cast<std::size_t>(l) * m);
         local.reinit(l, l, true);
         for (int j = 0; j < m; ++j)
           for (int i = 0; i < m; ++i)
             inverse[i + j * m] =
-              block.inverse[patch.dofs[i] + static_cast<std::size_t>(patch.dofs[j]) * n];
+              block.inverse[patch.dofs[i] +
+                            static_cast<std::size_t>(patch.dofs[j]) * n];
         using namespace Teuchos;
-        blas.GEMM(NO_TRANS, NO_TRANS, l, m, m, 1., patch.values.data(), l, inverse.data(), m, 0., product.data(), l);
-        blas.GEMM(NO_TRANS, TRANS, l, l, m, 1., product.data(), l, patch.values.data(), l, 0., &local(0, 0), l);
+        blas.GEMM(NO_TRANS,
+                  NO_TRANS,
+                  l,
+                  m,
+                  m,
+                  1.,
+                  patch.values.data(),
+                  l,
+                  inverse.data(),
+                  m,
+                  0.,
+                  product.data(),
+                  l);
+        blas.GEMM(NO_TRANS,
+                  TRANS,
+                  l,
+                  l,
+                  m,
+                  1.,
+                  product.data(),
+                  l,
+                  patch.values.data(),
+                  l,
+                  0.,
+                  &local(0, 0),
+                  l);
         schur.add(patch.multipliers, local, false);
       }
     schur.compress(VectorOperation::add);

@@ -1,15 +1,15 @@
 // See saddle_point.h.
+#include <deal.II/base/timer.h>
+
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/constraint_projector.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/saddle_point.h>
 #include <mortise/solvers/scaled_residual.h>
-
-#include <deal.II/base/timer.h>
-
-#include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_parallel_block_vector.h>
 
 #include <cmath>
 
@@ -21,22 +21,25 @@ namespace mortise
   {
     using BlockVector = TrilinosWrappers::MPI::BlockVector;
 
-    /// W [K B^T; B 0] W with W^2 = diag(D_u, D_lambda)^{-1}: the Euclidean norm of its residual is the
-    /// norm that all solvers report.
+    /// W [K B^T; B 0] W with W^2 = diag(D_u, D_lambda)^{-1}: the Euclidean norm
+    /// of its residual is the norm that all solvers report.
     class ScaledOperator
     {
     public:
       ScaledOperator(const BlockSystem &system, const ScaledResidual &residual)
-        : system(system)
-        , weight({system.owned_displacement, system.owned_multiplier}, system.communicator)
+        : weight({system.owned_displacement, system.owned_multiplier},
+                 system.communicator)
+        , system(system)
         , scaled(weight)
       {
         set_root(residual.inverse_diagonal_u(), weight.block(0));
         set_root(residual.inverse_diagonal_lambda(), weight.block(1));
         inverse = weight;
         for (unsigned int b = 0; b < 2; ++b)
-          for (unsigned int i = 0; i < inverse.block(b).locally_owned_size(); ++i)
-            epetra(inverse.block(b))[0][i] = 1. / epetra(inverse.block(b))[0][i];
+          for (unsigned int i = 0; i < inverse.block(b).locally_owned_size();
+               ++i)
+            epetra(inverse.block(b))[0][i] =
+              1. / epetra(inverse.block(b))[0][i];
       }
 
       void
@@ -50,6 +53,8 @@ namespace mortise
         y.scale(weight);
       }
 
+      BlockVector weight, inverse; ///< W and W^{-1}
+
     private:
       static void
       set_root(const Epetra_Vector &square, Vector &root)
@@ -58,21 +63,18 @@ namespace mortise
           epetra(root)[0][i] = std::sqrt(square[i]);
       }
 
-      const BlockSystem &system;
-
-    public:
-      BlockVector weight, inverse; ///< W and W^{-1}
-
-    private:
+      const BlockSystem  &system;
       mutable BlockVector scaled;
     };
 
-    /// The block factorisation of [A^ B^T; B 0] with A^ for K + J, its Schur complement replaced by
-    /// C = B T B^T and A^{-1} B^T by T B^T: what it returns satisfies the constraint exactly.
+    /// The block factorisation of [A^ B^T; B 0] with A^ for K + J, its Schur
+    /// complement replaced by C = B T B^T and A^{-1} B^T by T B^T: what it
+    /// returns satisfies the constraint exactly.
     class BlockPreconditioner
     {
     public:
-      BlockPreconditioner(const BlockSystem &system, const ScaledOperator &scaling)
+      BlockPreconditioner(const BlockSystem    &system,
+                          const ScaledOperator &scaling)
         : scaling(scaling)
         , valid(bulk.initialize(system))
       {
@@ -101,7 +103,8 @@ namespace mortise
         z.scale(scaling.inverse);
       }
 
-      /// An estimate of e . K e for the error e that belongs to the residual @p r, not scaled.
+      /// An estimate of e . K e for the error e that belongs to the residual,
+      /// which is not scaled.
       double
       error_energy(const BlockVector &r) const
       {
@@ -161,24 +164,32 @@ namespace mortise
     double       reached = rhs_norm, goal = 0.9 * target;
     bool         accurate = rhs_norm == 0.;
     BlockVector  x(matrix.weight), r(x);
-    // Again from what was reached: rounding makes the recursive residual drift from the true one, and
-    // the energy of the error is only looked at here.
-    for (unsigned int start = 0; start < 5 && preconditioner.is_valid() && !accurate &&
-                                 report.iterations < options.max_iterations;
+    // Again from what was reached: rounding makes the recursive residual drift
+    // from the true one, and the energy of the error is only looked at here.
+    for (unsigned int start = 0;
+         start < 5 && preconditioner.is_valid() && !accurate &&
+         report.iterations < options.max_iterations;
          ++start)
       {
         residual.compute(u, lambda, r.block(0), r.block(1));
         r.scale(matrix.weight);
         x = 0.;
-        SolverControl control(options.max_iterations - report.iterations, goal, false, false);
+        SolverControl control(options.max_iterations - report.iterations,
+                              goal,
+                              false,
+                              false);
         SolverGMRES<BlockVector> solver(
-          control, SolverGMRES<BlockVector>::AdditionalData(max_basis + 2, true));
-        solver.connect([&](const unsigned int iteration, const double value, const BlockVector &) {
+          control,
+          SolverGMRES<BlockVector>::AdditionalData(max_basis + 2, true));
+        solver.connect([&](const unsigned int iteration,
+                           const double       value,
+                           const BlockVector &) {
           if (iteration > 0)
             {
               report.history.push_back(value / rhs_norm);
               if (options.monitor)
-                options.monitor(report.iterations + iteration, value / rhs_norm);
+                options.monitor(report.iterations + iteration,
+                                value / rhs_norm);
             }
           return SolverControl::success;
         });

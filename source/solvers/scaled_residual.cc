@@ -1,8 +1,8 @@
 // See scaled_residual.h.
+#include <deal.II/base/mpi.h>
+
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/scaled_residual.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <cmath>
 
@@ -45,7 +45,9 @@ namespace mortise
         if (coupling.Importer() != nullptr)
           on_columns.Import(*weight_u, *coupling.Importer(), Insert);
         else
-          std::copy(weight_u->Values(), weight_u->Values() + weight_u->MyLength(), on_columns.Values());
+          std::copy(weight_u->Values(),
+                    weight_u->Values() + weight_u->MyLength(),
+                    on_columns.Values());
         weight_lambda = std::make_unique<Epetra_Vector>(coupling.RowMap());
         for (int i = 0; i < weight_lambda->MyLength(); ++i)
           {
@@ -60,7 +62,10 @@ namespace mortise
   }
 
   void
-  ScaledResidual::compute(const Vector &u, const Vector &lambda, Vector &r_u, Vector &r_lambda) const
+  ScaledResidual::compute(const Vector &u,
+                          const Vector &lambda,
+                          Vector       &r_u,
+                          Vector       &r_lambda) const
   {
     system.stiffness.vmult(r_u, u);
     if (interface_present)

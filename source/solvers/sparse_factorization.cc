@@ -1,10 +1,9 @@
 // See sparse_factorization.h.
-#include <mortise/solvers/sparse_factorization.h>
-
 #include <Amesos.h>
 #include <Amesos_BaseSolver.h>
 #include <Amesos_config.h>
 #include <Teuchos_ParameterList.hpp>
+#include <mortise/solvers/sparse_factorization.h>
 #ifdef HAVE_AMESOS_MUMPS
 #  include <Amesos_Mumps.h>
 #endif
@@ -19,8 +18,11 @@ namespace mortise
     {
       if (auto *mumps = dynamic_cast<Amesos_Mumps *>(&solver))
         {
-          mumps->SetICNTL(6, 0);   // no column permutation: it would spoil the symmetric structure
-          mumps->SetICNTL(14, workspace); // per cent beyond the estimate, for pivoting
+          mumps->SetICNTL(
+            6,
+            0); // no column permutation: it would spoil the symmetric structure
+          mumps->SetICNTL(
+            14, workspace); // per cent beyond the estimate, for pivoting
         }
     }
 #else
@@ -38,7 +40,8 @@ namespace mortise
   {
     Amesos     factory;
     const bool has_mumps = factory.Query("Mumps");
-    // delayed pivots of a saddle point may need much more room than MUMPS estimates
+    // delayed pivots of a saddle point may need much more room than MUMPS
+    // estimates
     for (const int workspace : {100, 1000, 5000})
       if (has_mumps && factorize(factory, "Mumps", workspace, matrix))
         {
@@ -66,11 +69,13 @@ namespace mortise
     parameters.set("MaxProcs", -3); // all ranks
     solver->SetParameters(parameters);
     set_mumps_controls(*solver, workspace);
-    return solver->SymbolicFactorization() == 0 && solver->NumericFactorization() == 0;
+    return solver->SymbolicFactorization() == 0 &&
+           solver->NumericFactorization() == 0;
   }
 
   bool
-  SparseFactorization::solve(Epetra_MultiVector &x, const Epetra_MultiVector &b) const
+  SparseFactorization::solve(Epetra_MultiVector       &x,
+                             const Epetra_MultiVector &b) const
   {
     problem->SetLHS(&x);
     problem->SetRHS(const_cast<Epetra_MultiVector *>(&b));

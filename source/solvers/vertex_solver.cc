@@ -1,11 +1,10 @@
 // See vertex_solver.h.
-#include <mortise/solvers/vertex_solver.h>
-
 #include <deal.II/base/mpi.h>
 
 #include <Epetra_IntVector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#include <mortise/solvers/vertex_solver.h>
 
 #include <cmath>
 
@@ -15,8 +14,9 @@ namespace mortise
 
   namespace
   {
-    /// Up to this many dofs a factorisation costs no more than the additional iterations of
-    /// multigrid (measured at 11,718: 1.5 s against 0.7 s, but 14 iterations against 24).
+    /// Up to this many dofs a factorisation costs no more than the additional
+    /// iterations of multigrid (measured at 11,718: 1.5 s against 0.7 s, but 14
+    /// iterations against 24).
     constexpr int max_direct_size = 20000;
   } // namespace
 
@@ -24,7 +24,8 @@ namespace mortise
   VertexSolver::~VertexSolver() = default;
 
   bool
-  VertexSolver::initialize(const BlockSystem &system, const Epetra_CrsMatrix &matrix)
+  VertexSolver::initialize(const BlockSystem      &system,
+                           const Epetra_CrsMatrix &matrix)
   {
     extract(system, matrix);
     r_c = std::make_unique<Epetra_Vector>(*map);
@@ -45,8 +46,9 @@ namespace mortise
     parameters.set("null space: add default vectors", false);
     parameters.set("aggregation: type", "Uncoupled");
     parameters.set("aggregation: threshold", 0.01);
-    // Iterations of conjugate gradients at 11,718 dofs, Poisson's ratio 0.3: Chebyshev of degree 2: 40,
-    // of degree 4: 28; block Gauss-Seidel, one sweep: 27, two: 24.
+    // Iterations of conjugate gradients at 11,718 dofs, Poisson's ratio 0.3:
+    // Chebyshev of degree 2: 40, of degree 4: 28; block Gauss-Seidel, one
+    // sweep: 27, two: 24.
     parameters.set("smoother: type", "symmetric block Gauss-Seidel");
     parameters.set("smoother: sweeps", 2);
     parameters.set("smoother: damping factor", 1.);
@@ -54,12 +56,16 @@ namespace mortise
     parameters.set("cycle applications", 2);
     parameters.set("coarse: type", "Amesos-KLU");
     parameters.set("coarse: max size", 1000);
-    multigrid = std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*coarse, parameters, true);
+    multigrid =
+      std::make_unique<ML_Epetra::MultiLevelPreconditioner>(*coarse,
+                                                            parameters,
+                                                            true);
     return multigrid->IsPreconditionerComputed();
   }
 
   void
-  VertexSolver::extract(const BlockSystem &system, const Epetra_CrsMatrix &matrix)
+  VertexSolver::extract(const BlockSystem      &system,
+                        const Epetra_CrsMatrix &matrix)
   {
     const int n = system.vertex_dofs.size();
     map         = std::make_unique<Epetra_Map>(-1, n, 0, matrix.Comm());
@@ -67,13 +73,16 @@ namespace mortise
     number.PutValue(-1);
     for (int i = 0; i < n; ++i)
       {
-        rows.push_back(matrix.RowMap().LID(static_cast<int>(system.vertex_dofs[i])));
+        rows.push_back(
+          matrix.RowMap().LID(static_cast<int>(system.vertex_dofs[i])));
         number[rows.back()] = map->GID(i);
       }
     if (matrix.Importer() != nullptr)
       column_number.Import(number, *matrix.Importer(), Insert);
     else
-      std::copy(number.Values(), number.Values() + number.MyLength(), column_number.Values());
+      std::copy(number.Values(),
+                number.Values() + number.MyLength(),
+                column_number.Values());
 
     coarse = std::make_unique<Epetra_CrsMatrix>(Copy, *map, 81, false);
     std::vector<int>    columns;
@@ -92,7 +101,10 @@ namespace mortise
               columns.push_back(column_number[row_columns[k]]);
               values.push_back(row_values[k]);
             }
-        coarse->InsertGlobalValues(map->GID(i), columns.size(), values.data(), columns.data());
+        coarse->InsertGlobalValues(map->GID(i),
+                                   columns.size(),
+                                   values.data(),
+                                   columns.data());
       }
     coarse->FillComplete();
     coarse->OptimizeStorage();
@@ -105,9 +117,11 @@ namespace mortise
     for (const auto &x : system.vertex_points)
       center += x;
     const unsigned int n_points =
-      Utilities::MPI::sum<unsigned int>(system.vertex_points.size(), system.communicator);
+      Utilities::MPI::sum<unsigned int>(system.vertex_points.size(),
+                                        system.communicator);
     for (unsigned int d = 0; d < dim; ++d)
-      center[d] = Utilities::MPI::sum(center[d], system.communicator) / n_points;
+      center[d] =
+        Utilities::MPI::sum(center[d], system.communicator) / n_points;
     double radius = 0.;
     for (const auto &x : system.vertex_points)
       radius = std::max(radius, x.distance(center));
@@ -135,7 +149,8 @@ namespace mortise
         coarse->ExtractMyRowView(i, length, values, columns);
         bool alone = true;
         for (int k = 0; k < length; ++k)
-          alone = alone && (columns[k] == static_cast<int>(i) || values[k] == 0.);
+          alone =
+            alone && (columns[k] == static_cast<int>(i) || values[k] == 0.);
         if (alone)
           for (unsigned int mode = 0; mode < 6; ++mode)
             rigid_modes[mode * n + i] = 0.;
@@ -159,7 +174,8 @@ namespace mortise
   std::string
   VertexSolver::description() const
   {
-    return factorization ? "vertices factorised (" + factorization->backend() + ")" :
-                           "vertices by smoothed aggregation (ML)";
+    return factorization ?
+             "vertices factorised (" + factorization->backend() + ")" :
+             "vertices by smoothed aggregation (ML)";
   }
 } // namespace mortise

@@ -1,4 +1,5 @@
-// Expressions: values, exact first and second derivatives, folding, and messages for bad input.
+// Expressions: values, exact first and second derivatives, folding, and
+// messages for bad input.
 
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
@@ -13,12 +14,16 @@ using dealii::Point;
 namespace
 {
   void
-  verdict(const bool good, const std::string &what, const double got, const double allowed)
+  verdict(const bool         good,
+          const std::string &what,
+          const double       got,
+          const double       allowed)
   {
     if (good)
       std::cout << "OK  " << what << std::endl;
     else
-      std::cout << "FAILED " << what << ": got " << got << ", allowed " << allowed << std::endl;
+      std::cout << "FAILED " << what << ": got " << got << ", allowed "
+                << allowed << std::endl;
   }
 
   struct Case
@@ -28,33 +33,40 @@ namespace
   };
 
   const std::vector<Case> cases = {
-    {"1 + 2*x - y/3 + z", [](double x, double y, double z) { return 1 + 2 * x - y / 3 + z; }},
+    {"1 + 2*x - y/3 + z",
+     [](double x, double y, double z) { return 1 + 2 * x - y / 3 + z; }},
     {"-x^2 + 2^-y + 2^y^z",
      [](double x, double y, double z) {
        return -x * x + std::pow(2, -y) + std::pow(2, std::pow(y, z));
      }},
-    {"x - y - z / x / y", [](double x, double y, double z) { return x - y - z / x / y; }},
+    {"x - y - z / x / y",
+     [](double x, double y, double z) { return x - y - z / x / y; }},
     {"sin(x*y) * cos(pi*z) + tan(x/2)",
      [](double x, double y, double z) {
-       return std::sin(x * y) * std::cos(dealii::numbers::PI * z) + std::tan(x / 2);
+       return std::sin(x * y) * std::cos(dealii::numbers::PI * z) +
+              std::tan(x / 2);
      }},
     {"asin(x/3) + acos(y/3)*atan(z)",
      [](double x, double y, double z) {
        return std::asin(x / 3) + std::acos(y / 3) * std::atan(z);
      }},
     {"sinh(x)*cosh(y) - tanh(x*z)",
-     [](double x, double y, double z) { return std::sinh(x) * std::cosh(y) - std::tanh(x * z); }},
+     [](double x, double y, double z) {
+       return std::sinh(x) * std::cosh(y) - std::tanh(x * z);
+     }},
     {"exp(-x*x) * log(y + z) / sqrt(x + y*z)",
      [](double x, double y, double z) {
        return std::exp(-x * x) * std::log(y + z) / std::sqrt(x + y * z);
      }},
     {"atan2(y - 2*x, x*z) + pow(x + y, 2.5) + x^y",
      [](double x, double y, double z) {
-       return std::atan2(y - 2 * x, x * z) + std::pow(x + y, 2.5) + std::pow(x, y);
+       return std::atan2(y - 2 * x, x * z) + std::pow(x + y, 2.5) +
+              std::pow(x, y);
      }},
     {"abs(x - y) * max(x, z*y) + min(x^3, y^-2)",
      [](double x, double y, double z) {
-       return std::fabs(x - y) * std::max(x, z * y) + std::min(x * x * x, 1 / (y * y));
+       return std::fabs(x - y) * std::max(x, z * y) +
+              std::min(x * x * x, 1 / (y * y));
      }},
     {"x < y ? x*x*z : y > z && !(x > 1) ? sin(z) : cos(x)",
      [](double x, double y, double z) {
@@ -65,7 +77,9 @@ namespace
        return (x >= 0.8 || y <= 0.7 ? x * y * z : 0.15 * x * x * x * x) + 1;
      }},
     {"(2 - 7)*x^17 + x^(1/3)",
-     [](double x, double, double) { return -5 * std::pow(x, 17) + std::cbrt(x); }},
+     [](double x, double, double) {
+       return -5 * std::pow(x, 17) + std::cbrt(x);
+     }},
   };
 
   std::vector<Point<3>>
@@ -103,23 +117,25 @@ namespace
           {
             const double exact = c.value(p[0], p[1], p[2]);
             value_error =
-              std::max(value_error, std::fabs(e.value(p) - exact) / (1. + std::fabs(exact)));
+              std::max(value_error,
+                       std::fabs(e.value(p) - exact) / (1. + std::fabs(exact)));
             const Expression::Jet jet = e.jet(p);
-            value_error               = std::max(value_error, std::fabs(jet.value - e.value(p)));
+            value_error =
+              std::max(value_error, std::fabs(jet.value - e.value(p)));
             for (unsigned int i = 0; i < 3; ++i)
               {
-                const double d =
-                  difference<double>([&](const Point<3> &q) { return e.value(q); }, p, i);
-                gradient_error =
-                  std::max(gradient_error, std::fabs(jet.gradient[i] - d) / (1. + std::fabs(d)));
-                const auto dd =
-                  difference<dealii::Tensor<1, 3>>([&](const Point<3> &q) { return e.gradient(q); },
-                                                   p,
-                                                   i);
+                const double d = difference<double>(
+                  [&](const Point<3> &q) { return e.value(q); }, p, i);
+                gradient_error = std::max(gradient_error,
+                                          std::fabs(jet.gradient[i] - d) /
+                                            (1. + std::fabs(d)));
+                const auto dd  = difference<dealii::Tensor<1, 3>>(
+                  [&](const Point<3> &q) { return e.gradient(q); }, p, i);
                 for (unsigned int j = 0; j < 3; ++j)
                   hessian_error =
                     std::max(hessian_error,
-                             std::fabs(jet.hessian[i][j] - dd[j]) / (1. + std::fabs(dd[j])));
+                             std::fabs(jet.hessian[i][j] - dd[j]) /
+                               (1. + std::fabs(dd[j])));
               }
           }
       }
@@ -127,51 +143,69 @@ namespace
             "values of all operators and functions: 1e-14",
             value_error,
             1e-14);
-    verdict(gradient_error < 1e-7, "gradients against differences: 1e-7", gradient_error, 1e-7);
-    verdict(hessian_error < 1e-7, "Hessians against differences: 1e-7", hessian_error, 1e-7);
+    verdict(gradient_error < 1e-7,
+            "gradients against differences: 1e-7",
+            gradient_error,
+            1e-7);
+    verdict(hessian_error < 1e-7,
+            "Hessians against differences: 1e-7",
+            hessian_error,
+            1e-7);
   }
 
   void
   check_numbers()
   {
-    const std::vector<std::pair<std::string, double>> constants = {{"-2^2", -4.},
-                                                                   {"2^3^2", 512.},
-                                                                   {"2^-1", 0.5},
-                                                                   {"-2^-2", -0.25},
-                                                                   {"8/4/2", 1.},
-                                                                   {"1-2-3", -4.},
-                                                                   {"2+3*4^2/8", 8.},
-                                                                   {"--3", 3.},
-                                                                   {"1 < 2 == 1", 1.},
-                                                                   {"1 ? 2 : 0 ? 3 : 4", 2.},
-                                                                   {"0*x + 0 ? 1 : 2", 2.},
-                                                                   {"1 > 2 ? 1/x : 7", 7.},
-                                                                   {" .5e1 ", 5.},
-                                                                   {"cos(pi)", -1.}};
-    bool                                              good = true, folded = true;
+    const std::vector<std::pair<std::string, double>> constants = {
+      {"-2^2", -4.},
+      {"2^3^2", 512.},
+      {"2^-1", 0.5},
+      {"-2^-2", -0.25},
+      {"8/4/2", 1.},
+      {"1-2-3", -4.},
+      {"2+3*4^2/8", 8.},
+      {"--3", 3.},
+      {"1 < 2 == 1", 1.},
+      {"1 ? 2 : 0 ? 3 : 4", 2.},
+      {"0*x + 0 ? 1 : 2", 2.},
+      {"1 > 2 ? 1/x : 7", 7.},
+      {" .5e1 ", 5.},
+      {"cos(pi)", -1.}};
+    bool good = true, folded = true;
     for (const auto &[text, value] : constants)
       {
         const Expression e(text);
-        good   = good && e.value(Point<3>(1., 2., 3.)) == value;
-        folded = folded && e.is_constant() == (text.find("0*x") == std::string::npos);
+        good = good && e.value(Point<3>(1., 2., 3.)) == value;
+        folded =
+          folded && e.is_constant() == (text.find("0*x") == std::string::npos);
       }
     verdict(good, "precedence and grouping: exact", 0., 0.);
-    verdict(folded && !Expression("x").is_constant(), "constants are folded", 0., 0.);
+    verdict(folded && !Expression("x").is_constant(),
+            "constants are folded",
+            0.,
+            0.);
 
     const Point<3> origin;
-    bool           zero = Expression("x^2").hessian(origin)[0][0] == 2. &&
-                Expression("x^1").gradient(origin)[0] == 1. &&
-                Expression("x^1 + pow(y,0)").hessian(origin).norm() == 0. &&
-                Expression("(x-1)^3").hessian(origin)[0][0] == -6. &&
-                Expression("x == 0 ? y : y*sin(x)/x").gradient(origin)[1] == 1. &&
-                Expression("(x-1)^if(y>1,2,3)").gradient(origin)[0] == 3.;
-    verdict(zero, "derivatives of powers at zero and of negative bases: exact", 0., 0.);
+    bool           zero =
+      Expression("x^2").hessian(origin)[0][0] == 2. &&
+      Expression("x^1").gradient(origin)[0] == 1. &&
+      Expression("x^1 + pow(y,0)").hessian(origin).norm() == 0. &&
+      Expression("(x-1)^3").hessian(origin)[0][0] == -6. &&
+      Expression("x == 0 ? y : y*sin(x)/x").gradient(origin)[1] == 1. &&
+      Expression("(x-1)^if(y>1,2,3)").gradient(origin)[0] == 3.;
+    verdict(zero,
+            "derivatives of powers at zero and of negative bases: exact",
+            0.,
+            0.);
 
     const VectorExpression v("x*y; 2; z^2");
-    verdict(v.value({2., 3., 4.})[0] == 6. && v.gradient({2., 3., 4.})[2][2] == 8. &&
-              v.gradient({2., 3., 4.})[0][1] == 2. && v.hessian({2., 3., 4.})[0][0][1] == 1. &&
-              !v.is_constant() && VectorExpression("1;2;3").is_constant() &&
-              VectorExpression("0;0;1-1").is_zero() && VectorExpression().is_zero(),
+    verdict(v.value({2., 3., 4.})[0] == 6. &&
+              v.gradient({2., 3., 4.})[2][2] == 8. &&
+              v.gradient({2., 3., 4.})[0][1] == 2. &&
+              v.hessian({2., 3., 4.})[0][0][1] == 1. && !v.is_constant() &&
+              VectorExpression("1;2;3").is_constant() &&
+              VectorExpression("0;0;1-1").is_zero() &&
+              VectorExpression().is_zero(),
             "vectors: exact",
             0.,
             0.);
@@ -197,7 +231,8 @@ namespace
         for (const std::string &fragment : fragments)
           good = good && message.find(fragment) != std::string::npos;
       }
-    std::cout << (good ? "OK  " : "FAILED ") << "refused: " << text.substr(0, 30)
+    std::cout << (good ? "OK  " : "FAILED ")
+              << "refused: " << text.substr(0, 30)
               << (good ? "" : ": got " + message) << std::endl;
   }
 } // namespace
@@ -210,7 +245,9 @@ main()
   refused("", {"character 1", "the end", "a number, a name"});
   refused("2*", {"character 3", "the end"});
   refused("sin(x", {"character 6", "')' is expected"});
-  refused("sine(x)", {"character 1", "'sine' is not known", "did you mean 'sin'", "atan2"});
+  refused(
+    "sine(x)",
+    {"character 1", "'sine' is not known", "did you mean 'sin'", "atan2"});
   refused("x + t", {"character 5", "'t' is not known", "x, y, z, pi"});
   refused("2 x", {"character 3", "an operator or the end"});
   refused("x)", {"character 2"});

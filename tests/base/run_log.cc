@@ -1,8 +1,9 @@
-// Proves that stages, warnings and tables print once, aligned, on one rank, and that times are
-// the largest of all ranks, with stages that only some ranks entered.
-#include <mortise/base/run_log.h>
-
+// Proves that stages, warnings and tables print once, aligned, on one rank, and
+// that times are the largest of all ranks, with stages that only some ranks
+// entered.
 #include <deal.II/base/mpi.h>
+
+#include <mortise/base/run_log.h>
 
 #include <algorithm>
 #include <chrono>
@@ -39,13 +40,19 @@ namespace
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     const auto walls = timers.walls(MPI_COMM_WORLD);
-    verdict(walls.size() == 4 && walls[0].first == "total" && walls[1].first == "b",
+    verdict(walls.size() == 4 && walls[0].first == "total" &&
+              walls[1].first == "b",
             "names of all ranks in order of first use, total first");
     double a = 0., b = 0., last = 0.;
     for (const auto &[name, seconds] : walls)
-      (name == "a" ? a : name == "b" ? b : name == "last rank only" ? last : a) = seconds;
-    verdict(b == 1. + n && last == 5., "sums on a rank, maximum over the ranks");
-    verdict(timers.seconds("a") >= 0.02 && timers.total() >= timers.seconds("a"),
+      (name == "a"              ? a :
+       name == "b"              ? b :
+       name == "last rank only" ? last :
+                                  a) = seconds;
+    verdict(b == 1. + n && last == 5.,
+            "sums on a rank, maximum over the ranks");
+    verdict(timers.seconds("a") >= 0.02 &&
+              timers.total() >= timers.seconds("a"),
             "a scope measures its life");
     verdict(timers.seconds("never") == 0., "a name that was never entered");
     const PeakMemory memory = peak_memory_mib(MPI_COMM_WORLD);
@@ -72,8 +79,10 @@ namespace
                                  "  body    cells\n"
                                  "  a          96\n"
                                  "  longer      7\n";
-    verdict(out.str() == (prints ? expected : ""), "lines as they should look, on rank 0 only");
-    verdict(log.warnings() == std::vector<std::string>{"once"}, "warnings are kept");
+    verdict(out.str() == (prints ? expected : ""),
+            "lines as they should look, on rank 0 only");
+    verdict(log.warnings() == std::vector<std::string>{"once"},
+            "warnings are kept");
 
     out.str("");
     {
@@ -101,7 +110,8 @@ namespace
             "a stage that was ended early prints once");
     verdict(timers.seconds("fails") > 0. && timers.seconds("early") > 0.,
             "stages enter the timers");
-    verdict(RunLog::number(0.000123456) == "0.0001235" && RunLog::number(96.) == "96",
+    verdict(RunLog::number(0.000123456) == "0.0001235" &&
+              RunLog::number(96.) == "96",
             "numbers for people");
   }
 } // namespace

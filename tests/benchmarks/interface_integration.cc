@@ -1,13 +1,13 @@
-// Speed of search, clipping and integration on one core: overlaps per second for meshes of
-// growing size. Not a test: it prints times.
+// Speed of search, clipping and integration on one core: overlaps per second
+// for meshes of growing size. Not a test: it prints times.
 //
 //   interface_integration [largest N]
-#include "../interface/synthetic_surface.h"
-
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 #include <string>
+
+#include "../interface/synthetic_surface.h"
 
 using namespace synthetic;
 
@@ -73,10 +73,12 @@ main(int argc, char **argv)
         slave.n_u = slave.n_v = 3 * n / 2;
         master.n_u = master.n_v = n;
         master.orientation      = -1;
-        // The master reaches beyond the slave, so that every slave face is covered.
+        // The master reaches beyond the slave, so that every slave face is
+        // covered.
         master.u_0 = master.v_0 = -0.2;
         master.u_1 = master.v_1 = 1.2;
-        measure("flat 20 deg, p=" + std::to_string(degree) + " N=" + std::to_string(n),
+        measure("flat 20 deg, p=" + std::to_string(degree) +
+                  " N=" + std::to_string(n),
                 faces(plane(), slave),
                 faces(plane(20.), master),
                 degree);
@@ -89,7 +91,8 @@ main(int argc, char **argv)
         master.n_u = master.n_v = n;
         slave.degree = master.degree = degree;
         master.orientation           = -1;
-        measure("sphere, p=g=" + std::to_string(degree) + " N=" + std::to_string(n),
+        measure("sphere, p=g=" + std::to_string(degree) +
+                  " N=" + std::to_string(n),
                 faces(sphere(), slave),
                 faces(sphere(), master),
                 degree);

@@ -1,20 +1,16 @@
-// Proves the one-dimensional functions of the hierarchical element (values, derivatives,
-// orthogonality, restriction to halves) and that FE_Legendre numbers, prolongs, restricts,
-// interpolates and projects with them as FE_Q does with its own.
-
-#include "element_meshes.h"
-
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/legendre_basis.h>
+// Proves the one-dimensional functions of the hierarchical element (values,
+// derivatives, orthogonality, restriction to halves) and that FE_Legendre
+// numbers, prolongs, restricts, interpolates and projects with them as FE_Q
+// does with its own.
 
 #include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
-
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
 
 #include <deal.II/grid/grid_generator.h>
 
@@ -26,7 +22,12 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/legendre_basis.h>
+
 #include <iostream>
+
+#include "element_meshes.h"
 
 using namespace dealii;
 using namespace mortise;
@@ -37,7 +38,8 @@ verdict(const std::string &what, const double got, const double allowed)
   if (got <= allowed)
     std::cout << "OK  " << what << ": " << allowed << std::endl;
   else
-    std::cout << "FAILED  " << what << ": got " << got << ", allowed " << allowed << std::endl;
+    std::cout << "FAILED  " << what << ": got " << got << ", allowed "
+              << allowed << std::endl;
 }
 
 constexpr unsigned int P = max_lobatto_degree;
@@ -50,14 +52,17 @@ check_derivatives()
   for (const double x : {-0.05, 0., 0.2, 0.5, 0.713, 1., 1.05})
     {
       const double h = 1e-4;
-      double       v[P + 1], d[P + 1], s[P + 1], left[P + 1], right[P + 1], dl[P + 1], dr[P + 1];
+      double v[P + 1], d[P + 1], s[P + 1], left[P + 1], right[P + 1], dl[P + 1],
+        dr[P + 1];
       evaluate_lobatto(P, x, v, d, s);
       evaluate_lobatto(P, x - h, left, dl);
       evaluate_lobatto(P, x + h, right, dr);
       for (unsigned int k = 0; k <= P; ++k)
         {
-          first  = std::max(first, std::abs((right[k] - left[k]) / (2. * h) - d[k]));
-          second = std::max(second, std::abs((dr[k] - dl[k]) / (2. * h) - s[k]));
+          first =
+            std::max(first, std::abs((right[k] - left[k]) / (2. * h) - d[k]));
+          second =
+            std::max(second, std::abs((dr[k] - dl[k]) / (2. * h) - s[k]));
           std::vector<double> values(3);
           polynomials[lobatto_to_lexicographic(P, k)].value(x, values);
           polynomial = std::max({polynomial,
@@ -150,9 +155,10 @@ check_numbering(const unsigned int p)
         for (unsigned int i = 0; i < n; ++i)
           {
             on_face[face[i + n * j]] = true;
-            face_error               = std::max(face_error,
-                                  std::abs(fe.shape_value(face[i + n * j], y) -
-                                           v[(d + 1) % 3][i] * v[(d + 2) % 3][j]));
+            face_error =
+              std::max(face_error,
+                       std::abs(fe.shape_value(face[i + n * j], y) -
+                                v[(d + 1) % 3][i] * v[(d + 2) % 3][j]));
           }
       for (unsigned int i = 0; i < fe.n_dofs_per_cell(); ++i)
         if (fe.has_support_on_face(i, f) != on_face[i] ||
@@ -160,7 +166,9 @@ check_numbering(const unsigned int p)
           face_error = 1.;
     }
   verdict("p=" + std::to_string(p) + " cell numbering", worst, 1e-14);
-  verdict("p=" + std::to_string(p) + " face numbering and supports", face_error, 1e-14);
+  verdict("p=" + std::to_string(p) + " face numbering and supports",
+          face_error,
+          1e-14);
 }
 
 void
@@ -176,17 +184,20 @@ check_transfer(const unsigned int p)
   for (unsigned int child = 0; child < 8; ++child)
     {
       fe.get_prolongation_matrix(child).vmult(child_values, parent);
-      const Point<3> x          = GeometryInfo<3>::child_to_cell_coordinates(y, child);
+      const Point<3> x = GeometryInfo<3>::child_to_cell_coordinates(y, child);
       double         difference = 0.;
       for (unsigned int i = 0; i < n; ++i)
-        difference += parent(i) * fe.shape_value(i, x) - child_values(i) * fe.shape_value(i, y);
+        difference += parent(i) * fe.shape_value(i, x) -
+                      child_values(i) * fe.shape_value(i, y);
       worst = std::max(worst, std::abs(difference));
       fe.get_restriction_matrix(child).vmult(back, child_values);
       sum += back;
     }
   sum -= parent;
   verdict("p=" + std::to_string(p) + " prolongation is exact", worst, 1e-12);
-  verdict("p=" + std::to_string(p) + " restriction inverts it", sum.linfty_norm(), 1e-12);
+  verdict("p=" + std::to_string(p) + " restriction inverts it",
+          sum.linfty_norm(),
+          1e-12);
 }
 
 /// Error in L2 of the projection of a smooth function on a curved mesh.
@@ -213,8 +224,11 @@ projection_error(const FiniteElement<3> &fe, const unsigned int p)
   FEValues<3>     values(mapping,
                      fe,
                      quadrature,
-                     update_values | update_JxW_values | update_quadrature_points);
-  const auto f = [](const Point<3> &x) { return std::sin(6. * x[0] + 3. * x[1]) * std::exp(x[2]); };
+                     update_values | update_JxW_values |
+                       update_quadrature_points);
+  const auto      f = [](const Point<3> &x) {
+    return std::sin(6. * x[0] + 3. * x[1]) * std::exp(x[2]);
+  };
   FullMatrix<double>                   local(fe.n_dofs_per_cell());
   Vector<double>                       local_rhs(fe.n_dofs_per_cell());
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
@@ -248,7 +262,8 @@ projection_error(const FiniteElement<3> &fe, const unsigned int p)
       values.reinit(cell);
       values.get_function_values(u, at_points);
       for (unsigned int q = 0; q < quadrature.size(); ++q)
-        error += std::pow(at_points[q] - f(values.quadrature_point(q)), 2) * values.JxW(q);
+        error += std::pow(at_points[q] - f(values.quadrature_point(q)), 2) *
+                 values.JxW(q);
     }
   return std::sqrt(error);
 }
@@ -261,8 +276,9 @@ check_interpolation(const unsigned int p)
   DoFHandler<3> legendre(triangulation), nodal(triangulation);
   legendre.distribute_dofs(FE_Legendre(p));
   nodal.distribute_dofs(FE_Q<3>(p));
-  const ScalarFunctionFromFunctionObject<3> f(
-    [](const Point<3> &x) { return std::exp(x[0] - 2. * x[1]) * std::sin(x[2] + x[0]); });
+  const ScalarFunctionFromFunctionObject<3> f([](const Point<3> &x) {
+    return std::exp(x[0] - 2. * x[1]) * std::sin(x[2] + x[0]);
+  });
   Vector<double> u(legendre.n_dofs()), v(nodal.n_dofs());
   VectorTools::interpolate(legendre, f, u);
   VectorTools::interpolate(nodal, f, v);
@@ -280,7 +296,9 @@ check_interpolation(const unsigned int p)
       for (unsigned int q = 0; q < a.size(); ++q)
         worst = std::max(worst, std::abs(a[q] - b[q]));
     }
-  verdict("p=" + std::to_string(p) + " interpolation equals FE_Q's", worst, 1e-13);
+  verdict("p=" + std::to_string(p) + " interpolation equals FE_Q's",
+          worst,
+          1e-13);
 }
 
 int
@@ -299,7 +317,8 @@ main()
     {
       const double nodal    = projection_error(FE_Q<3>(p), p);
       const double legendre = projection_error(FE_Legendre(p), p);
-      verdict("p=" + std::to_string(p) + " error of the L2 projection as FE_Q's, relative",
+      verdict("p=" + std::to_string(p) +
+                " error of the L2 projection as FE_Q's, relative",
               std::abs(nodal - legendre) / nodal,
               1e-10);
     }

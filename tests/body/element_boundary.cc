@@ -1,11 +1,7 @@
-// Proves that conformity and boundary constraints work together in an assembled, distributed
-// system: a harmonic polynomial given on the boundary is found exactly inside, with hanging nodes,
-// degrees drawn at random and any number of ranks.
-
-#include "element_meshes.h"
-
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/hp_constraints.h>
+// Proves that conformity and boundary constraints work together in an
+// assembled, distributed system: a harmonic polynomial given on the boundary is
+// found exactly inside, with hanging nodes, degrees drawn at random and any
+// number of ranks.
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
@@ -23,7 +19,12 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/hp_constraints.h>
+
 #include <iostream>
+
+#include "element_meshes.h"
 
 using namespace dealii;
 using namespace element_test;
@@ -50,7 +51,8 @@ constrain_boundary(const DoFHandler<3>          &dof_handler,
         if (cell->at_boundary(f))
           {
             degrees.get_master_dofs(cell, masters);
-            for (const unsigned int i : mortise::face_dof_indices(cell->get_fe().degree, f))
+            for (const unsigned int i :
+                 mortise::face_dof_indices(cell->get_fe().degree, f))
               if (masters[i] != numbers::invalid_dof_index &&
                   !constraints.is_constrained(masters[i]))
                 {
@@ -70,7 +72,7 @@ assemble(const DoFHandler<3>             &dof_handler,
   hp::QCollection<3> quadrature;
   for (unsigned int i = 0; i < dof_handler.get_fe_collection().size(); ++i)
     quadrature.push_back(QGauss<3>(dof_handler.get_fe(i).degree + 1));
-  hp::FEValues<3>                      hp_values(dof_handler.get_fe_collection(),
+  hp::FEValues<3> hp_values(dof_handler.get_fe_collection(),
                             quadrature,
                             update_gradients | update_JxW_values);
   std::vector<types::global_dof_index> dofs;
@@ -85,10 +87,12 @@ assemble(const DoFHandler<3>             &dof_handler,
         for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int j = 0; j < n; ++j)
-              local(i, j) += values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
+              local(i, j) += values.shape_grad(i, q) * values.shape_grad(j, q) *
+                             values.JxW(q);
         dofs.resize(n);
         cell->get_dof_indices(dofs);
-        constraints.distribute_local_to_global(local, local_rhs, dofs, matrix, rhs, true);
+        constraints.distribute_local_to_global(
+          local, local_rhs, dofs, matrix, rhs, true);
       }
   matrix.compress(VectorOperation::add);
   rhs.compress(VectorOperation::add);
@@ -96,7 +100,9 @@ assemble(const DoFHandler<3>             &dof_handler,
 
 /// Largest difference of the found modes from the exact ones.
 double
-solve(const Triangulation<3> &triangulation, const unsigned int p, const unsigned int seed)
+solve(const Triangulation<3> &triangulation,
+      const unsigned int      p,
+      const unsigned int      seed)
 {
   hp::FECollection<3> fes;
   for (unsigned int degree = 1; degree <= 8; ++degree)
@@ -110,8 +116,11 @@ solve(const Triangulation<3> &triangulation, const unsigned int p, const unsigne
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
 
   // The modes of a polynomial are found exactly by interpolation on a cube.
-  DistributedVector modes(owned, comm), modes_with_ghosts(owned, relevant, comm);
-  VectorTools::interpolate(dof_handler, ScalarFunctionFromFunctionObject<3>(exact), modes);
+  DistributedVector modes(owned, comm),
+    modes_with_ghosts(owned, relevant, comm);
+  VectorTools::interpolate(dof_handler,
+                           ScalarFunctionFromFunctionObject<3>(exact),
+                           modes);
   modes_with_ghosts = modes;
 
   const mortise::EntityDegrees degrees(dof_handler);
@@ -121,8 +130,11 @@ solve(const Triangulation<3> &triangulation, const unsigned int p, const unsigne
   constraints.close();
 
   TrilinosWrappers::SparsityPattern pattern(owned, owned, comm);
-  DoFTools::make_sparsity_pattern(
-    dof_handler, pattern, constraints, false, Utilities::MPI::this_mpi_process(comm));
+  DoFTools::make_sparsity_pattern(dof_handler,
+                                  pattern,
+                                  constraints,
+                                  false,
+                                  Utilities::MPI::this_mpi_process(comm));
   pattern.compress();
   TrilinosWrappers::SparseMatrix matrix;
   matrix.reinit(pattern);
@@ -143,7 +155,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream out(std::cout, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+  ConditionalOStream               out(std::cout,
+                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
   for (unsigned int p = 2; p <= 4; ++p)
     for (unsigned int seed = 1; seed <= 2; ++seed)
       {
@@ -151,9 +164,9 @@ main(int argc, char **argv)
         create_shape("cube", seed, triangulation);
         refine_at_random(triangulation, p == 2 ? 2 : 1, seed);
         const double      error = solve(triangulation, p, seed);
-        const std::string what  = "p=" + std::to_string(p) + ".." + std::to_string(p + 2) +
-                                 ", mesh " + std::to_string(seed) +
-                                 ": harmonic polynomial is found, 1e-9";
+        const std::string what =
+          "p=" + std::to_string(p) + ".." + std::to_string(p + 2) + ", mesh " +
+          std::to_string(seed) + ": harmonic polynomial is found, 1e-9";
         if (error <= 1e-9)
           out << "OK  " << what << std::endl;
         else

@@ -1,8 +1,6 @@
-// Proves that the diagonally scaled mass and stiffness of one cell are far better conditioned with
-// FE_Legendre than with FE_Q_Hierarchical. With the argument "table" it prints the numbers of
-// doc/element.md.
-
-#include <mortise/body/fe_legendre.h>
+// Proves that the diagonally scaled mass and stiffness of one cell are far
+// better conditioned with FE_Legendre than with FE_Q_Hierarchical. With the
+// argument "table" it prints the numbers of doc/element.md.
 
 #include <deal.II/base/quadrature_lib.h>
 
@@ -15,6 +13,8 @@
 #include <deal.II/grid/grid_generator.h>
 
 #include <deal.II/lac/lapack_full_matrix.h>
+
+#include <mortise/body/fe_legendre.h>
 
 #include <cstdio>
 #include <iostream>
@@ -57,8 +57,10 @@ condition(const FiniteElement<3> &fe)
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
         {
-          mass(i, j) += values.shape_value(i, q) * values.shape_value(j, q) * values.JxW(q);
-          stiffness(i, j) += values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
+          mass(i, j) +=
+            values.shape_value(i, q) * values.shape_value(j, q) * values.JxW(q);
+          stiffness(i, j) +=
+            values.shape_grad(i, q) * values.shape_grad(j, q) * values.JxW(q);
         }
   return {scaled_condition(mass, 0), scaled_condition(stiffness, 1)};
 }
@@ -88,12 +90,13 @@ main(int argc, char **argv)
       return 0;
     }
 
-  const auto verdict = [](const std::string &what, const double got, const double allowed) {
-    if (got <= allowed)
-      std::cout << "OK  " << what << std::endl;
-    else
-      std::cout << "FAILED  " << what << ": got " << got << std::endl;
-  };
+  const auto verdict =
+    [](const std::string &what, const double got, const double allowed) {
+      if (got <= allowed)
+        std::cout << "OK  " << what << std::endl;
+      else
+        std::cout << "FAILED  " << what << ": got " << got << std::endl;
+    };
   for (unsigned int p = 2; p <= 5; ++p)
     {
       const Condition   legendre = condition(mortise::FE_Legendre(p));
@@ -103,8 +106,8 @@ main(int argc, char **argv)
       verdict(at + " stiffness: condition <= 2e4", legendre.stiffness, 2e4);
       if (p >= 4)
         verdict(at + " a hundred times better than FE_Q_Hierarchical",
-                100. *
-                  std::max(legendre.mass / monomial.mass, legendre.stiffness / monomial.stiffness),
+                100. * std::max(legendre.mass / monomial.mass,
+                                legendre.stiffness / monomial.stiffness),
                 1.);
     }
 }

@@ -1,11 +1,7 @@
-// Proves that the minimum-rule constraints make FE_Legendre conforming: a random function does not
-// jump across any face, hanging ones and those between ranks included, for degrees drawn at random,
-// and that polynomials of the lowest degree are in the space.
-
-#include "element_meshes.h"
-
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/hp_constraints.h>
+// Proves that the minimum-rule constraints make FE_Legendre conforming: a
+// random function does not jump across any face, hanging ones and those between
+// ranks included, for degrees drawn at random, and that polynomials of the
+// lowest degree are in the space.
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
@@ -22,7 +18,12 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/hp_constraints.h>
+
 #include <iostream>
+
+#include "element_meshes.h"
 
 using namespace dealii;
 using namespace element_test;
@@ -32,15 +33,19 @@ using CellIterator      = DoFHandler<3>::active_cell_iterator;
 
 /// Values of all components at the points of the reference cell.
 std::vector<Vector<double>>
-evaluate(const CellIterator &cell, const DistributedVector &u, const std::vector<Point<3>> &points)
+evaluate(const CellIterator          &cell,
+         const DistributedVector     &u,
+         const std::vector<Point<3>> &points)
 {
   const auto                          &fe = cell->get_fe();
   std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
   cell->get_dof_indices(dofs);
-  std::vector<Vector<double>> values(points.size(), Vector<double>(fe.n_components()));
+  std::vector<Vector<double>> values(points.size(),
+                                     Vector<double>(fe.n_components()));
   for (unsigned int q = 0; q < points.size(); ++q)
     for (unsigned int i = 0; i < dofs.size(); ++i)
-      values[q][fe.system_to_component_index(i).first] += u(dofs[i]) * fe.shape_value(i, points[q]);
+      values[q][fe.system_to_component_index(i).first] +=
+        u(dofs[i]) * fe.shape_value(i, points[q]);
   return values;
 }
 
@@ -95,12 +100,16 @@ largest_jump(const DoFHandler<3> &dof_handler, const DistributedVector &u)
                   while (parent->child_index(child) != cell->index())
                     ++child;
                   there.push_back(move_to_neighbor(
-                    parent, f, neighbor, GeometryInfo<3>::child_to_cell_coordinates(x, child)));
+                    parent,
+                    f,
+                    neighbor,
+                    GeometryInfo<3>::child_to_cell_coordinates(x, child)));
                 }
               else
                 there.push_back(move_to_neighbor(cell, f, neighbor, x));
             }
-          const auto values = evaluate(cell, u, here), others = evaluate(neighbor, u, there);
+          const auto values = evaluate(cell, u, here),
+                     others = evaluate(neighbor, u, there);
           for (unsigned int q = 0; q < values.size(); ++q)
             for (unsigned int c = 0; c < values[q].size(); ++c)
               jump = std::max(jump, std::abs(values[q][c] - others[q][c]));
@@ -115,13 +124,13 @@ public:
   TestPolynomial(const unsigned int n_components, const unsigned int p)
     : Function<3>(n_components)
     , p(p)
-  {
-  }
+  {}
 
   double
   value(const Point<3> &x, const unsigned int c) const override
   {
-    return std::pow(x[c], p) - std::pow(0.3 - x[(c + 1) % 3], p) * x[(c + 2) % 3];
+    return std::pow(x[c], p) -
+           std::pow(0.3 - x[(c + 1) % 3], p) * x[(c + 2) % 3];
   }
 
 private:
@@ -163,7 +172,9 @@ check(Triangulation<3>  &triangulation,
 
   Result result;
   result.consistent = constraints.is_consistent_in_parallel(
-    Utilities::MPI::all_gather(comm, dof_handler.locally_owned_dofs()), active, comm);
+    Utilities::MPI::all_gather(comm, dof_handler.locally_owned_dofs()),
+    active,
+    comm);
 
   types::global_dof_index n_free = 0;
   DistributedVector       u(dof_handler.locally_owned_dofs(), relevant, comm);
@@ -179,7 +190,8 @@ check(Triangulation<3>  &triangulation,
   u.update_ghost_values();
   result.jump = largest_jump(dof_handler, u);
 
-  // Interpolation gives the modes of polynomials exactly where the mapping is affine.
+  // Interpolation gives the modes of polynomials exactly where the mapping is
+  // affine.
   DistributedVector v(dof_handler.locally_owned_dofs(), relevant, comm), w(v);
   VectorTools::interpolate(dof_handler, TestPolynomial(n_components, first), v);
   w = v;
@@ -196,15 +208,17 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                   comm = MPI_COMM_WORLD;
-  ConditionalOStream               out(std::cout, Utilities::MPI::this_mpi_process(comm) == 0);
-  const bool                       serial = Utilities::MPI::n_mpi_processes(comm) == 1;
+  ConditionalOStream               out(std::cout,
+                         Utilities::MPI::this_mpi_process(comm) == 0);
+  const bool serial = Utilities::MPI::n_mpi_processes(comm) == 1;
 
-  const auto verdict = [&](const bool ok, const std::string &what, const double got) {
-    if (ok)
-      out << "OK  " << what << std::endl;
-    else
-      out << "FAILED  " << what << ": got " << got << std::endl;
-  };
+  const auto verdict =
+    [&](const bool ok, const std::string &what, const double got) {
+      if (ok)
+        out << "OK  " << what << std::endl;
+      else
+        out << "FAILED  " << what << ": got " << got << std::endl;
+    };
 
   // Another first seed may be given, for longer searches than a test affords.
   std::mt19937 random(argc > 1 ? std::stoi(argv[1]) : 1);
@@ -219,24 +233,31 @@ main(int argc, char **argv)
               continue;
             std::unique_ptr<Triangulation<3>> triangulation;
             if (distributed)
-              triangulation = std::make_unique<parallel::distributed::Triangulation<3>>(comm);
+              triangulation =
+                std::make_unique<parallel::distributed::Triangulation<3>>(comm);
             else
               triangulation = std::make_unique<Triangulation<3>>();
             create_shape(shape, seed, *triangulation);
             if (!mortise::is_consistently_ordered(*triangulation))
-              out << "FAILED  " << shape << " is not ordered consistently" << std::endl;
+              out << "FAILED  " << shape << " is not ordered consistently"
+                  << std::endl;
             refine_at_random(*triangulation, last <= 5 ? 2 : 1, seed);
             const unsigned int n      = last <= 4 ? 3 : 1;
             const Result       result = check(*triangulation, n, p, last, seed);
 
-            const std::string what = shape + (distributed ? "" : ", serial") +
-                                     ", p=" + std::to_string(p) + ".." + std::to_string(last) +
-                                     ", " + std::to_string(n) + " components, " +
-                                     std::to_string(triangulation->n_global_active_cells()) +
-                                     " cells, " + std::to_string(result.n_free) + " free";
-            verdict(result.jump <= 1e-12, what + ": jump <= 1e-12", result.jump);
+            const std::string what =
+              shape + (distributed ? "" : ", serial") +
+              ", p=" + std::to_string(p) + ".." + std::to_string(last) + ", " +
+              std::to_string(n) + " components, " +
+              std::to_string(triangulation->n_global_active_cells()) +
+              " cells, " + std::to_string(result.n_free) + " free";
+            verdict(result.jump <= 1e-12,
+                    what + ": jump <= 1e-12",
+                    result.jump);
             verdict(result.consistent, what + ": the same on every rank", 0.);
             if (shape == "cube")
-              verdict(result.lost <= 1e-12, what + ": polynomials are kept, 1e-12", result.lost);
+              verdict(result.lost <= 1e-12,
+                      what + ": polynomials are kept, 1e-12",
+                      result.lost);
           }
 }

@@ -1,10 +1,6 @@
-// Proves that FE_Legendre gives the same operator by MatrixFree and by FEValues, on meshes with
-// hanging nodes, for one degree and mixed ones, and that the operator does not depend on the ranks.
-
-#include "element_meshes.h"
-
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/hp_constraints.h>
+// Proves that FE_Legendre gives the same operator by MatrixFree and by
+// FEValues, on meshes with hanging nodes, for one degree and mixed ones, and
+// that the operator does not depend on the ranks.
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
@@ -22,7 +18,12 @@
 #include <deal.II/matrix_free/fe_evaluation.h>
 #include <deal.II/matrix_free/matrix_free.h>
 
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/hp_constraints.h>
+
 #include <iostream>
+
+#include "element_meshes.h"
 
 using namespace dealii;
 using namespace element_test;
@@ -45,16 +46,23 @@ apply_matrix_free(const MatrixFree<3>     &matrix_free,
     for (unsigned int cell = range.first; cell < range.second; ++cell)
       {
         phi.reinit(cell);
-        phi.gather_evaluate(from, EvaluationFlags::values | EvaluationFlags::gradients);
+        phi.gather_evaluate(from,
+                            EvaluationFlags::values |
+                              EvaluationFlags::gradients);
         for (unsigned int q = 0; q < phi.n_q_points; ++q)
           {
             phi.submit_value(phi.get_value(q), q);
             phi.submit_gradient(phi.get_gradient(q), q);
           }
-        phi.integrate_scatter(EvaluationFlags::values | EvaluationFlags::gradients, to);
+        phi.integrate_scatter(EvaluationFlags::values |
+                                EvaluationFlags::gradients,
+                              to);
       }
   };
-  matrix_free.cell_loop<DistributedVector, DistributedVector>(on_cells, y, x, true);
+  matrix_free.cell_loop<DistributedVector, DistributedVector>(on_cells,
+                                                              y,
+                                                              x,
+                                                              true);
 }
 
 /// The same cell by cell; @p x has its constrained degrees of freedom set and ghosts updated.
@@ -70,7 +78,8 @@ apply_by_values(const Mapping<3>                &mapping,
   hp::FEValues<3>                      hp_values(mappings,
                             dof_handler.get_fe_collection(),
                             quadrature,
-                            update_values | update_gradients | update_JxW_values);
+                            update_values | update_gradients |
+                              update_JxW_values);
   std::vector<types::global_dof_index> dofs;
   y = 0.;
   for (const auto &cell : dof_handler.active_cell_iterators())
@@ -88,16 +97,18 @@ apply_by_values(const Mapping<3>                &mapping,
             Tensor<2, 3> gradient;
             for (unsigned int i = 0; i < n; ++i)
               {
-                const unsigned int c = cell->get_fe().system_to_component_index(i).first;
+                const unsigned int c =
+                  cell->get_fe().system_to_component_index(i).first;
                 value[c] += x(dofs[i]) * values.shape_value(i, q);
                 gradient[c] += x(dofs[i]) * values.shape_grad(i, q);
               }
             for (unsigned int i = 0; i < n; ++i)
               {
-                const unsigned int c = cell->get_fe().system_to_component_index(i).first;
-                local(i) +=
-                  (value[c] * values.shape_value(i, q) + gradient[c] * values.shape_grad(i, q)) *
-                  values.JxW(q);
+                const unsigned int c =
+                  cell->get_fe().system_to_component_index(i).first;
+                local(i) += (value[c] * values.shape_value(i, q) +
+                             gradient[c] * values.shape_grad(i, q)) *
+                            values.JxW(q);
               }
           }
         constraints.distribute_local_to_global(local, dofs, y);
@@ -107,7 +118,9 @@ apply_by_values(const Mapping<3>                &mapping,
 
 /// Largest difference of both products, relative to the product.
 double
-difference(const Triangulation<3> &triangulation, unsigned int first, unsigned int last)
+difference(const Triangulation<3> &triangulation,
+           unsigned int            first,
+           unsigned int            last)
 {
   const MappingQ<3>   mapping(2);
   hp::FECollection<3> fes;
@@ -128,7 +141,8 @@ difference(const Triangulation<3> &triangulation, unsigned int first, unsigned i
 
   MatrixFree<3>                 matrix_free;
   MatrixFree<3>::AdditionalData data;
-  data.mapping_update_flags = update_values | update_gradients | update_JxW_values;
+  data.mapping_update_flags =
+    update_values | update_gradients | update_JxW_values;
   matrix_free.reinit(mapping, dof_handler, constraints, quadrature_1d, data);
 
   const MPI_Comm    comm = dof_handler.get_communicator();
@@ -164,7 +178,8 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream out(std::cout, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+  ConditionalOStream               out(std::cout,
+                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
   for (const std::string shape : {"cube", "ball"})
     for (unsigned int p = 2; p <= 4; ++p)
       for (const unsigned int last : {p, p + 2})
@@ -174,7 +189,8 @@ main(int argc, char **argv)
           refine_at_random(triangulation, 1, p);
           const double      worst = difference(triangulation, p, last);
           const std::string what  = shape + ", p=" + std::to_string(p) + ".." +
-                                   std::to_string(last) + ": MatrixFree equals FEValues, 1e-13";
+                                   std::to_string(last) +
+                                   ": MatrixFree equals FEValues, 1e-13";
           if (worst <= 1e-13)
             out << "OK  " << what << std::endl;
           else

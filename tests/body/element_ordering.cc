@@ -1,15 +1,15 @@
-// Proves that is_consistently_ordered() sees meshes whose cells are not ordered consistently, that
-// a Moebius strip cannot be ordered, and that after one uniform refinement, made into a coarse mesh
-// of its own, it can.
-
-#include "element_meshes.h"
-
-#include <mortise/body/hp_constraints.h>
+// Proves that is_consistently_ordered() sees meshes whose cells are not ordered
+// consistently, that a Moebius strip cannot be ordered, and that after one
+// uniform refinement, made into a coarse mesh of its own, it can.
 
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
+#include <mortise/body/hp_constraints.h>
+
 #include <iostream>
+
+#include "element_meshes.h"
 
 using namespace dealii;
 using namespace element_test;
@@ -24,7 +24,8 @@ verdict(const std::string &what, const bool ok)
 bool
 can_be_ordered(const Triangulation<3> &triangulation)
 {
-  auto [vertices, cells, faces] = GridTools::get_coarse_mesh_description(triangulation);
+  auto [vertices, cells, faces] =
+    GridTools::get_coarse_mesh_description(triangulation);
   GridTools::consistently_order_cells(cells);
   Triangulation<3> ordered;
   ordered.create_triangulation(vertices, cells, SubCellData());
@@ -49,12 +50,14 @@ main()
   std::mt19937 random(1);
   turn_cells(cells, random);
   turned.create_triangulation(vertices, cells, SubCellData());
-  verdict("a cube with turned cells is not", !mortise::is_consistently_ordered(turned));
+  verdict("a cube with turned cells is not",
+          !mortise::is_consistently_ordered(turned));
 
   // A quarter turn of the cross section before the ends are joined.
   Triangulation<3> strip;
   GridGenerator::moebius(strip, 8, 1, 1., 0.2);
-  verdict("a Moebius strip is not ordered", !mortise::is_consistently_ordered(strip));
+  verdict("a Moebius strip is not ordered",
+          !mortise::is_consistently_ordered(strip));
   verdict("and cannot be", !can_be_ordered(strip));
   strip.refine_global(1);
   Triangulation<3> flat;

@@ -1,10 +1,6 @@
-// Proves that functions of FE_Legendre survive refinement and coarsening: SolutionTransfer keeps
-// polynomials of the element's degree exactly, for one degree and for mixed ones.
-
-#include "element_meshes.h"
-
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/hp_constraints.h>
+// Proves that functions of FE_Legendre survive refinement and coarsening:
+// SolutionTransfer keeps polynomials of the element's degree exactly, for one
+// degree and for mixed ones.
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
@@ -19,7 +15,12 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/hp_constraints.h>
+
 #include <iostream>
+
+#include "element_meshes.h"
 
 using namespace dealii;
 using namespace element_test;
@@ -32,13 +33,13 @@ public:
   explicit TestPolynomial(const unsigned int p)
     : Function<3>(3)
     , p(p)
-  {
-  }
+  {}
 
   double
   value(const Point<3> &x, const unsigned int c) const override
   {
-    return std::pow(x[c], p) - std::pow(0.3 - x[(c + 1) % 3], p) * x[(c + 2) % 3];
+    return std::pow(x[c], p) -
+           std::pow(0.3 - x[(c + 1) % 3], p) * x[(c + 2) % 3];
   }
 
 private:
@@ -50,13 +51,16 @@ interpolate(const DoFHandler<3> &dof_handler, const unsigned int p)
 {
   IndexSet relevant;
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);
-  DistributedVector v(dof_handler.locally_owned_dofs(), relevant, dof_handler.get_communicator());
+  DistributedVector v(dof_handler.locally_owned_dofs(),
+                      relevant,
+                      dof_handler.get_communicator());
   VectorTools::interpolate(dof_handler, TestPolynomial(p), v);
   v.update_ghost_values();
   return v;
 }
 
-/// Largest error of a mode after one refinement and coarsening of cells drawn at random.
+/// Largest error of a mode after one refinement and coarsening of cells drawn
+/// at random.
 double
 transfer_error(const unsigned int first, const unsigned int last)
 {
@@ -80,7 +84,8 @@ transfer_error(const unsigned int first, const unsigned int last)
         else if (cell_number(cell, 9) % 3 == 0)
           cell->set_refine_flag();
       }
-  parallel::distributed::SolutionTransfer<3, DistributedVector> transfer(dof_handler);
+  parallel::distributed::SolutionTransfer<3, DistributedVector> transfer(
+    dof_handler);
   triangulation.prepare_coarsening_and_refinement();
   transfer.prepare_for_coarsening_and_refinement(u);
   triangulation.execute_coarsening_and_refinement();
@@ -99,13 +104,15 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream out(std::cout, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
+  ConditionalOStream               out(std::cout,
+                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
   for (unsigned int p = 1; p <= 4; ++p)
     for (const unsigned int last : {p, p + 2})
       {
         const double      error = transfer_error(p, last);
-        const std::string what  = "p=" + std::to_string(p) + ".." + std::to_string(last) +
-                                 ": polynomials survive refinement and coarsening, 1e-12";
+        const std::string what =
+          "p=" + std::to_string(p) + ".." + std::to_string(last) +
+          ": polynomials survive refinement and coarsening, 1e-12";
         if (error <= 1e-12)
           out << "OK  " << what << std::endl;
         else

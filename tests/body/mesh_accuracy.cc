@@ -1,15 +1,16 @@
-// Curved meshes are as accurate as the mapping: with MappingQ of degree p = 1..8 the distance of
-// the mapped surface from the true one, the area and the volume converge with order p+1 or more,
-// under uniform refinement, and locally refined meshes stay as accurate; far away and at any scale.
-
-#include <mortise/body/manifolds.h>
-#include <mortise/body/mesh_source.h>
+// Curved meshes are as accurate as the mapping: with MappingQ of degree p
+// = 1..8 the distance of the mapped surface from the true one, the area and the
+// volume converge with order p+1 or more, under uniform refinement, and locally
+// refined meshes stay as accurate; far away and at any scale.
 
 #include <deal.II/base/quadrature_lib.h>
 
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
+
+#include <mortise/body/manifolds.h>
+#include <mortise/body/mesh_source.h>
 
 #include <cmath>
 #include <functional>
@@ -32,9 +33,9 @@ namespace
   {
     std::string    name;
     MeshParameters parameters;
-    std::string    curved; ///< the boundary whose distance and area are measured
-    Distance       distance;
-    double         area, volume;
+    std::string curved; ///< the boundary whose distance and area are measured
+    Distance    distance;
+    double      area, volume;
   };
 
   Errors
@@ -49,7 +50,10 @@ namespace
     const QGauss<3>     cell_rule(p + 3);
     const QGauss<2>     face_rule(p + 3);
     FEValues<3>         values(mapping, fe, cell_rule, update_JxW_values);
-    FEFaceValues<3>     faces(mapping, fe, face_rule, update_JxW_values | update_quadrature_points);
+    FEFaceValues<3>     faces(mapping,
+                          fe,
+                          face_rule,
+                          update_JxW_values | update_quadrature_points);
     const RigidMotion   motion = rigid_motion(body.parameters);
     const auto          id     = names.boundaries.at(body.curved);
     Errors              e;
@@ -67,9 +71,9 @@ namespace
               for (unsigned int q = 0; q < face_rule.size(); ++q)
                 {
                   area += faces.JxW(q);
-                  e.distance =
-                    std::max(e.distance,
-                             std::fabs(body.distance(motion.inverse(faces.quadrature_point(q)))));
+                  e.distance = std::max(e.distance,
+                                        std::fabs(body.distance(motion.inverse(
+                                          faces.quadrature_point(q)))));
                 }
             }
       }
@@ -91,7 +95,7 @@ namespace
   std::vector<Body>
   bodies(const double scale, const double away)
   {
-    const double      pi = numbers::PI, area = scale * scale, volume = area * scale;
+    const double pi = numbers::PI, area = scale * scale, volume = area * scale;
     std::vector<Body> result(4);
 
     MeshParameters q;
@@ -113,7 +117,9 @@ namespace
     result[1] = {"cylinder sector",
                  q,
                  "inside",
-                 [scale](const Point<3> &x) { return std::hypot(x[0], x[1]) / scale - 1.; },
+                 [scale](const Point<3> &x) {
+                   return std::hypot(x[0], x[1]) / scale - 1.;
+                 },
                  pi / 2. * area,
                  pi / 4. * 1.25 * volume};
 
@@ -127,33 +133,37 @@ namespace
         q.surface      = half == 0 ? "wave" : "bump";
         q.amplitude    = 0.3;
         place(q, scale, away);
-        const CurvedBlockManifold::Shape shape{0.,
-                                               0.,
-                                               0.,
-                                               2.,
-                                               2.,
-                                               2.,
-                                               1.,
-                                               0.3,
-                                               half == 0 ? CurvedBlockManifold::Surface::wave :
-                                                           CurvedBlockManifold::Surface::bump};
-        const QGauss<2>                  rule(30);
-        double                           under = 0., surface = 0.;
+        const CurvedBlockManifold::Shape shape{
+          0.,
+          0.,
+          0.,
+          2.,
+          2.,
+          2.,
+          1.,
+          0.3,
+          half == 0 ? CurvedBlockManifold::Surface::wave :
+                      CurvedBlockManifold::Surface::bump};
+        const QGauss<2> rule(30);
+        double          under = 0., surface = 0.;
         for (unsigned int i = 0; i < rule.size(); ++i)
           {
-            const auto h = shape.height(2. * rule.point(i)[0], 2. * rule.point(i)[1]);
+            const auto h =
+              shape.height(2. * rule.point(i)[0], 2. * rule.point(i)[1]);
             under += 4. * rule.weight(i) * (1. + h.value);
-            surface += 4. * rule.weight(i) * std::sqrt(1. + h.dx * h.dx + h.dy * h.dy);
+            surface +=
+              4. * rule.weight(i) * std::sqrt(1. + h.dx * h.dx + h.dy * h.dy);
           }
-        result[2 + half] = {half == 0 ? "wave, lower" : "bump, upper",
-                            q,
-                            "interface",
-                            [scale, shape](const Point<3> &x) {
-                              return x[2] / scale - 1. -
-                                     shape.height(x[0] / scale, x[1] / scale).value;
-                            },
-                            surface * area,
-                            (half == 0 ? under : 8. - under) * volume};
+        result[2 + half] = {
+          half == 0 ? "wave, lower" : "bump, upper",
+          q,
+          "interface",
+          [scale, shape](const Point<3> &x) {
+            return x[2] / scale - 1. -
+                   shape.height(x[0] / scale, x[1] / scale).value;
+          },
+          surface * area,
+          (half == 0 ? under : 8. - under) * volume};
       }
     return result;
   }
@@ -180,8 +190,10 @@ namespace
   void
   check_orders(const Body &body, const double away)
   {
-    const unsigned int  step = away > 0. ? 7 : 1; // far away degrees 1 and 8 are enough
-    std::vector<double> distance[max_degree + 1], area[max_degree + 1], volume[max_degree + 1];
+    const unsigned int step =
+      away > 0. ? 7 : 1; // far away degrees 1 and 8 are enough
+    std::vector<double> distance[max_degree + 1], area[max_degree + 1],
+      volume[max_degree + 1];
     for (unsigned int refinements = 1; refinements < 4; ++refinements)
       {
         MeshParameters q = body.parameters;
@@ -196,26 +208,33 @@ namespace
             volume[p].push_back(e.volume);
           }
       }
-    // Rounding of coordinates for the distance, of sums over points for the others.
-    const double floor_distance = 1e-13 + 4e-14 * away, floor_sum = 2e-12 + 4e-14 * away;
-    double       least[3] = {1e3, 1e3, 1e3};
+    // Rounding of coordinates for the distance, of sums over points for the
+    // others.
+    const double floor_distance = 1e-13 + 4e-14 * away,
+                 floor_sum      = 2e-12 + 4e-14 * away;
+    double least[3]             = {1e3, 1e3, 1e3};
     for (unsigned int p = 1; p <= max_degree; p += step)
       {
-        least[0] = std::min(least[0], order(distance[p], floor_distance) - (p + 1.));
+        least[0] =
+          std::min(least[0], order(distance[p], floor_distance) - (p + 1.));
         least[1] = std::min(least[1], order(area[p], floor_sum) - (p + 1.));
         least[2] = std::min(least[2], order(volume[p], floor_sum) - (p + 1.));
       }
     const std::string name = body.name + (away > 100. ? ", far away: " : ": ");
-    verdict(least[0] > -0.2, name + "distance from the surface, order at least p + 0.8", least[0]);
+    verdict(least[0] > -0.2,
+            name + "distance from the surface, order at least p + 0.8",
+            least[0]);
     verdict(least[1] > -0.2, name + "area, order at least p + 0.8", least[1]);
     verdict(least[2] > -0.2, name + "volume, order at least p + 0.8", least[2]);
-    verdict(distance[max_degree].back() < floor_distance && area[max_degree].back() < floor_sum &&
+    verdict(distance[max_degree].back() < floor_distance &&
+              area[max_degree].back() < floor_sum &&
               volume[max_degree].back() < floor_sum,
             name + "degree 8 on 8 x 8 faces is exact to rounding",
             distance[max_degree].back());
   }
 
-  /// Cells made by local refinement lie on the surface as well as those of uniform refinement.
+  /// Cells made by local refinement lie on the surface as well as those of
+  /// uniform refinement.
   void
   check_local(const Body &body)
   {
@@ -226,11 +245,13 @@ namespace
     MeshNames        names = create_mesh(uniform, tria);
     const double     fine  = errors(tria, names, body, p).distance;
 
-    // A vertex of the curved boundary after one refinement, where the body stands.
+    // A vertex of the curved boundary after one refinement, where the body
+    // stands.
     Point<3> corner;
     for (const auto &cell : tria.cell_iterators_on_level(1))
       for (const auto &face : cell->face_iterators())
-        if (face->at_boundary() && face->boundary_id() == names.boundaries.at(body.curved))
+        if (face->at_boundary() &&
+            face->boundary_id() == names.boundaries.at(body.curved))
           corner = face->vertex(0);
     std::ostringstream text;
     text.precision(17);
@@ -239,10 +260,12 @@ namespace
     local.refine_near = text.str();
     HexTriangulation refined(MPI_COMM_WORLD);
     names = create_mesh(local, refined);
-    verdict(refined.n_global_levels() == 4 && refined.has_hanging_nodes() &&
-              errors(refined, names, body, p, 3).distance < 1.000001 * fine,
-            body.name + ": locally refined cells as near the surface as uniformly refined ones",
-            errors(refined, names, body, p, 3).distance / fine);
+    verdict(
+      refined.n_global_levels() == 4 && refined.has_hanging_nodes() &&
+        errors(refined, names, body, p, 3).distance < 1.000001 * fine,
+      body.name +
+        ": locally refined cells as near the surface as uniformly refined ones",
+      errors(refined, names, body, p, 3).distance / fine);
   }
 } // namespace
 

@@ -1,12 +1,13 @@
-// Meshes from gmsh files: both versions, names of boundaries, placement, cells that cannot be
-// ordered consistently; damaged and unsuitable files are refused with a message.
-
-#include <mortise/base/error.h>
-#include <mortise/body/mesh_source.h>
+// Meshes from gmsh files: both versions, names of boundaries, placement, cells
+// that cannot be ordered consistently; damaged and unsuitable files are refused
+// with a message.
 
 #include <deal.II/base/conditional_ostream.h>
 
 #include <deal.II/grid/grid_tools.h>
+
+#include <mortise/base/error.h>
+#include <mortise/body/mesh_source.h>
 
 #include <cmath>
 #include <fstream>
@@ -21,16 +22,22 @@ namespace
   {
   public:
     void
-    operator()(const bool good, const std::string &what, const std::string &got = "")
+    operator()(const bool         good,
+               const std::string &what,
+               const std::string &got = "")
     {
-      out << (good ? "OK  " : "FAILED ") << what << (good ? "" : ": got " + got) << std::endl;
+      out << (good ? "OK  " : "FAILED ") << what << (good ? "" : ": got " + got)
+          << std::endl;
     }
 
-    ConditionalOStream out{std::cout, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0};
+    ConditionalOStream out{std::cout,
+                           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) ==
+                             0};
   };
 
-  /// Two hexahedra, 2 x 1 x 1, in version 2.2. Surfaces: x = 0 "glued face" (1), z = 0 "bottom"
-  /// (7), x = 2 without a name (12), the rest in no physical surface.
+  /// Two hexahedra, 2 x 1 x 1, in version 2.2. Surfaces: x = 0 "glued face"
+  /// (1), z = 0 "bottom" (7), x = 2 without a name (12), the rest in no
+  /// physical surface.
   const std::string version_2 = R"($MeshFormat
 2.2 0 8
 $EndMeshFormat
@@ -126,8 +133,8 @@ $Elements
 $EndElements
 )";
 
-  /// A ring of 12 cells whose cross-section turns by 180 degrees: no order of its cells gives
-  /// all edges one direction.
+  /// A ring of 12 cells whose cross-section turns by 180 degrees: no order of
+  /// its cells gives all edges one direction.
   std::string
   twisted_ring()
   {
@@ -141,8 +148,8 @@ $EndElements
           const double around = 2. * numbers::PI * k / n,
                        turn   = around / 2. + (v + 0.5) * numbers::PI / 2.;
           const double r      = 4. + std::cos(turn);
-          text << 4 * k + v + 1 << " " << r * std::cos(around) << " " << r * std::sin(around) << " "
-               << std::sin(turn) << "\n";
+          text << 4 * k + v + 1 << " " << r * std::cos(around) << " "
+               << r * std::sin(around) << " " << std::sin(turn) << "\n";
         }
     text << "$EndNodes\n$Elements\n" << n << "\n";
     for (unsigned int k = 0; k < n; ++k)
@@ -150,7 +157,9 @@ $EndElements
         text << k + 1 << " 5 2 1 1";
         for (unsigned int side = 0; side < 2; ++side)
           for (unsigned int v = 0; v < 4; ++v)
-            text << " " << 4 * ((k + side) % n) + (v + (k + side == n ? 2 : 0)) % 4 + 1;
+            text << " "
+                 << 4 * ((k + side) % n) + (v + (k + side == n ? 2 : 0)) % 4 +
+                      1;
         text << "\n";
       }
     text << "$EndElements\n";
@@ -161,7 +170,8 @@ $EndElements
   file(const std::string &file_name, const std::string &content)
   {
     const std::string name =
-      std::to_string(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) + "_ranks_" + file_name;
+      std::to_string(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) +
+      "_ranks_" + file_name;
     MPI_Barrier(MPI_COMM_WORLD); // the file may have been in use
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::ofstream(name) << content;
@@ -185,19 +195,25 @@ $EndElements
   }
 
   void
-  check_version(Report &report, const std::string &version, const std::string &content)
+  check_version(Report            &report,
+                const std::string &version,
+                const std::string &content)
   {
     MeshParameters q = file("two_cells_" + version + ".msh", content);
     q.refinements    = 1;
     validate(q, "Mesh");
     HexTriangulation tria(MPI_COMM_WORLD);
     const MeshNames  names = create_mesh(q, tria);
-    report(names.boundaries == std::map<std::string, types::boundary_id>(
-                                 {{"12", 12}, {"bottom", 7}, {"glued face", 1}}) &&
-             names.materials == std::map<types::material_id, std::string>({{3, "steel"}}) &&
-             boundary_names(q) == std::vector<std::string>({"12", "bottom", "glued face"}),
+    report(names.boundaries ==
+               std::map<std::string, types::boundary_id>(
+                 {{"12", 12}, {"bottom", 7}, {"glued face", 1}}) &&
+             names.materials ==
+               std::map<types::material_id, std::string>({{3, "steel"}}) &&
+             boundary_names(q) ==
+               std::vector<std::string>({"12", "bottom", "glued face"}),
            "version " + version + ": names");
-    // x -> y, y -> -x, then 10 along x: bottom is at z = 0, the glued face at y = 0.
+    // x -> y, y -> -x, then 10 along x: bottom is at z = 0, the glued face at y
+    // = 0.
     double bottom = 0., glued = 0.;
     bool   placed = true;
     for (const auto &cell : tria.active_cell_iterators())
@@ -220,9 +236,11 @@ $EndElements
     bottom = Utilities::MPI::sum(bottom, MPI_COMM_WORLD);
     glued  = Utilities::MPI::sum(glued, MPI_COMM_WORLD);
     placed = Utilities::MPI::min(placed ? 1 : 0, MPI_COMM_WORLD) == 1;
-    report(placed && std::fabs(bottom - 2.) < 1e-13 && std::fabs(glued - 1.) < 1e-13,
+    report(placed && std::fabs(bottom - 2.) < 1e-13 &&
+             std::fabs(glued - 1.) < 1e-13,
            "version " + version + ": boundaries in their moved places");
-    report(tria.n_global_active_cells() == 16, "version " + version + ": cells");
+    report(tria.n_global_active_cells() == 16,
+           "version " + version + ": cells");
   }
 
   void
@@ -258,8 +276,8 @@ $EndElements
       {
         early = error.what();
       }
-    report(message.find("Body inner, Mesh: ") == 0 && message.find(fragment) != std::string::npos &&
-             early == message,
+    report(message.find("Body inner, Mesh: ") == 0 &&
+             message.find(fragment) != std::string::npos && early == message,
            "refused: " + what,
            message + " / " + early);
   }
@@ -283,12 +301,18 @@ main(int argc, char **argv)
   MeshParameters missing = file("bad.msh", "");
   refused(report, "an empty file", missing, "does not begin with $MeshFormat");
   missing.file = "does_not_exist.msh";
-  refused(report, "a missing file", missing, "'does_not_exist.msh' cannot be read");
+  refused(report,
+          "a missing file",
+          missing,
+          "'does_not_exist.msh' cannot be read");
   missing.file = ".";
   refused(report, "a folder", missing, "'.' cannot be read");
   missing.file = "";
   refused(report, "no file name", missing, "File =");
-  refused(report, "another format", file("bad.msh", "solid cube\n"), "$MeshFormat");
+  refused(report,
+          "another format",
+          file("bad.msh", "solid cube\n"),
+          "$MeshFormat");
   refused(report,
           "a binary file",
           file("bad.msh", replaced(version_4, "4.1 0 8", "4.1 1 8")),
@@ -299,12 +323,17 @@ main(int argc, char **argv)
           "2.1, ASCII");
   refused(report,
           "tetrahedra",
-          file("bad.msh", replaced(version_2, "6 5 2 3 1 2 3 6 5 8 9 12 11", "6 4 2 3 1 2 3 6 9")),
+          file("bad.msh",
+               replaced(version_2,
+                        "6 5 2 3 1 2 3 6 5 8 9 12 11",
+                        "6 4 2 3 1 2 3 6 9")),
           "1 tetrahedra");
   refused(report,
           "no volume elements",
           file("bad.msh",
-               replaced(replaced(replaced(version_2, "6 5 2 3 1 2 3 6 5 8 9 12 11\n", ""),
+               replaced(replaced(replaced(version_2,
+                                          "6 5 2 3 1 2 3 6 5 8 9 12 11\n",
+                                          ""),
                                  "5 5 2 3 1 1 2 5 4 7 8 11 10\n",
                                  ""),
                         "$Elements\n6",
@@ -327,12 +356,14 @@ main(int argc, char **argv)
       }
     return std::string("(no error)");
   };
-  std::string message =
-    message_of(file("bad.msh", replaced(version_2, "2 3 6 5 8 9 12 11", "2 3 6 5 8 9 12 99")));
+  std::string message = message_of(
+    file("bad.msh",
+         replaced(version_2, "2 3 6 5 8 9 12 11", "2 3 6 5 8 9 12 99")));
   report(message.find("not a complete mesh") != std::string::npos,
          "refused: an unknown node",
          message);
-  message = message_of(file("bad.msh", replaced(version_2, "12 2 1 1\n", "12 0.2 1 -3\n")));
+  message = message_of(
+    file("bad.msh", replaced(version_2, "12 2 1 1\n", "12 0.2 1 -3\n")));
   report(message.find("inside out") != std::string::npos,
          "refused: a cell turned inside out",
          message);

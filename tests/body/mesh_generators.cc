@@ -1,9 +1,6 @@
-// Generated meshes: boundaries with their names and areas, volumes, materials, order of cells,
-// conformity of the two halves, refinement, placement; the same on any number of ranks.
-
-#include <mortise/base/error.h>
-#include <mortise/body/manifolds.h>
-#include <mortise/body/mesh_source.h>
+// Generated meshes: boundaries with their names and areas, volumes, materials,
+// order of cells, conformity of the two halves, refinement, placement; the same
+// on any number of ranks.
 
 #include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/quadrature_lib.h>
@@ -11,6 +8,10 @@
 #include <deal.II/fe/fe_nothing.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
+
+#include <mortise/base/error.h>
+#include <mortise/body/manifolds.h>
+#include <mortise/body/mesh_source.h>
 
 #include <cmath>
 #include <iostream>
@@ -32,10 +33,13 @@ namespace
       return good;
     }
 
-    ConditionalOStream out{std::cout, Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0};
+    ConditionalOStream out{std::cout,
+                           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) ==
+                             0};
   };
 
-  /// Volume, area of each boundary, and the smallest scaled Jacobian, by MappingQ of degree 8.
+  /// Volume, area of each boundary, and the smallest scaled Jacobian, by
+  /// MappingQ of degree 8.
   struct Measures
   {
     double                               volume = 0., jacobian = 1.;
@@ -49,7 +53,10 @@ namespace
     const FE_Nothing<3> fe;
     const QGauss<3>     cell_rule(9);
     const QGauss<2>     face_rule(9);
-    FEValues<3>         values(mapping, fe, cell_rule, update_JxW_values | update_jacobians);
+    FEValues<3>         values(mapping,
+                       fe,
+                       cell_rule,
+                       update_JxW_values | update_jacobians);
     FEFaceValues<3>     face_values(mapping, fe, face_rule, update_JxW_values);
     std::vector<double> areas(8, 0.);
     Measures            result;
@@ -63,7 +70,8 @@ namespace
               const DerivativeForm<1, 3, 3> J = values.jacobian(q).transpose();
               result.jacobian =
                 std::min(result.jacobian,
-                         J.determinant() / (J[0].norm() * J[1].norm() * J[2].norm()));
+                         J.determinant() /
+                           (J[0].norm() * J[1].norm() * J[2].norm()));
             }
           for (const auto &face : cell->face_iterators())
             if (face->at_boundary())
@@ -76,12 +84,14 @@ namespace
     result.volume   = Utilities::MPI::sum(result.volume, MPI_COMM_WORLD);
     result.jacobian = Utilities::MPI::min(result.jacobian, MPI_COMM_WORLD);
     for (unsigned int id = 0; id < areas.size(); ++id)
-      if (const double area = Utilities::MPI::sum(areas[id], MPI_COMM_WORLD); area > 0.)
+      if (const double area = Utilities::MPI::sum(areas[id], MPI_COMM_WORLD);
+          area > 0.)
         result.areas[id] = area;
     return result;
   }
 
-  /// A face between two cells is in standard orientation or transposed, never flipped or rotated.
+  /// A face between two cells is in standard orientation or transposed, never
+  /// flipped or rotated.
   bool
   consistently_ordered(const HexTriangulation &tria)
   {
@@ -112,30 +122,38 @@ namespace
     const MeshNames  names = create_mesh(parameters, tria, name);
     const Measures   m     = measure(tria);
     double           error = 0.;
-    bool named = names.boundaries.size() == areas.size() && m.areas.size() == areas.size();
+    bool             named =
+      names.boundaries.size() == areas.size() && m.areas.size() == areas.size();
     for (const auto &[boundary, area] : areas)
       {
         named = named && names.boundaries.count(boundary) == 1;
         if (named)
-          error = std::max(error, std::fabs(m.areas.at(names.boundaries.at(boundary)) / area - 1.));
+          error =
+            std::max(error,
+                     std::fabs(
+                       m.areas.at(names.boundaries.at(boundary)) / area - 1.));
       }
     std::set<unsigned int> ids;
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_locally_owned())
         ids.insert(cell->material_id());
-    ids            = Utilities::MPI::compute_set_union(ids, MPI_COMM_WORLD);
-    bool explained = ids.size() == materials && names.materials.size() >= ids.size();
+    ids = Utilities::MPI::compute_set_union(ids, MPI_COMM_WORLD);
+    bool explained =
+      ids.size() == materials && names.materials.size() >= ids.size();
     for (const unsigned int id : ids)
       explained = explained && names.materials.count(id) == 1;
 
     std::vector<std::string> listed = boundary_names(parameters);
     std::sort(listed.begin(), listed.end());
     for (const auto &boundary : names.boundaries)
-      named = named && std::binary_search(listed.begin(), listed.end(), boundary.first);
+      named = named &&
+              std::binary_search(listed.begin(), listed.end(), boundary.first);
 
-    report(named && listed.size() == areas.size(), name + ": names of the boundaries");
+    report(named && listed.size() == areas.size(),
+           name + ": names of the boundaries");
     report(explained, name + ": material ids");
-    if (!report(std::fabs(m.volume / volume - 1.) < 1e-9, name + ": volume to 1e-9"))
+    if (!report(std::fabs(m.volume / volume - 1.) < 1e-9,
+                name + ": volume to 1e-9"))
       report.out << m.volume / volume - 1. << std::endl;
     if (!report(error < 1e-8, name + ": areas to 1e-8"))
       report.out << error << std::endl;
@@ -167,14 +185,24 @@ namespace
           "box",
           box,
           6.,
-          {{"xmin", 6.}, {"xmax", 6.}, {"ymin", 3.}, {"ymax", 3.}, {"zmin", 2.}, {"zmax", 2.}},
+          {{"xmin", 6.},
+           {"xmax", 6.},
+           {"ymin", 3.},
+           {"ymax", 3.},
+           {"zmin", 2.},
+           {"zmax", 2.}},
           8);
     box.distort = 0.15;
     check(report,
           "distorted box",
           box,
           6.,
-          {{"xmin", 6.}, {"xmax", 6.}, {"ymin", 3.}, {"ymax", 3.}, {"zmin", 2.}, {"zmax", 2.}},
+          {{"xmin", 6.},
+           {"xmax", 6.},
+           {"ymin", 3.},
+           {"ymax", 3.},
+           {"zmin", 2.},
+           {"zmax", 2.}},
           8);
     box.top_slope    = {{0.5, 0.25}};
     box.bottom_slope = {{0., -0.5}};
@@ -233,28 +261,29 @@ namespace
   void
   check_curved(Report &report, const std::string &surface)
   {
-    MeshParameters q = make("curved block", {0., 1., 2., 2., 4., 3.}, {4, 6, 1});
-    q.surface        = surface;
-    q.amplitude      = 0.25;
-    q.middle         = 0.6;
-    const CurvedBlockManifold::Shape shape{0.,
-                                           1.,
-                                           2.,
-                                           2.,
-                                           4.,
-                                           3.,
-                                           2.6,
-                                           0.25,
-                                           surface == "bump" ?
-                                             CurvedBlockManifold::Surface::bump :
-                                           surface == "saddle" ?
-                                             CurvedBlockManifold::Surface::saddle :
-                                             CurvedBlockManifold::Surface::wave};
-    const QGauss<2>                  rule(24);
-    double                           under = 0., area = 0.;
+    MeshParameters q =
+      make("curved block", {0., 1., 2., 2., 4., 3.}, {4, 6, 1});
+    q.surface   = surface;
+    q.amplitude = 0.25;
+    q.middle    = 0.6;
+    const CurvedBlockManifold::Shape shape{
+      0.,
+      1.,
+      2.,
+      2.,
+      4.,
+      3.,
+      2.6,
+      0.25,
+      surface == "bump"   ? CurvedBlockManifold::Surface::bump :
+      surface == "saddle" ? CurvedBlockManifold::Surface::saddle :
+                            CurvedBlockManifold::Surface::wave};
+    const QGauss<2> rule(24);
+    double          under = 0., area = 0.;
     for (unsigned int i = 0; i < rule.size(); ++i)
       {
-        const auto h = shape.height(2. * rule.point(i)[0], 1. + 3. * rule.point(i)[1]);
+        const auto h =
+          shape.height(2. * rule.point(i)[0], 1. + 3. * rule.point(i)[1]);
         under += 6. * rule.weight(i) * (0.6 + h.value);
         area += 6. * rule.weight(i) * std::sqrt(1. + h.dx * h.dx + h.dy * h.dy);
       }
@@ -264,8 +293,10 @@ namespace
       for (unsigned int side = 0; side < 2; ++side)
         {
           const double s = line.point(i)[0];
-          x[side] += 3. * line.weight(i) * (0.6 + shape.height(2. * side, 1. + 3. * s).value);
-          y[side] += 2. * line.weight(i) * (0.6 + shape.height(2. * s, 1. + 3. * side).value);
+          x[side] += 3. * line.weight(i) *
+                     (0.6 + shape.height(2. * side, 1. + 3. * s).value);
+          y[side] += 2. * line.weight(i) *
+                     (0.6 + shape.height(2. * s, 1. + 3. * side).value);
         }
     q.half = "lower";
     check(report,
@@ -297,7 +328,12 @@ namespace
           surface + ", both",
           q,
           6.,
-          {{"xmin", 3.}, {"xmax", 3.}, {"ymin", 2.}, {"ymax", 2.}, {"zmin", 6.}, {"zmax", 6.}},
+          {{"xmin", 3.},
+           {"xmax", 3.},
+           {"ymin", 2.},
+           {"ymax", 2.},
+           {"zmin", 6.},
+           {"zmax", 6.}},
           2);
   }
 
@@ -309,21 +345,24 @@ namespace
     std::ostringstream text;
     text.precision(17);
     text << p[0] << ", " << p[1] << ", " << p[2] << ", 0.3, 2";
-    q.refine_near = text.str() + "; " + text.str().substr(0, text.str().find(", 0.3")) + ",1e-3,1";
+    q.refine_near = text.str() + "; " +
+                    text.str().substr(0, text.str().find(", 0.3")) + ",1e-3,1";
     HexTriangulation tria(MPI_COMM_WORLD);
     create_mesh(q, tria);
-    report.out << "cells: " << tria.n_global_active_cells() << ", levels " << tria.n_global_levels()
-               << std::endl;
+    report.out << "cells: " << tria.n_global_active_cells() << ", levels "
+               << tria.n_global_levels() << std::endl;
     double finest = 0.;
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_locally_owned() && cell->level() == 3)
         finest = std::max(finest, cell->center().distance(p));
-    report(tria.n_global_levels() == 4 && Utilities::MPI::max(finest, MPI_COMM_WORLD) < 0.3,
+    report(tria.n_global_levels() == 4 &&
+             Utilities::MPI::max(finest, MPI_COMM_WORLD) < 0.3,
            "refined near the moved point");
     const Measures m = measure(tria);
     report(std::fabs(m.volume / (pi / 6. * 7.) - 1.) < 1e-7,
            "locally refined shell: volume to 1e-7");
-    report(m.jacobian > 0.2, "locally refined shell: scaled Jacobians above 0.2");
+    report(m.jacobian > 0.2,
+           "locally refined shell: scaled Jacobians above 0.2");
 
     q.refine_near = "0, 0, 0, 0.1, 1";
     bool refused  = false;

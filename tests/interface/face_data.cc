@@ -1,10 +1,11 @@
-// Proves what a SurfaceFace derives from its points: derivatives, box, flags, normals, area, frame,
-// the message for wrong input, and that it survives serialization.
-#include "synthetic_surface.h"
+// Proves what a SurfaceFace derives from its points: derivatives, box, flags,
+// normals, area, frame, the message for wrong input, and that it survives
+// serialization.
+#include <deal.II/base/utilities.h>
 
 #include <mortise/base/error.h>
 
-#include <deal.II/base/utilities.h>
+#include "synthetic_surface.h"
 
 using namespace synthetic;
 
@@ -29,10 +30,18 @@ namespace
     double derivative = 0, edge_error = 0;
     for (unsigned int i = 0; i < 2; ++i)
       {
-        polynomial.evaluate(xi_1 + (i == 0 ? h : 0.), xi_2 + (i == 1 ? h : 0.), b, ignored);
-        polynomial.evaluate(xi_1 - (i == 0 ? h : 0.), xi_2 - (i == 1 ? h : 0.), a, ignored);
+        polynomial.evaluate(xi_1 + (i == 0 ? h : 0.),
+                            xi_2 + (i == 1 ? h : 0.),
+                            b,
+                            ignored);
+        polynomial.evaluate(xi_1 - (i == 0 ? h : 0.),
+                            xi_2 - (i == 1 ? h : 0.),
+                            a,
+                            ignored);
         for (unsigned int d = 0; d < 3; ++d)
-          derivative = std::max(derivative, largest(absolute((b[d] - a[d]) / (2 * h) - dx[i][d])));
+          derivative =
+            std::max(derivative,
+                     largest(absolute((b[d] - a[d]) / (2 * h) - dx[i][d])));
       }
     EdgePolynomial edges[4];
     unsigned int   edge[n_lanes];
@@ -51,10 +60,13 @@ namespace
     polynomial.evaluate(eta_1, eta_2, x, dx);
     for (unsigned int d = 0; d < 3; ++d)
       edge_error = std::max(edge_error, largest(absolute(a[d] - x[d])));
-    verdict("degree " + std::to_string(degree) + ", derivatives against differences",
+    verdict("degree " + std::to_string(degree) +
+              ", derivatives against differences",
             derivative,
             1e-7);
-    verdict("degree " + std::to_string(degree) + ", edges against the face", edge_error, 1e-13);
+    verdict("degree " + std::to_string(degree) + ", edges against the face",
+            edge_error,
+            1e-13);
   }
 
   void
@@ -70,24 +82,30 @@ namespace
             {
               const Point<3> x = face_point(face, Point<2>(i / 20., j / 20.));
               for (unsigned int d = 0; d < 3; ++d)
-                outside = std::max({outside, face.lower[d] - x[d], x[d] - face.upper[d]});
+                outside = std::max(
+                  {outside, face.lower[d] - x[d], x[d] - face.upper[d]});
               for (unsigned int c = 0; c < 2; ++c)
                 {
-                  const double chart = 0.5 + face.frame.dual[c] * (x - face.frame.center);
-                  chart_error        = std::max({chart_error,
-                                                 face.frame.chart_lower[c] - chart,
-                                                 chart - face.frame.chart_upper[c]});
+                  const double chart =
+                    0.5 + face.frame.dual[c] * (x - face.frame.center);
+                  chart_error = std::max({chart_error,
+                                          face.frame.chart_lower[c] - chart,
+                                          chart - face.frame.chart_upper[c]});
                 }
             }
         for (unsigned int v = 0; v < 4; ++v)
           {
             const Point<3> x = face_point(face, Point<2>(v % 2, v / 2));
-            normal_error = std::max(normal_error, (face.vertex_normals[v] - x / x.norm()).norm());
+            normal_error =
+              std::max(normal_error,
+                       (face.vertex_normals[v] - x / x.norm()).norm());
           }
       }
     verdict(name + ", box contains the face", outside, 1e-14);
     verdict(name + ", chart box contains the face", chart_error, 1e-13);
-    verdict(name + ", averaged normals of a sphere", normal_error, degree == 1 ? 0.25 : 0.05);
+    verdict(name + ", averaged normals of a sphere",
+            normal_error,
+            degree == 1 ? 0.25 : 0.05);
   }
 
   void
@@ -111,10 +129,11 @@ namespace
         }
     double worst = 0;
     for (const auto &face : faces(plane(25.), {3, 2, 4}))
-      worst = std::max({worst,
-                        face.linear ? 0. : 1.,
-                        std::abs(face_area(face) - 1. / 6.),
-                        (face.frame.normal - face_normal(face, Point<2>(0.2, 0.7))).norm()});
+      worst = std::max(
+        {worst,
+         face.linear ? 0. : 1.,
+         std::abs(face_area(face) - 1. / 6.),
+         (face.frame.normal - face_normal(face, Point<2>(0.2, 0.7))).norm()});
     verdict("flat faces of degree 4: linear, area, normal", worst, 1e-14);
   }
 
@@ -123,7 +142,8 @@ namespace
   {
     // The cube's sides projected to the sphere: six patches cover it.
     const Surface patch = [](const double u, const double v) {
-      const double   a = std::tan((u - 0.5) * 0.5 * M_PI), b = std::tan((v - 0.5) * 0.5 * M_PI);
+      const double a = std::tan((u - 0.5) * 0.5 * M_PI),
+                   b = std::tan((v - 0.5) * 0.5 * M_PI);
       const Point<3> p(1., a, b);
       return Point<3>(p / p.norm());
     };
@@ -153,10 +173,14 @@ namespace
     const SurfaceFace good = faces(plane(), {1, 1, 2})[0];
     SurfaceFace       bad  = good;
     bad.points.pop_back();
-    verdict("a missing point is named", message_of(bad).find("8 points") == std::string::npos, 0);
+    verdict("a missing point is named",
+            message_of(bad).find("8 points") == std::string::npos,
+            0);
     bad        = good;
     bad.degree = 9;
-    verdict("degree 9 is refused", message_of(bad).find("1 to 8") == std::string::npos, 0);
+    verdict("degree 9 is refused",
+            message_of(bad).find("1 to 8") == std::string::npos,
+            0);
     bad = good;
     for (auto &point : bad.points)
       point = Point<3>(point[0], 0, 0);
@@ -173,19 +197,21 @@ namespace
   void
   check_serialization()
   {
-    SurfaceFace face       = faces(sphere(), {2, 2, 3})[2];
-    face.payload           = {'a', 'b', 'c'};
-    face.owner             = 7;
-    const SurfaceFace copy = dealii::Utilities::unpack<SurfaceFace>(dealii::Utilities::pack(face));
-    const bool        same = copy.points == face.points && copy.id == face.id && copy.owner == 7 &&
-                      copy.payload == face.payload && copy.degree == face.degree &&
-                      copy.orientation == face.orientation && copy.lower == face.lower &&
-                      copy.upper == face.upper && copy.affine == face.affine &&
-                      copy.vertex_normals == face.vertex_normals && copy.size == face.size &&
-                      copy.frame.dual == face.frame.dual &&
-                      copy.frame.center == face.frame.center &&
-                      copy.frame.chart_upper == face.frame.chart_upper &&
-                      copy.frame.height_upper == face.frame.height_upper;
+    SurfaceFace face = faces(sphere(), {2, 2, 3})[2];
+    face.payload     = {'a', 'b', 'c'};
+    face.owner       = 7;
+    const SurfaceFace copy =
+      dealii::Utilities::unpack<SurfaceFace>(dealii::Utilities::pack(face));
+    const bool same =
+      copy.points == face.points && copy.id == face.id && copy.owner == 7 &&
+      copy.payload == face.payload && copy.degree == face.degree &&
+      copy.orientation == face.orientation && copy.lower == face.lower &&
+      copy.upper == face.upper && copy.affine == face.affine &&
+      copy.vertex_normals == face.vertex_normals && copy.size == face.size &&
+      copy.frame.dual == face.frame.dual &&
+      copy.frame.center == face.frame.center &&
+      copy.frame.chart_upper == face.frame.chart_upper &&
+      copy.frame.height_upper == face.frame.height_upper;
     verdict("a face survives its journey", same ? 0 : 1, 0);
   }
 } // namespace

@@ -1,8 +1,9 @@
-// Proves that the points of the overlaps satisfy the rule x_m = x_s + gap n/|n| on both faces and
-// integrate polynomials of both faces' reference coordinates over flat distorted and curved meshes.
-#include "synthetic_surface.h"
-
+// Proves that the points of the overlaps satisfy the rule x_m = x_s + gap n/|n|
+// on both faces and integrate polynomials of both faces' reference coordinates
+// over flat distorted and curved meshes.
 #include <map>
+
+#include "synthetic_surface.h"
 
 using namespace synthetic;
 
@@ -14,7 +15,8 @@ namespace
   {
     std::vector<double> result = {1., 2 * x - 1};
     for (unsigned int i = 1; i < p; ++i)
-      result.push_back(((2 * i + 1) * (2 * x - 1) * result[i] - i * result[i - 1]) / (i + 1));
+      result.push_back(
+        ((2 * i + 1) * (2 * x - 1) * result[i] - i * result[i - 1]) / (i + 1));
     return result;
   }
 
@@ -23,8 +25,7 @@ namespace
     explicit Moments(const unsigned int p)
       : p(p)
       , values((p + 1) * (p + 1))
-    {
-    }
+    {}
 
     void
     add(const double x, const double y, const double weight)
@@ -39,7 +40,8 @@ namespace
     std::vector<double> values;
   };
 
-  // Largest difference to the moments of the face by its own tensor rule, relative to its area.
+  // Largest difference to the moments of the face by its own tensor rule,
+  // relative to its area.
   double
   error_of(const SurfaceFace &face, const Moments &moments)
   {
@@ -52,11 +54,15 @@ namespace
         Vec3<Lanes> x, dx[2];
         polynomial.evaluate(broadcast(rule.s[q]), broadcast(rule.t[q]), x, dx);
         const Vec3<Lanes> area = cross(dx[0], dx[1]);
-        exact.add(rule.s[q], rule.t[q], std::sqrt(dot(area, area)[0]) * rule.tensor_weight[q]);
+        exact.add(rule.s[q],
+                  rule.t[q],
+                  std::sqrt(dot(area, area)[0]) * rule.tensor_weight[q]);
       }
     double result = 0;
     for (unsigned int i = 0; i < exact.values.size(); ++i)
-      result = std::max(result, std::abs(exact.values[i] - moments.values[i]) / exact.values[0]);
+      result = std::max(result,
+                        std::abs(exact.values[i] - moments.values[i]) /
+                          exact.values[0]);
     return result;
   }
 
@@ -78,8 +84,10 @@ namespace
                            const SurfaceFace &master,
                            const PairResult &,
                            const IntegrationPoints &points) {
-      Moments &on_slave = slave_moments.emplace(slave.id, Moments(p)).first->second;
-      Moments &on_master = master_moments.emplace(master.id, Moments(p)).first->second;
+      Moments &on_slave =
+        slave_moments.emplace(slave.id, Moments(p)).first->second;
+      Moments &on_master =
+        master_moments.emplace(master.id, Moments(p)).first->second;
       for (unsigned int q = 0; q < points.size(); ++q)
         {
           const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
@@ -87,29 +95,40 @@ namespace
           on_slave.add(xi[0], xi[1], points.weight[q]);
           on_master.add(eta[0], eta[1], points.weight[q]);
           Tensor<1, 3>   n = averaged_normal(slave, xi);
-          const Point<3> x_s(points.slave_x[0][q], points.slave_x[1][q], points.slave_x[2][q]);
-          const Point<3> x_m(points.master_x[0][q], points.master_x[1][q], points.master_x[2][q]);
+          const Point<3> x_s(points.slave_x[0][q],
+                             points.slave_x[1][q],
+                             points.slave_x[2][q]);
+          const Point<3> x_m(points.master_x[0][q],
+                             points.master_x[1][q],
+                             points.master_x[2][q]);
           const double   size = std::min(slave.size, master.size);
-          errors.rule         = std::max({errors.rule,
-                                          (x_s - face_point(slave, xi)).norm() / size,
-                                          (x_m - face_point(master, eta)).norm() / size,
-                                          (x_m - x_s - points.gap[q] * n / n.norm()).norm() / size});
+          errors.rule = std::max(
+            {errors.rule,
+             (x_s - face_point(slave, xi)).norm() / size,
+             (x_m - face_point(master, eta)).norm() / size,
+             (x_m - x_s - points.gap[q] * n / n.norm()).norm() / size});
           for (unsigned int i = 0; i < 2; ++i)
-            errors.outside =
-              std::max({errors.outside, -xi[i], xi[i] - 1, -eta[i] - 0.1, eta[i] - 1.1});
+            errors.outside = std::max(
+              {errors.outside, -xi[i], xi[i] - 1, -eta[i] - 0.1, eta[i] - 1.1});
         }
     };
     integrate(slaves, masters, p, visit, n_points);
     for (const auto &slave : slaves)
-      errors.slave = std::max(errors.slave, error_of(slave, slave_moments.at(slave.id)));
+      errors.slave =
+        std::max(errors.slave, error_of(slave, slave_moments.at(slave.id)));
     for (const auto &master : masters)
       if (master_moments.count(master.id) > 0)
-        errors.master = std::max(errors.master, error_of(master, master_moments.at(master.id)));
+        errors.master =
+          std::max(errors.master,
+                   error_of(master, master_moments.at(master.id)));
     return errors;
   }
 
   void
-  check(const std::string &name, const Errors &errors, const double allowed, const bool master)
+  check(const std::string &name,
+        const Errors      &errors,
+        const double       allowed,
+        const bool         master)
   {
     verdict(name + ": moments on slave faces", errors.slave, allowed);
     if (master)
@@ -123,14 +142,18 @@ int
 main()
 {
   for (const unsigned int p : {1u, 2u, 4u})
-    for (const auto &n : std::vector<std::array<unsigned int, 2>>{{{7, 5}}, {{5, 7}}, {{2, 20}}})
+    for (const auto &n : std::vector<std::array<unsigned int, 2>>{{{7, 5}},
+                                                                  {{5, 7}},
+                                                                  {{2, 20}}})
       for (const double distortion : {0., 0.05, 0.15})
         {
-          const auto slaves  = faces(plane(), {n[0], n[0], 1, 0, 1, 0, 1, 1, false, distortion});
-          const auto masters = faces(plane(), {n[1], n[1], 1, 0, 1, 0, 1, -1, true, distortion});
-          check("p=" + std::to_string(p) + ", flat, " + std::to_string(n[0]) + ":" +
-                  std::to_string(n[1]) + ", distorted by " + std::to_string(int(100 * distortion)) +
-                  " %",
+          const auto slaves =
+            faces(plane(), {n[0], n[0], 1, 0, 1, 0, 1, 1, false, distortion});
+          const auto masters =
+            faces(plane(), {n[1], n[1], 1, 0, 1, 0, 1, -1, true, distortion});
+          check("p=" + std::to_string(p) + ", flat, " + std::to_string(n[0]) +
+                  ":" + std::to_string(n[1]) + ", distorted by " +
+                  std::to_string(int(100 * distortion)) + " %",
                 errors_of(slaves, masters, p),
                 distortion == 0 ? 1e-13 : 2e-10,
                 true);
@@ -138,9 +161,13 @@ main()
   // With points to spare nothing but rounding is left.
   const auto slaves  = faces(plane(), {6, 6, 1, 0, 1, 0, 1, 1, false, 0.2});
   const auto masters = faces(plane(), {5, 5, 1, 0, 1, 0, 1, -1, true, 0.2});
-  check("p=2, flat, distorted by 20 %, 24 points", errors_of(slaves, masters, 2, 24), 1e-13, true);
+  check("p=2, flat, distorted by 20 %, 24 points",
+        errors_of(slaves, masters, 2, 24),
+        1e-13,
+        true);
 
-  // Curved: the slave's integrals (the master's are those of the slave's surface).
+  // Curved: the slave's integrals (the master's are those of the slave's
+  // surface).
   for (const unsigned int p : {1u, 2u, 3u, 4u, 6u, 8u})
     check("p=" + std::to_string(p) + ", sphere, 9:6",
           errors_of(faces(sphere(), {9, 9, p}),

@@ -1,20 +1,22 @@
-// Proves that the numbers do not depend on the scene's unit, place or turn, nor on the choice of
-// the slave, and that pairs are accepted by distance and normals as documented.
+// Proves that the numbers do not depend on the scene's unit, place or turn, nor
+// on the choice of the slave, and that pairs are accepted by distance and
+// normals as documented.
 #include "synthetic_surface.h"
 
 using namespace synthetic;
 
 namespace
 {
-  // Area and the integral of quadratic functions of both faces' reference coordinates, pair by
-  // pair, relative to the slave face.
+  // Area and the integral of quadratic functions of both faces' reference
+  // coordinates, pair by pair, relative to the slave face.
   struct Signature
   {
     std::vector<double> values;
   };
 
   Signature
-  signature(const std::vector<SurfaceFace> &slaves, const std::vector<SurfaceFace> &masters)
+  signature(const std::vector<SurfaceFace> &slaves,
+            const std::vector<SurfaceFace> &masters)
   {
     Signature  result;
     const auto visit = [&](const SurfaceFace       &slave,
@@ -31,8 +33,10 @@ namespace
       const double area = face_area(slave);
       // Slivers of rounding may come and go: they count for nothing.
       if (pair.area > 1e-10 * area)
-        for (const double value :
-             {double(slave.id), double(master.id), pair.area / area, sum / area})
+        for (const double value : {double(slave.id),
+                                   double(master.id),
+                                   pair.area / area,
+                                   sum / area})
           result.values.push_back(value);
     };
     integrate(slaves, masters, 2, visit);
@@ -68,20 +72,24 @@ namespace
     master_grid.n_u         = 5;
     master_grid.n_v         = 4;
     master_grid.orientation = -1;
-    const Signature base    = signature(faces(slave, grid), faces(master, master_grid));
+    const Signature base =
+      signature(faces(slave, grid), faces(master, master_grid));
     for (const double scale : {1e-3, 1e6})
       {
         const Tensor<1, 3> none;
-        const Signature    other = signature(faces(moved(slave, scale, none), grid),
-                                          faces(moved(master, scale, none), master_grid));
+        const Signature    other =
+          signature(faces(moved(slave, scale, none), grid),
+                    faces(moved(master, scale, none), master_grid));
         verdict(name + ", lengths times " + (scale < 1 ? "1e-3" : "1e6"),
                 difference(base, other),
-                // Where rounding decides on one more point, the rule's own accuracy shows.
+                // Where rounding decides on one more point, the rule's own
+                // accuracy shows.
                 grid.degree == 1 ? 1e-12 : 2e-11);
       }
     const Tensor<1, 3> far({1000., -700., 1200.});
     const Signature    other =
-      signature(faces(moved(slave, 1., far), grid), faces(moved(master, 1., far), master_grid));
+      signature(faces(moved(slave, 1., far), grid),
+                faces(moved(master, 1., far), master_grid));
     verdict(name + ", moved by 1e3 diameters", difference(base, other), 1e-9);
   }
 
@@ -103,21 +111,31 @@ namespace
         };
         const Total  there = one(false), back = one(true);
         const double difference =
-          std::abs(there.sum.covered_area - back.sum.covered_area) / there.sum.covered_area;
-        const std::string name = "degree " + std::to_string(g) + ", slave and master exchanged";
+          std::abs(there.sum.covered_area - back.sum.covered_area) /
+          there.sum.covered_area;
+        const std::string name =
+          "degree " + std::to_string(g) + ", slave and master exchanged";
         verdict(name + ": coverage", std::max(there.worst, back.worst), 1e-11);
         verdict(name + ": pairs",
-                there.sum.n_pairs > back.sum.n_pairs ? there.sum.n_pairs - back.sum.n_pairs :
-                                                       back.sum.n_pairs - there.sum.n_pairs,
+                there.sum.n_pairs > back.sum.n_pairs ?
+                  there.sum.n_pairs - back.sum.n_pairs :
+                  back.sum.n_pairs - there.sum.n_pairs,
                 g == 1 ? 0 : 12);
         // Areas of the two polynomial surfaces differ like their distance.
-        verdict(name + ": area", difference, g == 1 ? 1e-13 : g == 2 ? 2e-4 : 1e-7);
+        verdict(name + ": area",
+                difference,
+                g == 1 ? 1e-13 :
+                g == 2 ? 2e-4 :
+                         1e-7);
       }
   }
 
-  // Two concentric patches at a distance of `gap` face sizes; both of 4 x 4 faces.
+  // Two concentric patches at a distance of `gap` face sizes; both of 4 x 4
+  // faces.
   Total
-  with_gap(const double gap, const double orientation, const unsigned int degree)
+  with_gap(const double       gap,
+           const double       orientation,
+           const unsigned int degree)
   {
     const auto   slaves = faces(sphere(), {4, 4, degree});
     const double size   = slaves[5].size;
@@ -138,7 +156,8 @@ namespace
                   1e-10);
           verdict("degree " + std::to_string(degree) + ", gap of " +
                     std::to_string(gap).substr(0, 4) + " face sizes: its size",
-                  std::abs(total.sum.max_gap / faces(sphere(), {4, 4, degree})[5].size -
+                  std::abs(total.sum.max_gap /
+                             faces(sphere(), {4, 4, degree})[5].size -
                            std::abs(gap)),
                   1e-3);
         }
@@ -170,7 +189,10 @@ int
 main()
 {
   check_units("flat", plane(), plane(20.), {7, 7});
-  check_units("flat, distorted", plane(), plane(), {7, 6, 1, 0, 1, 0, 1, 1, false, 0.1});
+  check_units("flat, distorted",
+              plane(),
+              plane(),
+              {7, 6, 1, 0, 1, 0, 1, 1, false, 0.1});
   check_units("sphere", sphere(), sphere(1.003), {7, 6, 3});
   check_exchange();
   check_acceptance();

@@ -1,5 +1,5 @@
-// Surfaces for tests of the interface's geometry, built from functions (u,v) -> x without a mesh.
-// Apart from verdict() it never compares or prints.
+// Surfaces for tests of the interface's geometry, built from functions (u,v) ->
+// x without a mesh. Apart from verdict() it never compares or prints.
 #pragma once
 
 #include <mortise/interface/integration_cells.h>
@@ -23,7 +23,8 @@ namespace synthetic
     if (got <= allowed)
       std::cout << "OK  " << what << ": " << allowed << std::endl;
     else
-      std::cout << "FAILED  " << what << ": got " << got << ", allowed " << allowed << std::endl;
+      std::cout << "FAILED  " << what << ": got " << got << ", allowed "
+                << allowed << std::endl;
   }
 
   using Surface = std::function<Point<3>(double, double)>;
@@ -32,9 +33,10 @@ namespace synthetic
   {
     unsigned int n_u = 1, n_v = 1, degree = 1;
     double       u_0 = 0, u_1 = 1, v_0 = 0, v_1 = 1;
-    double       orientation = 1;     ///< of x_u x x_v against the outward normal
-    bool         transposed  = false; ///< reference coordinates of the faces swapped
-    double       distortion  = 0;     ///< inner vertices move by up to this fraction of a cell
+    double       orientation = 1; ///< of x_u x x_v against the outward normal
+    bool   transposed = false; ///< reference coordinates of the faces swapped
+    double distortion =
+      0; ///< inner vertices move by up to this fraction of a cell
   };
 
   /// A number in [-1,1] that depends on i, j and k only.
@@ -47,26 +49,30 @@ namespace synthetic
     return (x >> 11) * 0x1p-52 - 1.;
   }
 
-  /// The surface as faces of a grid in (u,v), vertex normals averaged, finalized.
+  /// The surface as faces of a grid in (u,v), vertex normals averaged,
+  /// finalized.
   inline std::vector<SurfaceFace>
   faces(const Surface &surface, const Grid &grid)
   {
-    const auto vertex = [&](const unsigned int i, const unsigned int j, const unsigned int k) {
-      const bool   free = k == 0 ? i > 0 && i < grid.n_u : j > 0 && j < grid.n_v;
-      const double d    = free ? grid.distortion * noise(i, j, k) : 0.;
+    const auto vertex = [&](const unsigned int i,
+                            const unsigned int j,
+                            const unsigned int k) {
+      const bool free = k == 0 ? i > 0 && i < grid.n_u : j > 0 && j < grid.n_v;
+      const double d  = free ? grid.distortion * noise(i, j, k) : 0.;
       return k == 0 ? grid.u_0 + (grid.u_1 - grid.u_0) * (i + d) / grid.n_u :
                       grid.v_0 + (grid.v_1 - grid.v_0) * (j + d) / grid.n_v;
     };
-    const LagrangeBasis                      &basis = lagrange_basis(grid.degree);
-    std::vector<SurfaceFace>                  result;
+    const LagrangeBasis     &basis = lagrange_basis(grid.degree);
+    std::vector<SurfaceFace> result;
     std::vector<std::array<std::uint64_t, 4>> vertices;
     for (unsigned int j = 0; j < grid.n_v; ++j)
       for (unsigned int i = 0; i < grid.n_u; ++i)
         {
           SurfaceFace face;
-          face.degree      = grid.degree;
-          face.id          = j * grid.n_u + i;
-          face.orientation = grid.transposed ? -grid.orientation : grid.orientation;
+          face.degree = grid.degree;
+          face.id     = j * grid.n_u + i;
+          face.orientation =
+            grid.transposed ? -grid.orientation : grid.orientation;
           for (unsigned int b = 0; b <= grid.degree; ++b)
             for (unsigned int a = 0; a <= grid.degree; ++a)
               {
@@ -74,8 +80,10 @@ namespace synthetic
                 const double t = basis.node[grid.transposed ? a : b];
                 double       uv[2];
                 for (unsigned int k = 0; k < 2; ++k)
-                  uv[k] = (1 - t) * ((1 - s) * vertex(i, j, k) + s * vertex(i + 1, j, k)) +
-                          t * ((1 - s) * vertex(i, j + 1, k) + s * vertex(i + 1, j + 1, k));
+                  uv[k] = (1 - t) * ((1 - s) * vertex(i, j, k) +
+                                     s * vertex(i + 1, j, k)) +
+                          t * ((1 - s) * vertex(i, j + 1, k) +
+                               s * vertex(i + 1, j + 1, k));
                 face.points.push_back(surface(uv[0], uv[1]));
               }
           const std::uint64_t m = grid.n_u + 1, first = j * m + i;
@@ -91,13 +99,15 @@ namespace synthetic
     return result;
   }
 
-  using Visitor = std::function<
-    void(const SurfaceFace &, const SurfaceFace &, const PairResult &, const IntegrationPoints &)>;
+  using Visitor = std::function<void(const SurfaceFace &,
+                                     const SurfaceFace &,
+                                     const PairResult &,
+                                     const IntegrationPoints &)>;
 
   struct Total
   {
     Coverage sum;
-    double   worst = 0; ///< largest |covered - area| / area over the slave faces
+    double worst = 0; ///< largest |covered - area| / area over the slave faces
   };
 
   /// Integrate all pairs of two surfaces.
@@ -105,9 +115,9 @@ namespace synthetic
   integrate(const std::vector<SurfaceFace> &slaves,
             const std::vector<SurfaceFace> &masters,
             const unsigned int              degree,
-            const Visitor                  &visitor         = Visitor(),
-            const unsigned int              n_points        = 0,
-            const double                    search_fraction = default_search_fraction)
+            const Visitor                  &visitor  = Visitor(),
+            const unsigned int              n_points = 0,
+            const double search_fraction             = default_search_fraction)
   {
     FaceTree                  tree(masters, search_fraction);
     PairIntegrator            integrator(search_fraction);
@@ -123,13 +133,15 @@ namespace synthetic
         tree.candidates(slave, candidates);
         for (const unsigned int m : candidates)
           {
-            const PairResult pair = integrator.integrate(masters[m], degree, degree, points);
+            const PairResult pair =
+              integrator.integrate(masters[m], degree, degree, points);
             face.add(pair, points.size());
             if (visitor && pair.status == PairStatus::accepted)
               visitor(slave, masters[m], pair, points);
           }
-        total.worst =
-          std::max(total.worst, std::abs(face.covered_area - face.slave_area) / face.slave_area);
+        total.worst = std::max(total.worst,
+                               std::abs(face.covered_area - face.slave_area) /
+                                 face.slave_area);
         total.sum.add(face);
       }
     return total;
@@ -144,16 +156,20 @@ namespace synthetic
       const double s = std::cos(a) * x - std::sin(a) * y + offset;
       const double t = std::sin(a) * x + std::cos(a) * y + 0.3 * offset;
       // orthonormal axes of a tilted plane
-      return Point<3>(0.48 * s - 0.8 * t + 1.1, 0.6 * s + 0.3, 0.64 * s + 0.6 * t - 0.2);
+      return Point<3>(0.48 * s - 0.8 * t + 1.1,
+                      0.6 * s + 0.3,
+                      0.64 * s + 0.6 * t - 0.2);
     };
   }
 
-  /// Patch of the unit sphere around (1,1,1) like one of three patches of an octant.
+  /// Patch of the unit sphere around (1,1,1) like one of three patches of an
+  /// octant.
   inline Surface
   sphere(const double radius = 1.)
   {
     return [radius](const double u, const double v) {
-      const double   a = std::tan((u - 0.5) * 0.25 * M_PI), b = std::tan((v - 0.5) * 0.25 * M_PI);
+      const double a = std::tan((u - 0.5) * 0.25 * M_PI),
+                   b = std::tan((v - 0.5) * 0.25 * M_PI);
       const Point<3> p(1., a, b);
       return Point<3>(radius / p.norm() * p);
     };
@@ -164,7 +180,9 @@ namespace synthetic
   cylinder(const double radius = 1.)
   {
     return [radius](const double u, const double v) {
-      return Point<3>(radius * std::cos(0.5 * M_PI * u), radius * std::sin(0.5 * M_PI * u), v);
+      return Point<3>(radius * std::cos(0.5 * M_PI * u),
+                      radius * std::sin(0.5 * M_PI * u),
+                      v);
     };
   }
 } // namespace synthetic

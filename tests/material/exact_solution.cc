@@ -1,4 +1,5 @@
-// Exact solutions: known numbers, equilibrium, continuity between layers, exact derivatives.
+// Exact solutions: known numbers, equilibrium, continuity between layers, exact
+// derivatives.
 
 #include <mortise/base/error.h>
 #include <mortise/material/exact_solution.h>
@@ -22,7 +23,8 @@ namespace
     if (got <= allowed)
       std::cout << "OK  " << what << ": " << allowed << std::endl;
     else
-      std::cout << "FAILED " << what << ": got " << got << ", allowed " << allowed << std::endl;
+      std::cout << "FAILED " << what << ": got " << got << ", allowed "
+                << allowed << std::endl;
   }
 
   double
@@ -31,22 +33,26 @@ namespace
     return std::fabs(got / exact - 1.);
   }
 
-  /// Largest relative errors of u(1), u(1.5), u(2) and sigma_r(1.5), E = 1000, p = 1.
+  /// Largest relative errors of u(1), u(1.5), u(2) and sigma_r(1.5), E = 1000,
+  /// p = 1.
   double
   error_of_numbers(const LameSolution::Geometry geometry,
                    const double                 nu,
                    const std::array<double, 4> &exact)
   {
     const LinearElastic material{1000., nu};
-    const LameSolution  two(geometry, {{1.5, 2., material}, {1., 1.5, material}}, 1.);
+    const LameSolution  two(geometry,
+                            {{1.5, 2., material}, {1., 1.5, material}},
+                           1.);
     const LameSolution  one(geometry, {{1., 2., material}}, 1.);
     double              error = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       {
         const double r = 1. + 0.5 * i;
-        error          = std::max({error,
-                                   relative(one.radial_displacement(r, 0), exact[i]),
-                                   relative(two.radial_displacement(r, r < 1.7 ? 1 : 0), exact[i])});
+        error          = std::max(
+          {error,
+                    relative(one.radial_displacement(r, 0), exact[i]),
+                    relative(two.radial_displacement(r, r < 1.7 ? 1 : 0), exact[i])});
       }
     return std::max({error,
                      relative(one.radial_stress(1.5, 0), exact[3]),
@@ -56,7 +62,10 @@ namespace
 
   template <typename Value, typename F>
   Value
-  difference(const F &f, const Point<3> &p, const unsigned int direction, const double h)
+  difference(const F           &f,
+             const Point<3>    &p,
+             const unsigned int direction,
+             const double       h)
   {
     const auto at = [&](const double steps) {
       Point<3> q = p;
@@ -71,8 +80,9 @@ namespace
     double gradient = 0., law = 0., equilibrium = 0.;
   };
 
-  /// Gradient against differences of the displacement, stress against the law, body force against
-  /// differences of the stress; relative to the largest entries.
+  /// Gradient against differences of the displacement, stress against the law,
+  /// body force against differences of the stress; relative to the largest
+  /// entries.
   Errors
   derivative_errors(const ExactSolution &solution,
                     const Point<3>      &p,
@@ -89,16 +99,21 @@ namespace
     for (unsigned int j = 0; j < 3; ++j)
       {
         const auto d = difference<Tensor<1, 3>>(
-          [&](const Point<3> &q) { return solution.displacement(q, body); }, p, j, h);
+          [&](const Point<3> &q) { return solution.displacement(q, body); },
+          p,
+          j,
+          h);
         for (unsigned int i = 0; i < 3; ++i)
-          errors.gradient = std::max(errors.gradient, std::fabs(g[i][j] - d[i]) / g.norm());
+          errors.gradient =
+            std::max(errors.gradient, std::fabs(g[i][j] - d[i]) / g.norm());
         const auto ds = difference<SymmetricTensor<2, 3>>(
           [&](const Point<3> &q) { return solution.stress(q, body); }, p, j, h);
         for (unsigned int i = 0; i < 3; ++i)
           divergence[i] += ds[i][j];
         scale = std::max(scale, ds.norm());
       }
-    errors.equilibrium = (divergence + solution.body_force(p, body)).norm() / scale;
+    errors.equilibrium =
+      (divergence + solution.body_force(p, body)).norm() / scale;
     return errors;
   }
 
@@ -107,9 +122,11 @@ namespace
   void
   check_lame(const std::string &name, const LameSolution::Geometry geometry)
   {
-    const std::vector<LinearElastic> materials = {{1e6, 0.2}, {1., 0.45}, {30., -0.3}};
+    const std::vector<LinearElastic> materials = {{1e6, 0.2},
+                                                  {1., 0.45},
+                                                  {30., -0.3}};
     const LameSolution               solution(geometry,
-                                {{1., 1.5, materials[0]},
+                                              {{1., 1.5, materials[0]},
                                                {1.5, 2., materials[1]},
                                                {2., 2.2, materials[2]}},
                                 1.,
@@ -121,25 +138,35 @@ namespace
       for (const double r : {1.2, 1.7, 2.1})
         {
           const Tensor<1, 3> direction = Tensor<1, 3>({0.48, 0.6, 0.64});
-          const Tensor<1, 3> local = geometry == sphere ? direction : Tensor<1, 3>({0.6, 0.8, 0.});
-          const Point<3>     p     = moved(
-            Point<3>(r * local + (geometry == sphere ? 0. : 0.7) * Tensor<1, 3>({0., 0., 1.})));
-          const Errors e            = derivative_errors(solution, p, body, materials[body], 2e-3);
-          worst.gradient            = std::max(worst.gradient, e.gradient);
-          worst.law                 = std::max(worst.law, e.law);
-          worst.equilibrium         = std::max(worst.equilibrium, e.equilibrium);
+          const Tensor<1, 3> local =
+            geometry == sphere ? direction : Tensor<1, 3>({0.6, 0.8, 0.});
+          const Point<3> p =
+            moved(Point<3>(r * local + (geometry == sphere ? 0. : 0.7) *
+                                         Tensor<1, 3>({0., 0., 1.})));
+          const Errors e =
+            derivative_errors(solution, p, body, materials[body], 2e-3);
+          worst.gradient    = std::max(worst.gradient, e.gradient);
+          worst.law         = std::max(worst.law, e.law);
+          worst.equilibrium = std::max(worst.equilibrium, e.equilibrium);
           const Tensor<1, 3> radial = moved.rotation * local;
           const double       u_r    = solution.radial_displacement(r, body);
-          frame                     = std::max(frame,
-                           (solution.displacement(p, body) - u_r * radial).norm() / std::fabs(u_r));
-          const double s            = solution.radial_stress(r, body);
+          frame =
+            std::max(frame,
+                     (solution.displacement(p, body) - u_r * radial).norm() /
+                       std::fabs(u_r));
+          const double s = solution.radial_stress(r, body);
           traction =
             std::max(traction,
-                     (solution.stress(p, body) * radial - s * radial).norm() / std::fabs(s));
+                     (solution.stress(p, body) * radial - s * radial).norm() /
+                       std::fabs(s));
         }
-    at_most(name + ": gradient against differences of the displacement", worst.gradient, 1e-9);
+    at_most(name + ": gradient against differences of the displacement",
+            worst.gradient,
+            1e-9);
     at_most(name + ": stress against the law", worst.law, 1e-13);
-    at_most(name + ": equilibrium against differences of the stress", worst.equilibrium, 1e-9);
+    at_most(name + ": equilibrium against differences of the stress",
+            worst.equilibrium,
+            1e-9);
     at_most(name + ": displacement is radial in the moved frame", frame, 1e-13);
     at_most(name + ": radial traction in the moved frame", traction, 1e-12);
   }
@@ -151,33 +178,41 @@ namespace
     for (const double contrast : {1e-6, 1e-3, 1., 1e3, 1e6})
       for (const double scale : {1e-3, 1., 1e6})
         {
-          const LameSolution solution(geometry,
-                                      {{scale, 1.5 * scale, {1000., 0.3}},
-                                       {1.5 * scale, 2. * scale, {1000. * contrast, 0.2}}},
-                                      1.,
-                                      0.1);
-          const double       c       = 1.5 * scale;
-          const double       u       = solution.radial_displacement(c, 0);
-          const double       jump    = std::fabs(u - solution.radial_displacement(c, 1));
-          const double       largest = std::max({std::fabs(u),
-                                                 std::fabs(solution.radial_displacement(scale, 0)),
-                                                 std::fabs(solution.radial_displacement(2. * scale, 1))});
-          jump_u                     = std::max(jump_u, jump / largest);
-          jump_s =
-            std::max(jump_s, relative(solution.radial_stress(c, 0), solution.radial_stress(c, 1)));
-          ends = std::max({ends,
-                           relative(solution.radial_stress(scale, 0), -1.),
-                           relative(solution.radial_stress(2. * scale, 1), -0.1)});
+          const LameSolution solution(
+            geometry,
+            {{scale, 1.5 * scale, {1000., 0.3}},
+             {1.5 * scale, 2. * scale, {1000. * contrast, 0.2}}},
+            1.,
+            0.1);
+          const double c    = 1.5 * scale;
+          const double u    = solution.radial_displacement(c, 0);
+          const double jump = std::fabs(u - solution.radial_displacement(c, 1));
+          const double largest =
+            std::max({std::fabs(u),
+                      std::fabs(solution.radial_displacement(scale, 0)),
+                      std::fabs(solution.radial_displacement(2. * scale, 1))});
+          jump_u = std::max(jump_u, jump / largest);
+          jump_s = std::max(jump_s,
+                            relative(solution.radial_stress(c, 0),
+                                     solution.radial_stress(c, 1)));
+          ends =
+            std::max({ends,
+                      relative(solution.radial_stress(scale, 0), -1.),
+                      relative(solution.radial_stress(2. * scale, 1), -0.1)});
         }
     at_most(
       name +
         ": displacement at the interface from both sides (of the largest), contrast 1e-6 to 1e6",
       jump_u,
       1e-14);
-    at_most(name + ": radial stress at the interface from both sides, contrast 1e-6 to 1e6",
-            jump_s,
+    at_most(
+      name +
+        ": radial stress at the interface from both sides, contrast 1e-6 to 1e6",
+      jump_s,
+      1e-12);
+    at_most(name + ": pressures at the ends, contrast 1e-6 to 1e6",
+            ends,
             1e-12);
-    at_most(name + ": pressures at the ends, contrast 1e-6 to 1e6", ends, 1e-12);
   }
 
   void
@@ -185,20 +220,27 @@ namespace
   {
     const std::vector<LinearElastic> materials = {{10., 0.3}, {250., 0.1}};
     const ExpressionSolution         solution(
-      VectorExpression("sin(2*x)*y + z^3*x; exp(x*y/2)*cos(z); x*y*z + x^3 - atan(y*z)"),
+      VectorExpression(
+        "sin(2*x)*y + z^3*x; exp(x*y/2)*cos(z); x*y*z + x^3 - atan(y*z)"),
       materials);
     Errors worst;
     for (unsigned int body = 0; body < 2; ++body)
-      for (const Point<3> &p : {Point<3>(0.3, 0.4, 0.5), Point<3>(-0.7, 1.1, 0.2)})
+      for (const Point<3> &p :
+           {Point<3>(0.3, 0.4, 0.5), Point<3>(-0.7, 1.1, 0.2)})
         {
-          const Errors e    = derivative_errors(solution, p, body, materials[body], 2e-3);
+          const Errors e =
+            derivative_errors(solution, p, body, materials[body], 2e-3);
           worst.gradient    = std::max(worst.gradient, e.gradient);
           worst.law         = std::max(worst.law, e.law);
           worst.equilibrium = std::max(worst.equilibrium, e.equilibrium);
         }
-    at_most("expressions: gradient against differences of the displacement", worst.gradient, 1e-9);
+    at_most("expressions: gradient against differences of the displacement",
+            worst.gradient,
+            1e-9);
     at_most("expressions: stress against the law", worst.law, 1e-13);
-    at_most("expressions: body force against differences of the stress", worst.equilibrium, 1e-9);
+    at_most("expressions: body force against differences of the stress",
+            worst.equilibrium,
+            1e-9);
   }
 
   void
@@ -225,16 +267,24 @@ int
 main()
 {
   at_most("thick sphere, nu = 0.3, published digits",
-          error_of_numbers(sphere, 0.3, {{8.0e-4, 4.158730e-4, 3.0e-4, -0.195767}}),
+          error_of_numbers(sphere,
+                           0.3,
+                           {{8.0e-4, 4.158730e-4, 3.0e-4, -0.195767}}),
           2e-6);
   at_most("thick sphere, nu = 0.5, published digits",
-          error_of_numbers(sphere, 0.5, {{8.571429e-4, 3.809524e-4, 2.142857e-4, -0.195767}}),
+          error_of_numbers(
+            sphere, 0.5, {{8.571429e-4, 3.809524e-4, 2.142857e-4, -0.195767}}),
           2e-6);
-  at_most("thick cylinder, nu = 0.3, published digits",
-          error_of_numbers(cylinder, 0.3, {{1.906667e-3, 1.415556e-3, 1.213333e-3, -0.259259}}),
-          2e-6);
+  at_most(
+    "thick cylinder, nu = 0.3, published digits",
+    error_of_numbers(cylinder,
+                     0.3,
+                     {{1.906667e-3, 1.415556e-3, 1.213333e-3, -0.259259}}),
+    2e-6);
   at_most("thick cylinder, nu = 0.5, published digits",
-          error_of_numbers(cylinder, 0.5, {{2.0e-3, 1.333333e-3, 1.0e-3, -0.259259}}),
+          error_of_numbers(cylinder,
+                           0.5,
+                           {{2.0e-3, 1.333333e-3, 1.0e-3, -0.259259}}),
           2e-6);
   check_lame("sphere of three layers", sphere);
   check_lame("cylinder of three layers", cylinder);

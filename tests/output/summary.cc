@@ -1,10 +1,9 @@
-// Proves that summary.json is valid, has the documented keys and no others, keeps every digit,
-// and is replaced as a whole.
-#include <mortise/base/error.h>
-#include <mortise/output/summary.h>
-
+// Proves that summary.json is valid, has the documented keys and no others,
+// keeps every digit, and is replaced as a whole.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/error.h>
+#include <mortise/output/summary.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -22,7 +21,8 @@ namespace
   void
   verdict(const bool fine, const std::string &what, const std::string &got = "")
   {
-    std::cout << (fine ? "OK  " : "FAILED ") << what << (fine ? "" : ": got: " + got) << std::endl;
+    std::cout << (fine ? "OK  " : "FAILED ") << what
+              << (fine ? "" : ": got: " + got) << std::endl;
   }
 
   /// The keys of @p json in order.
@@ -36,9 +36,13 @@ namespace
   }
 
   void
-  check_keys(const std::string &what, const Json &json, const std::string &expected)
+  check_keys(const std::string &what,
+             const Json        &json,
+             const std::string &expected)
   {
-    verdict(keys(json) == expected, "keys of " + what + ": " + expected, keys(json));
+    verdict(keys(json) == expected,
+            "keys of " + what + ": " + expected,
+            keys(json));
   }
 
   Summary
@@ -57,9 +61,10 @@ namespace
     interface.name                      = "glue";
     interface.slave_area                = 0.1 + 0.2;
     interface.worst_face_coverage_error = 1e-300;
-    interface.partition_of_unity_error  = std::numeric_limits<double>::quiet_NaN();
-    interface.force_residual            = std::numeric_limits<double>::infinity();
-    interface.moment_residual           = 1. / 3.;
+    interface.partition_of_unity_error =
+      std::numeric_limits<double>::quiet_NaN();
+    interface.force_residual  = std::numeric_limits<double>::infinity();
+    interface.moment_residual = 1. / 3.;
     interface.linear_completeness_error = 0.;
     step.interfaces.push_back(interface);
     step.solver     = SolverSummary{"direct", "none", 1, 1e-16};
@@ -73,22 +78,41 @@ namespace
   test_full()
   {
     const Json json = Json::parse(to_json(full_summary()));
-    check_keys("the summary", json, "program title status steps timings_s memory_mib");
-    check_keys("program", json["program"], "name version dealii ranks build_type");
+    check_keys("the summary",
+               json,
+               "program title status steps timings_s memory_mib");
+    check_keys("program",
+               json["program"],
+               "name version dealii ranks build_type");
     const Json &step = json["steps"][0];
-    check_keys("a step", step, "step cycle bodies dofs interfaces solver errors quantities");
-    check_keys("a body", step["bodies"][0], "name shape cells degree_min degree_max dofs");
+    check_keys("a step",
+               step,
+               "step cycle bodies dofs interfaces solver errors quantities");
+    check_keys("a body",
+               step["bodies"][0],
+               "name shape cells degree_min degree_max dofs");
     check_keys("dofs", step["dofs"], "displacement pressure multiplier total");
-    check_keys("an interface",
-               step["interfaces"][0],
-               "name slave_faces master_faces candidate_pairs pairs integration_cells "
-               "quadrature_points slave_area covered_area worst_face_coverage_error "
-               "partition_of_unity_error force_residual moment_residual linear_completeness_error");
-    check_keys("solver", step["solver"], "method preconditioner iterations relative_residual");
-    check_keys("errors", step["errors"], "displacement_l2 energy multiplier_l2");
-    check_keys("quantities, in the order of the request", step["quantities"], "z first a second");
-    check_keys("timings, in the order of the run", json["timings_s"], "total mesh");
-    check_keys("memory", json["memory_mib"], "peak_sum_over_ranks peak_max_rank");
+    check_keys(
+      "an interface",
+      step["interfaces"][0],
+      "name slave_faces master_faces candidate_pairs pairs integration_cells "
+      "quadrature_points slave_area covered_area worst_face_coverage_error "
+      "partition_of_unity_error force_residual moment_residual linear_completeness_error");
+    check_keys("solver",
+               step["solver"],
+               "method preconditioner iterations relative_residual");
+    check_keys("errors",
+               step["errors"],
+               "displacement_l2 energy multiplier_l2");
+    check_keys("quantities, in the order of the request",
+               step["quantities"],
+               "z first a second");
+    check_keys("timings, in the order of the run",
+               json["timings_s"],
+               "total mesh");
+    check_keys("memory",
+               json["memory_mib"],
+               "peak_sum_over_ranks peak_max_rank");
     const Json &interface = step["interfaces"][0];
     verdict(interface["slave_area"].get<double>() == 0.1 + 0.2 &&
               interface["moment_residual"].get<double>() == 1. / 3. &&
@@ -114,7 +138,9 @@ namespace
     check_keys("a step that failed before the solver",
                json["steps"][0],
                "step cycle bodies dofs interfaces quantities");
-    check_keys("dofs without interface", json["steps"][0]["dofs"], "displacement total");
+    check_keys("dofs without interface",
+               json["steps"][0]["dofs"],
+               "displacement total");
     verdict(!json["steps"][0]["interfaces"][0].contains("force_residual"),
             "what has no value is absent");
     verdict(json["timings_s"].is_object() && json["timings_s"].empty(),
@@ -124,9 +150,9 @@ namespace
   void
   test_file()
   {
-    namespace fs = std::filesystem;
-    const fs::path root =
-      fs::temp_directory_path() / ("mortise_summary_" + std::to_string(getpid()));
+    namespace fs        = std::filesystem;
+    const fs::path root = fs::temp_directory_path() /
+                          ("mortise_summary_" + std::to_string(getpid()));
     const auto text = [&] {
       std::ostringstream all;
       all << std::ifstream(root / "a/b/summary.json").rdbuf();
@@ -134,7 +160,8 @@ namespace
     };
     Summary summary = full_summary();
     write_summary(summary, (root / "a/b").string(), MPI_COMM_WORLD);
-    verdict(text() == to_json(summary), "the directory is made and the file is whole");
+    verdict(text() == to_json(summary),
+            "the directory is made and the file is whole");
     summary.status = "not converged";
     write_summary(summary, (root / "a/b").string(), MPI_COMM_WORLD);
     verdict(text() == to_json(summary), "a file from before is replaced");
@@ -142,7 +169,9 @@ namespace
             "nothing else is left there");
     try
       {
-        write_summary(summary, (root / "a/b/summary.json").string(), MPI_COMM_WORLD);
+        write_summary(summary,
+                      (root / "a/b/summary.json").string(),
+                      MPI_COMM_WORLD);
         verdict(false, "a directory that is a file", "no error");
       }
     catch (const InputError &e)

@@ -1,4 +1,5 @@
-// Proves that the command line is read as documented and that a wrong one says what is allowed.
+// Proves that the command line is read as documented and that a wrong one says
+// what is allowed.
 #include <mortise/base/error.h>
 #include <mortise/problem/command_line.h>
 
@@ -15,7 +16,8 @@ namespace
   void
   verdict(const bool fine, const std::string &what, const std::string &got = "")
   {
-    std::cout << (fine ? "OK  " : "FAILED ") << what << (fine ? "" : ": got: " + got) << std::endl;
+    std::cout << (fine ? "OK  " : "FAILED ") << what
+              << (fine ? "" : ": got: " + got) << std::endl;
   }
 
   void
@@ -26,7 +28,8 @@ namespace
              const Settings                 &settings)
   {
     const CommandLine line = parse_command_line(arguments);
-    verdict(line.action == action && line.file == file && line.settings == settings,
+    verdict(line.action == action && line.file == file &&
+              line.settings == settings,
             what,
             line.file);
   }
@@ -66,28 +69,46 @@ main()
              Action::run,
              "a.prm",
              {"Output/Directory=some/where"});
-  check_line("validate", {"--validate", "a.prm"}, Action::validate, "a.prm", {});
+  check_line(
+    "validate", {"--validate", "a.prm"}, Action::validate, "a.prm", {});
   check_line("parameters", {"--parameters"}, Action::print_parameters, "", {});
   check_line("help", {"--help"}, Action::print_help, "", {});
   check_line("version", {"--version"}, Action::print_version, "", {});
   check_error("nothing", {}, {"a parameter file is needed", "usage: mortise"});
-  check_error("validate nothing", {"--validate"}, {"a parameter file is needed"});
-  check_error("two files", {"a.prm", "b.prm"}, {"\"a.prm\"", "\"b.prm\"", "allowed is one"});
+  check_error("validate nothing",
+              {"--validate"},
+              {"a parameter file is needed"});
+  check_error("two files",
+              {"a.prm", "b.prm"},
+              {"\"a.prm\"", "\"b.prm\"", "allowed is one"});
   check_error("an unknown option",
               {"--ouput", "x", "a.prm"},
               {"\"--ouput\"", "did you mean \"--output\"", "--set"});
   check_error("an unknown option with a value",
               {"--sett=x", "a.prm"},
               {"--sett", "did you mean \"--set\""});
-  check_error("a set without value", {"a.prm", "--set"}, {"--set needs a value"});
-  check_error("a set without =", {"--set", "Title", "a.prm"}, {"--set \"Title\"", "NAME=VALUE"});
-  check_error("an empty directory", {"--output", "", "a.prm"}, {"--output", "got \"\""});
-  check_error("two actions", {"--help", "--version"}, {"--version", "allowed is one of"});
+  check_error("a set without value",
+              {"a.prm", "--set"},
+              {"--set needs a value"});
+  check_error("a set without =",
+              {"--set", "Title", "a.prm"},
+              {"--set \"Title\"", "NAME=VALUE"});
+  check_error("an empty directory",
+              {"--output", "", "a.prm"},
+              {"--output", "got \"\""});
+  check_error("two actions",
+              {"--help", "--version"},
+              {"--version", "allowed is one of"});
   bool all = true;
-  for (const std::string option :
-       {"--set", "--output", "--validate", "--parameters", "--help", "--version"})
+  for (const std::string option : {"--set",
+                                   "--output",
+                                   "--validate",
+                                   "--parameters",
+                                   "--help",
+                                   "--version"})
     all = all && help_text().find(option) != std::string::npos;
   verdict(all, "the help names every option");
-  verdict(version_text().find("deal.II") != std::string::npos, "the version names deal.II");
+  verdict(version_text().find("deal.II") != std::string::npos,
+          "the version names deal.II");
   return 0;
 }

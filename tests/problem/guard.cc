@@ -1,9 +1,10 @@
-// Proves that every kind of error becomes its exit code and one message, the same on all ranks.
+// Proves that every kind of error becomes its exit code and one message, the
+// same on all ranks.
+#include <deal.II/base/mpi.h>
+
 #include <mortise/base/error.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/parameters.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <functional>
 #include <iostream>
@@ -24,17 +25,18 @@ namespace
         const std::string           &part)
   {
     std::ostringstream error;
-    const int          got      = run_guarded(MPI_COMM_WORLD, program, error, 600.);
-    const std::string  text     = error.str();
-    const int          speakers = Ranks::sum(text.empty() ? 0 : 1, MPI_COMM_WORLD);
-    const bool         contains =
-      Ranks::max(text.find(part) != std::string::npos ? 1 : 0, MPI_COMM_WORLD) > 0;
-    const bool same =
-      Ranks::min(got, MPI_COMM_WORLD) == code && Ranks::max(got, MPI_COMM_WORLD) == code;
+    const int          got  = run_guarded(MPI_COMM_WORLD, program, error, 600.);
+    const std::string  text = error.str();
+    const int  speakers     = Ranks::sum(text.empty() ? 0 : 1, MPI_COMM_WORLD);
+    const bool contains =
+      Ranks::max(text.find(part) != std::string::npos ? 1 : 0, MPI_COMM_WORLD) >
+      0;
+    const bool same = Ranks::min(got, MPI_COMM_WORLD) == code &&
+                      Ranks::max(got, MPI_COMM_WORLD) == code;
     const bool fine = same && contains && speakers == (part.empty() ? 0 : 1);
     if (Ranks::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cout << (fine ? "OK  " : "FAILED ") << what << (fine ? "" : ": got: " + text)
-                << std::endl;
+      std::cout << (fine ? "OK  " : "FAILED ") << what
+                << (fine ? "" : ": got: " + text) << std::endl;
   }
 } // namespace
 
@@ -47,7 +49,10 @@ main(int argc, char *argv[])
   check(
     "no error: 0 and no message", [] {}, 0, "");
   check(
-    "wrong input: 2", [] { throw InputError("no such thing"); }, 2, "error: no such thing");
+    "wrong input: 2",
+    [] { throw InputError("no such thing"); },
+    2,
+    "error: no such thing");
   check(
     "wrong input seen by one rank only: 2",
     [&] { throw_if_any(me == n - 1 ? "a bad file" : "", MPI_COMM_WORLD); },
@@ -72,7 +77,10 @@ main(int argc, char *argv[])
     3,
     "after 7 iterations");
   check(
-    "a standard exception: 1", [] { std::string().at(1); }, 1, "a defect of mortise");
+    "a standard exception: 1",
+    [] { std::string().at(1); },
+    1,
+    "a defect of mortise");
   check(
     "an exception of any type: 1", [] { throw 1; }, 1, "unknown type");
   check(

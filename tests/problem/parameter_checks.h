@@ -1,4 +1,5 @@
-// A scene and checks of messages for the tests of parameter files. It never runs a scene.
+// A scene and checks of messages for the tests of parameter files. It never
+// runs a scene.
 #pragma once
 
 #include <mortise/base/error.h>
@@ -51,7 +52,9 @@ namespace parameter_checks
     const std::string message = message_of(action);
     for (const std::string &part : parts)
       if (message.find(part) == std::string::npos)
-        return verdict(false, what, "\"" + message + "\" without \"" + part + "\"");
+        return verdict(false,
+                       what,
+                       "\"" + message + "\" without \"" + part + "\"");
     verdict(true, what);
   }
 
@@ -130,7 +133,9 @@ end
              const std::vector<std::string> &parts)
   {
     check_message(
-      what, [&] { validate(parse_parameters(edited(from, to), "a.prm")); }, parts);
+      what,
+      [&] { validate(parse_parameters(edited(from, to), "a.prm")); },
+      parts);
   }
 
   /// The same with a setting of the command line.
@@ -140,6 +145,8 @@ end
                 const std::vector<std::string> &parts)
   {
     check_message(
-      what, [&] { validate(parse_parameters(scene, "a.prm", {setting})); }, parts);
+      what,
+      [&] { validate(parse_parameters(scene, "a.prm", {setting})); },
+      parts);
   }
 } // namespace parameter_checks

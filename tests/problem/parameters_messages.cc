@@ -1,8 +1,8 @@
-// Proves that every kind of wrong parameter file gives one message with what, where, what was got
-// and what is allowed or nearest.
-#include "parameter_checks.h"
-
+// Proves that every kind of wrong parameter file gives one message with what,
+// where, what was got and what is allowed or nearest.
 #include <deal.II/base/mpi.h>
+
+#include "parameter_checks.h"
 
 using namespace parameter_checks;
 
@@ -14,7 +14,9 @@ namespace
     check_edit("a missing end",
                "  set Slave  = inner: outside\n",
                "subsection x\n  set Slave = inner: outside\n",
-               {"subsection \"Interface glue\"", "\"end\" is missing", "a.prm"});
+               {"subsection \"Interface glue\"",
+                "\"end\" is missing",
+                "a.prm"});
     check_edit("an end too many",
                "subsection Solver",
                "end\nsubsection Solver",
@@ -22,16 +24,24 @@ namespace
     check_edit("an unknown keyword",
                "set Bodies ",
                "sett Bodies ",
-               {"line 3 of a.prm", "sett Bodies", "set NAME = VALUE", "did you mean \"set\""});
-    check_edit(
-      "a set without =", "set Degree = 2", "set Degree 2", {"line 6 of a.prm", "set NAME = VALUE"});
+               {"line 3 of a.prm",
+                "sett Bodies",
+                "set NAME = VALUE",
+                "did you mean \"set\""});
+    check_edit("a set without =",
+               "set Degree = 2",
+               "set Degree 2",
+               {"line 6 of a.prm", "set NAME = VALUE"});
     check_edit("a subsection without a name",
                "subsection Solver",
                "subsection",
                {"a subsection needs a name"});
-    check_message("an included file that is missing",
-                  [] { parse_parameters("set Bodies = a\ninclude missing_file.prm\n", "a.prm"); },
-                  {"missing_file.prm", "included at line 2 of a.prm", "No such file"});
+    check_message(
+      "an included file that is missing",
+      [] {
+        parse_parameters("set Bodies = a\ninclude missing_file.prm\n", "a.prm");
+      },
+      {"missing_file.prm", "included at line 2 of a.prm", "No such file"});
     check_message("an included directory",
                   [] { parse_parameters("include .\n", "a.prm"); },
                   {"included at line 1 of a.prm", "directory"});
@@ -39,7 +49,9 @@ namespace
                   [] { parse_parameters("set Bodies = a \\\n", "a.prm"); },
                   {"line 1 of a.prm", "continues"});
     check_message("a missing file",
-                  [] { read_parameters("missing_file.prm", {}, MPI_COMM_SELF); },
+                  [] {
+                    read_parameters("missing_file.prm", {}, MPI_COMM_SELF);
+                  },
                   {"missing_file.prm", "cannot be read", "No such file"});
     check_message("a directory instead of a file",
                   [] { read_parameters(".", {}, MPI_COMM_SELF); },
@@ -62,11 +74,14 @@ namespace
     check_edit("a misspelled top parameter",
                "set Title",
                "set Titel",
-               {"unknown parameter \"Titel\"", "line 2", "did you mean \"Title\""});
+               {"unknown parameter \"Titel\"",
+                "line 2",
+                "did you mean \"Title\""});
     check_edit("a parameter at the wrong level",
                "set Title      =",
                "set Poisson ratio =",
-               {"unknown parameter \"Poisson ratio\"", "belongs into: Body inner/Material"});
+               {"unknown parameter \"Poisson ratio\"",
+                "belongs into: Body inner/Material"});
     check_edit("a subsection of no body",
                "subsection Body outer",
                "subsection Body outr",
@@ -95,7 +110,9 @@ namespace
     check_edit("a misspelled top subsection",
                "subsection Solver",
                "subsection Solvr",
-               {"unknown subsection \"Solvr\"", "did you mean \"Solver\"", "Output"});
+               {"unknown subsection \"Solvr\"",
+                "did you mean \"Solver\"",
+                "Output"});
     check_edit("two bodies of one name",
                "inner, outer",
                "inner, inner",
@@ -105,7 +122,10 @@ namespace
                "inner, outer",
                "inner,, outer",
                {"Bodies (line 3 of a.prm)", "not empty"});
-    check_edit("a body with a colon", "inner, outer", "in:ner, outer", {"in:ner", "none of"});
+    check_edit("a body with a colon",
+               "inner, outer",
+               "in:ner, outer",
+               {"in:ner", "none of"});
     check_edit("a slave of no body",
                "inner: outside",
                "iner: outside",
@@ -121,15 +141,19 @@ namespace
                "outer: inside",
                "outer",
                {"Interface glue/Master", "\"outer\"", "body: boundary"});
-    const std::vector<std::vector<std::string>> names = {{"inside", "outside", "xmin", "zmin"},
-                                                         {"inside", "outside"}};
+    const std::vector<std::vector<std::string>> names = {
+      {"inside", "outside", "xmin", "zmin"}, {"inside", "outside"}};
     check_message("all boundaries exist",
-                  [&] { check_boundary_names(parse_parameters(scene, "a.prm"), names); },
+                  [&] {
+                    check_boundary_names(parse_parameters(scene, "a.prm"),
+                                         names);
+                  },
                   {"(no error)"});
     check_message("a boundary subsection of no boundary",
                   [&] {
                     check_boundary_names(
-                      parse_parameters(edited("Boundary inside", "Boundary insid"), "a.prm"),
+                      parse_parameters(
+                        edited("Boundary inside", "Boundary insid"), "a.prm"),
                       names);
                   },
                   {"Body inner/Boundary insid (line 19 of a.prm)",
@@ -137,29 +161,34 @@ namespace
                    "no boundary \"insid\"",
                    "did you mean \"inside\"",
                    "inside, outside, xmin, zmin"});
-    check_message("a boundary subsection of no boundary, by --set",
-                  [&] {
-                    check_boundary_names(parse_parameters(scene,
-                                                          "a.prm",
-                                                          {"Body inner/Boundary insid/Pressure=1"}),
-                                         names);
-                  },
-                  {"Body inner/Boundary insid (--set \"Body inner/Boundary insid/Pressure=1\")",
-                   "no boundary \"insid\""});
-    check_message("a master that is no boundary",
-                  [&] {
-                    check_boundary_names(parse_parameters(edited("outer: inside", "outer: inner"),
-                                                          "a.prm"),
-                                         names);
-                  },
-                  {"Interface glue/Master", "no boundary \"inner\"", "inside, outside"});
-    check_message("a resultant on no boundary",
-                  [&] {
-                    check_boundary_names(
-                      parse_parameters(edited("push: inner: inside", "push: outer: xmin"), "a.prm"),
-                      names);
-                  },
-                  {"Output/Resultants", "no boundary \"xmin\"", "inside, outside"});
+    check_message(
+      "a boundary subsection of no boundary, by --set",
+      [&] {
+        check_boundary_names(
+          parse_parameters(scene,
+                           "a.prm",
+                           {"Body inner/Boundary insid/Pressure=1"}),
+          names);
+      },
+      {"Body inner/Boundary insid (--set \"Body inner/Boundary insid/Pressure=1\")",
+       "no boundary \"insid\""});
+    check_message(
+      "a master that is no boundary",
+      [&] {
+        check_boundary_names(
+          parse_parameters(edited("outer: inside", "outer: inner"), "a.prm"),
+          names);
+      },
+      {"Interface glue/Master", "no boundary \"inner\"", "inside, outside"});
+    check_message(
+      "a resultant on no boundary",
+      [&] {
+        check_boundary_names(parse_parameters(edited("push: inner: inside",
+                                                     "push: outer: xmin"),
+                                              "a.prm"),
+                             names);
+      },
+      {"Output/Resultants", "no boundary \"xmin\"", "inside, outside"});
   }
 
   void
@@ -174,7 +203,9 @@ namespace
     check_edit("a word for an integer",
                "Degree = 2",
                "Degree = two",
-               {"Body inner/Degree (line 6 of a.prm)", "got \"two\"", "integer from 1 to 8"});
+               {"Body inner/Degree (line 6 of a.prm)",
+                "got \"two\"",
+                "integer from 1 to 8"});
     check_edit("a number for an integer",
                "Degree = 2",
                "Degree = 2.5",
@@ -182,7 +213,10 @@ namespace
     check_edit("an unknown choice",
                "Method    = saddle point",
                "Method = sadle point",
-               {"Solver/Method", "got \"sadle point\"", "did you mean \"saddle point\"", "direct"});
+               {"Solver/Method",
+                "got \"sadle point\"",
+                "did you mean \"saddle point\"",
+                "direct"});
     check_edit("an unknown generator",
                "shell octant",
                "shell octand",
@@ -193,7 +227,10 @@ namespace
                "Subdivisions = 4, 2",
                "Subdivisions = 4, two",
                {"Subdivisions", "got \"4, two\"", "integers"});
-    check_edit("two angles", "0, 0, 30", "0, 30", {"Rotate", "got \"0, 30\"", "3 numbers"});
+    check_edit("two angles",
+               "0, 0, 30",
+               "0, 30",
+               {"Rotate", "got \"0, 30\"", "3 numbers"});
     check_edit("two components",
                "Traction     = exact",
                "Traction = 1; 2",
@@ -223,7 +260,9 @@ namespace
     check_edit("exact without an exact solution",
                "Displacement = thick sphere",
                "Displacement =",
-               {"Boundary zmin/Traction", "\"exact\"", "Exact solution/Displacement"});
+               {"Boundary zmin/Traction",
+                "\"exact\"",
+                "Exact solution/Displacement"});
     check_edit("an exact pressure with a solution that follows from it",
                "Pressure     = 1 + x",
                "Pressure = exact",
@@ -234,7 +273,9 @@ namespace
     check_edit("a misspelled exact solution",
                "= thick sphere",
                "= thick spere",
-               {"Exact solution/Displacement", "thick spere", "did you mean \"thick sphere\""});
+               {"Exact solution/Displacement",
+                "thick spere",
+                "did you mean \"thick sphere\""});
     check_edit("an exact solution that does not parse",
                "= thick sphere",
                "= x; y; foo(z)",
@@ -243,7 +284,10 @@ namespace
                "3: 4; 5: 1",
                "3: 4; 5",
                {"Degree by region", "got \"5\"", "material id"});
-    check_edit("a region twice", "3: 4; 5: 1", "3: 4; 3: 1", {"Degree by region", "only once"});
+    check_edit("a region twice",
+               "3: 4; 5: 1",
+               "3: 4; 3: 1",
+               {"Degree by region", "only once"});
     check_edit("a point of no body",
                "corner: outer:",
                "corner: outr:",
@@ -259,7 +303,10 @@ namespace
     check_edit("an unknown field",
                "displacement, traction",
                "displacement, tractions",
-               {"Output/Fields", "got \"tractions\"", "did you mean \"traction\"", "stress"});
+               {"Output/Fields",
+                "got \"tractions\"",
+                "did you mean \"traction\"",
+                "stress"});
     check_edit("two quantities of one name",
                "push: inner",
                "corner: inner",
@@ -280,12 +327,16 @@ namespace
     check_edit("a negative Young's modulus",
                "Young modulus = 10",
                "Young modulus = -10",
-               {"Body inner/Material/Young modulus (line 15", "got -10", "positive"});
-    check_edit(
-      "Poisson's ratio 0.5",
-      "ratio = 0.25",
-      "ratio = 0.5",
-      {"Body inner/Material/Poisson ratio (line 16", "got 0.5", "below 0.5", "not available yet"});
+               {"Body inner/Material/Young modulus (line 15",
+                "got -10",
+                "positive"});
+    check_edit("Poisson's ratio 0.5",
+               "ratio = 0.25",
+               "ratio = 0.5",
+               {"Body inner/Material/Poisson ratio (line 16",
+                "got 0.5",
+                "below 0.5",
+                "not available yet"});
     check_edit("Poisson's ratio -1",
                "ratio = 0.25",
                "ratio = -1",
@@ -293,7 +344,9 @@ namespace
     check_setting("tolerance 1",
                   "Solver/Tolerance=1",
                   {"Solver/Tolerance (--set", "got 1", "between 0 and 1"});
-    check_setting("tolerance 0", "Solver/Tolerance=0", {"Solver/Tolerance", "got 0"});
+    check_setting("tolerance 0",
+                  "Solver/Tolerance=0",
+                  {"Solver/Tolerance", "got 0"});
     check_setting("no iterations",
                   "Solver/Max iterations=0",
                   {"Max iterations", "got \"0\"", "1 or more"});
@@ -312,7 +365,9 @@ namespace
     check_edit("slave and master the same",
                "outer: inside",
                "inner: outside",
-               {"Interface glue/Master (line 39", "inner: outside", "which is the slave"});
+               {"Interface glue/Master (line 39",
+                "inner: outside",
+                "which is the slave"});
     check_edit("a slave with a displacement",
                "inner: outside",
                "inner: xmin",
@@ -328,18 +383,18 @@ namespace
     check_setting("no quadrature points",
                   "Interface glue/Quadrature points=0",
                   {"Quadrature points", "got \"0\"", "auto"});
-    check_message("two interfaces between the same boundaries",
-                  [] {
-                    validate(parse_parameters(edited("= glue\n", "= glue, tape\n"),
-                                              "a.prm",
-                                              {"Interface tape/Slave=outer: inside",
-                                               "Interface tape/Master=inner: outside"}));
-                  },
-                  {"Interface tape/Slave", "interface glue", "once"});
     check_message(
-      "two interfaces of one body with itself",
-      [] { validate(parse_parameters(scene, "a.prm", {"Interface glue/Master=inner: inside"})); },
-      {"(no error)"});
+      "two interfaces between the same boundaries",
+      [] {
+        validate(parse_parameters(edited("= glue\n", "= glue, tape\n"),
+                                  "a.prm",
+                                  {"Interface tape/Slave=outer: inside",
+                                   "Interface tape/Master=inner: outside"}));
+      },
+      {"Interface tape/Slave", "interface glue", "once"});
+    check_setting("an interface of one body with itself",
+                  "Interface glue/Master=inner: inside",
+                  {"(no error)"});
   }
 } // namespace
 

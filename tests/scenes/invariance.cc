@@ -1,5 +1,6 @@
-// Proves that relative errors do not depend on the units of lengths and moduli, on the place of
-// the scene, nor on the method that solves it; and that a body may hang on its interface alone.
+// Proves that relative errors do not depend on the units of lengths and moduli,
+// on the place of the scene, nor on the method that solves it; and that a body
+// may hang on its interface alone.
 #include "scene.h"
 #include "scenes.h"
 
@@ -27,9 +28,10 @@ namespace
   {
     static const ErrorSummary reference = errors({});
     const ErrorSummary        got       = errors(settings);
-    const auto                same      = [&](const std::string &name, const double a, const double b) {
-      verdict(what + ": " + name + " error 1e-6", std::fabs(a - b) / b, 1e-6);
-    };
+    const auto                same =
+      [&](const std::string &name, const double a, const double b) {
+        verdict(what + ": " + name + " error 1e-6", std::fabs(a - b) / b, 1e-6);
+      };
     same("L2", *got.displacement_l2, *reference.displacement_l2);
     same("energy", *got.energy, *reference.energy);
     same("multiplier", *got.multiplier_l2, *reference.multiplier_l2);
@@ -45,9 +47,13 @@ main(int argc, char *argv[])
       const std::string solve = "Solver/Method=" + method;
       check(method, {solve});
       check(method + ", lengths 1e-3",
-            {solve, "Body inner/Mesh/Extent=1e-3, 1.5e-3", "Body outer/Mesh/Extent=1.5e-3, 2e-3"});
+            {solve,
+             "Body inner/Mesh/Extent=1e-3, 1.5e-3",
+             "Body outer/Mesh/Extent=1.5e-3, 2e-3"});
       check(method + ", lengths 1e6",
-            {solve, "Body inner/Mesh/Extent=1e6, 1.5e6", "Body outer/Mesh/Extent=1.5e6, 2e6"});
+            {solve,
+             "Body inner/Mesh/Extent=1e6, 1.5e6",
+             "Body outer/Mesh/Extent=1.5e6, 2e6"});
       check(method + ", moduli 1e9",
             {solve,
              "Body inner/Material/Young modulus=1e10",

@@ -1,5 +1,6 @@
-// Proves that linear displacements pass non-matching interfaces exactly: any degree, mesh ratio,
-// strain, rotation, side of the slave, hanging nodes and mixed degrees on either side.
+// Proves that linear displacements pass non-matching interfaces exactly: any
+// degree, mesh ratio, strain, rotation, side of the slave, hanging nodes and
+// mixed degrees on either side.
 #include "scene.h"
 #include "scenes.h"
 
@@ -8,8 +9,9 @@ using namespace mortise::testing;
 
 namespace
 {
-  const std::string general = "Exact solution/Displacement=0.1*x + 0.03*y - 0.02*z; "
-                              "0.05*y + 0.04*z + 0.01*x; -0.07*z + 0.02*x + 0.06*y";
+  const std::string general =
+    "Exact solution/Displacement=0.1*x + 0.03*y - 0.02*z; "
+    "0.05*y + 0.04*z + 0.01*x; -0.07*z + 0.02*x + 0.06*y";
 
   void
   check(const std::string &what, const std::string &text, Settings settings)
@@ -20,15 +22,21 @@ namespace
     exact_verdicts(what, *step.errors);
     for (const InterfaceSummary &interface : step.interfaces)
       {
-        verdict(what + ": coverage 1e-12", *interface.worst_face_coverage_error, 1e-12);
-        verdict(what + ": partition of unity 1e-13", *interface.partition_of_unity_error, 1e-13);
+        verdict(what + ": coverage 1e-12",
+                *interface.worst_face_coverage_error,
+                1e-12);
+        verdict(what + ": partition of unity 1e-13",
+                *interface.partition_of_unity_error,
+                1e-13);
         verdict(what + ": force 1e-12", *interface.force_residual, 1e-12);
         verdict(what + ": moment 1e-12", *interface.moment_residual, 1e-12);
       }
   }
 
   Settings
-  meshes(const std::string &lower, const std::string &upper, const unsigned int degree)
+  meshes(const std::string &lower,
+         const std::string &upper,
+         const unsigned int degree)
   {
     return {general,
             "Body lower/Mesh/Subdivisions=" + lower,
@@ -42,25 +50,39 @@ int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::string text = two_boxes();
-  const Settings    swapped = {"Interface glue/Slave=upper: zmin", "Interface glue/Master=lower: zmax"};
-  const Settings    direct  = {"Solver/Method=direct"};
+  const std::string                        text = two_boxes();
+  const Settings swapped = {"Interface glue/Slave=upper: zmin",
+                            "Interface glue/Master=lower: zmax"};
+  const Settings direct  = {"Solver/Method=direct"};
 
   for (const unsigned int p : {1, 2, 3})
-    check("3:4, degree " + std::to_string(p), text, meshes("3, 3, 1", "4, 4, 1", p) + direct);
+    check("3:4, degree " + std::to_string(p),
+          text,
+          meshes("3, 3, 1", "4, 4, 1", p) + direct);
   for (const unsigned int p : {4, 5, 6, 7, 8})
-    check("1:2, degree " + std::to_string(p), text, meshes("1, 1, 1", "2, 1, 1", p));
+    check("1:2, degree " + std::to_string(p),
+          text,
+          meshes("1, 1, 1", "2, 1, 1", p));
   check("7:11", text, meshes("7, 7, 1", "11, 11, 1", 1) + direct);
-  check("1:20, fine slave", text, meshes("1, 1, 1", "20, 20, 1", 1) + direct + swapped);
-  check("1:20, every vertex of the slave prescribed", text, meshes("1, 1, 1", "20, 20, 1", 1) + direct);
+  check("1:20, fine slave",
+        text,
+        meshes("1, 1, 1", "20, 20, 1", 1) + direct + swapped);
+  check("1:20, every vertex of the slave prescribed",
+        text,
+        meshes("1, 1, 1", "20, 20, 1", 1) + direct);
   check("1:20, the same by conjugate gradients",
         text,
-        meshes("1, 1, 1", "20, 20, 1", 1) + Settings{"Solver/Method=condensed"});
+        meshes("1, 1, 1", "20, 20, 1", 1) +
+          Settings{"Solver/Method=condensed"});
   check("1 x 5 against 4 x 7, every vertex of the slave prescribed",
         text,
         meshes("1, 5, 1", "4, 7, 1", 1) + direct);
-  check("20:1, degree 2", text, meshes("20, 2, 1", "1, 1, 1", 2) + direct + swapped);
-  check("slave and master exchanged", text, meshes("3, 3, 1", "4, 4, 1", 2) + direct + swapped);
+  check("20:1, degree 2",
+        text,
+        meshes("20, 2, 1", "1, 1, 1", 2) + direct + swapped);
+  check("slave and master exchanged",
+        text,
+        meshes("3, 3, 1", "4, 4, 1", 2) + direct + swapped);
 
   const std::string axes[] = {"x", "y", "z"};
   for (unsigned int i = 0; i < 3; ++i)
@@ -73,14 +95,17 @@ main(int argc, char *argv[])
         check("strain " + axes[i] + axes[j],
               text,
               meshes("2, 2, 1", "3, 3, 1", 1) + direct +
-                Settings{"Exact solution/Displacement=" + u[0] + ";" + u[1] + ";" + u[2]});
+                Settings{"Exact solution/Displacement=" + u[0] + ";" + u[1] +
+                         ";" + u[2]});
       }
-  const Settings turned = {"Body lower/Mesh/Rotate=20, 30, 50", "Body upper/Mesh/Rotate=20, 30, 50"};
+  const Settings turned = {"Body lower/Mesh/Rotate=20, 30, 50",
+                           "Body upper/Mesh/Rotate=20, 30, 50"};
   check("rotated", text, meshes("3, 3, 1", "4, 4, 1", 2) + direct + turned);
   check("tilted interface",
         text,
         meshes("3, 3, 1", "4, 4, 1", 2) + direct +
-          Settings{"Body lower/Mesh/Top slope=0.3, -0.2", "Body upper/Mesh/Bottom slope=0.3, -0.2"});
+          Settings{"Body lower/Mesh/Top slope=0.3, -0.2",
+                   "Body upper/Mesh/Bottom slope=0.3, -0.2"});
   check("hanging nodes on both sides",
         text,
         meshes("2, 2, 1", "3, 3, 1", 2) + direct +

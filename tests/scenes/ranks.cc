@@ -1,5 +1,6 @@
-// Proves that a scene gives the same on any number of ranks, also when bodies have fewer cells
-// than there are ranks: each rank solves the scene alone and compares with all ranks together.
+// Proves that a scene gives the same on any number of ranks, also when bodies
+// have fewer cells than there are ranks: each rank solves the scene alone and
+// compares with all ranks together.
 #include "scene.h"
 #include "scenes.h"
 
@@ -9,28 +10,41 @@ using namespace mortise::testing;
 namespace
 {
   void
-  check(const std::string &what, const std::string &text, const Settings &settings)
+  check(const std::string &what,
+        const std::string &text,
+        const Settings    &settings)
   {
-    const StepSummary alone    = run_scene(text, settings, MPI_COMM_SELF).steps.back();
+    const StepSummary alone =
+      run_scene(text, settings, MPI_COMM_SELF).steps.back();
     const StepSummary together = run_scene(text, settings).steps.back();
 
-    const auto same = [&](const std::string &quantity, const double a, const double b) {
-      verdict(what + ": " + quantity + " 1e-8", std::fabs(a - b) / std::max(std::fabs(b), 1e-300), 1e-8);
-    };
-    same("displacement dofs", together.dofs.displacement, alone.dofs.displacement);
+    const auto same =
+      [&](const std::string &quantity, const double a, const double b) {
+        verdict(what + ": " + quantity + " 1e-8",
+                std::fabs(a - b) / std::max(std::fabs(b), 1e-300),
+                1e-8);
+      };
+    same("displacement dofs",
+         together.dofs.displacement,
+         alone.dofs.displacement);
     same("multipliers", *together.dofs.multiplier, *alone.dofs.multiplier);
     for (unsigned int i = 0; i < alone.interfaces.size(); ++i)
       {
-        const InterfaceSummary &a = together.interfaces[i], &b = alone.interfaces[i];
+        const InterfaceSummary &a = together.interfaces[i],
+                               &b = alone.interfaces[i];
         same("slave faces", a.slave_faces, b.slave_faces);
         same("master faces", a.master_faces, b.master_faces);
         same("pairs", a.pairs, b.pairs);
         same("quadrature points", a.quadrature_points, b.quadrature_points);
         same("covered area", a.covered_area, b.covered_area);
       }
-    same("L2 error", *together.errors->displacement_l2, *alone.errors->displacement_l2);
+    same("L2 error",
+         *together.errors->displacement_l2,
+         *alone.errors->displacement_l2);
     same("energy error", *together.errors->energy, *alone.errors->energy);
-    same("multiplier error", *together.errors->multiplier_l2, *alone.errors->multiplier_l2);
+    same("multiplier error",
+         *together.errors->multiplier_l2,
+         *alone.errors->multiplier_l2);
     for (unsigned int i = 0; i < alone.quantities.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
         same(alone.quantities[i].first + " " + std::to_string(c),
@@ -66,7 +80,9 @@ main(int argc, char *argv[])
                    "Body outer/Degree by region=1: 3",
                    "Body inner/Mesh/Refine near=0, 0, 1.5, 0.6, 1",
                    "Body outer/Mesh/Refine near=1.5, 0, 0, 0.5, 1"});
-  check("sphere with hanging nodes and mixed degrees", two_layers(true), settings);
+  check("sphere with hanging nodes and mixed degrees",
+        two_layers(true),
+        settings);
   check("no vertex of the slave free along the axis",
         two_layers(false),
         {"Solver/Method=direct",

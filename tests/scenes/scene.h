@@ -1,4 +1,5 @@
-// Runs scenes inside test programs and prints verdicts. It never blesses numbers.
+// Runs scenes inside test programs and prints verdicts. It never blesses
+// numbers.
 #pragma once
 
 #include <mortise/problem/simulation.h>
@@ -11,7 +12,8 @@
 
 namespace mortise::testing
 {
-  /// Prints "OK  what" or "FAILED what: got, allowed"; rank 0 of the world only.
+  /// Prints "OK  what" or "FAILED what: got, allowed"; rank 0 of the world
+  /// only.
   inline void
   verdict(const std::string &what, const double got, const double allowed)
   {
@@ -20,7 +22,8 @@ namespace mortise::testing
     if (got <= allowed)
       std::cout << "OK  " << what << std::endl;
     else
-      std::cout << "FAILED  " << what << ": got " << got << ", allowed " << allowed << std::endl;
+      std::cout << "FAILED  " << what << ": got " << got << ", allowed "
+                << allowed << std::endl;
   }
 
   /// Run the scene of a parameter text, silently; nothing is written. @p warnings, if given, holds

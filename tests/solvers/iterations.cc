@@ -1,5 +1,6 @@
-// Proves that the saddle-point solver needs at most 30 iterations to 1e-10 on the tied thick sphere and
-// hardly more on a finer mesh, for several degrees, and that the condensed solver gives the same errors.
+// Proves that the saddle-point solver needs at most 30 iterations to 1e-10 on
+// the tied thick sphere and hardly more on a finer mesh, for several degrees,
+// and that the condensed solver gives the same errors.
 #include "scenes/scene.h"
 #include "scenes/scenes.h"
 
@@ -9,14 +10,18 @@ using namespace mortise::testing;
 namespace
 {
   StepSummary
-  run(const unsigned int degree, const unsigned int n, const std::string &method)
+  run(const unsigned int degree,
+      const unsigned int n,
+      const std::string &method)
   {
     const std::string p = std::to_string(degree);
     return run_scene(two_layers(true),
                      {"Body inner/Degree=" + p,
                       "Body outer/Degree=" + p,
-                      "Body inner/Mesh/Subdivisions=" + std::to_string(n) + ", " + std::to_string(n),
-                      "Body outer/Mesh/Subdivisions=" + std::to_string(n + 1) + ", " + std::to_string(n),
+                      "Body inner/Mesh/Subdivisions=" + std::to_string(n) +
+                        ", " + std::to_string(n),
+                      "Body outer/Mesh/Subdivisions=" + std::to_string(n + 1) +
+                        ", " + std::to_string(n),
                       "Solver/Method=" + method})
       .steps.back();
   }
@@ -28,10 +33,13 @@ namespace
   }
 
   void
-  check(const unsigned int degree, const unsigned int coarse, const unsigned int fine)
+  check(const unsigned int degree,
+        const unsigned int coarse,
+        const unsigned int fine)
   {
     const std::string name = "degree " + std::to_string(degree) + ": ";
-    const StepSummary a = run(degree, coarse, "saddle point"), b = run(degree, fine, "saddle point");
+    const StepSummary a    = run(degree, coarse, "saddle point"),
+                      b    = run(degree, fine, "saddle point");
     verdict(name + "30 iterations", std::max(iterations(a), iterations(b)), 30);
     verdict(name + "growth 1.25", iterations(b) / iterations(a), 1.25);
     const StepSummary c = run(degree, fine, "condensed");

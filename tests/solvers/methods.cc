@@ -1,13 +1,14 @@
-// Proves that the three methods give the same solution and multipliers, in any units, with prescribed jumps,
-// floating bodies, contrast, without an interface and on ranks without dofs; and that failure is reported.
-#include "spring_system.h"
-
+// Proves that the three methods give the same solution and multipliers, in any
+// units, with prescribed jumps, floating bodies, contrast, without an interface
+// and on ranks without dofs; and that failure is reported.
 #include <mortise/base/error.h>
 #include <mortise/solvers/solve.h>
 
 #include <cmath>
 #include <iostream>
 #include <limits>
+
+#include "spring_system.h"
 
 using namespace mortise;
 using namespace dealii;
@@ -22,7 +23,8 @@ namespace
         if (got <= allowed)
           std::cout << "OK  " << what << std::endl;
         else
-          std::cout << "FAILED  " << what << ": got " << got << ", allowed " << allowed << std::endl;
+          std::cout << "FAILED  " << what << ": got " << got << ", allowed "
+                    << allowed << std::endl;
       }
   }
 
@@ -33,7 +35,9 @@ namespace
   };
 
   Result
-  run(const BlockSystem &system, const std::string &method, const unsigned int max_iterations = 500)
+  run(const BlockSystem &system,
+      const std::string &method,
+      const unsigned int max_iterations = 500)
   {
     SolverOptions options;
     options.method         = solver_method_from_name(method);
@@ -57,13 +61,21 @@ namespace
   {
     const BlockSystem system = springs::Builder(scene, MPI_COMM_WORLD).build();
     const Result      direct = run(system, "direct");
-    verdict(name + ": direct, residual 1e-12", direct.report.relative_residual, 1e-12);
+    verdict(name + ": direct, residual 1e-12",
+            direct.report.relative_residual,
+            1e-12);
     for (const std::string method : {"condensed", "saddle point", "auto"})
       {
         const Result result = run(system, method);
-        verdict(name + ": " + method + ", converged", result.report.converged ? 0. : 1., 0.);
-        verdict(name + ": " + method + ", residual 1e-11", result.report.relative_residual, 1e-11);
-        verdict(name + ": " + method + ", displacements 1e-8", difference(result.u, direct.u), 1e-8);
+        verdict(name + ": " + method + ", converged",
+                result.report.converged ? 0. : 1.,
+                0.);
+        verdict(name + ": " + method + ", residual 1e-11",
+                result.report.relative_residual,
+                1e-11);
+        verdict(name + ": " + method + ", displacements 1e-8",
+                difference(result.u, direct.u),
+                1e-8);
         if (system.owned_multiplier.size() > 0)
           {
             verdict(name + ": " + method + ", multipliers 1e-8",
@@ -73,7 +85,9 @@ namespace
             system.coupling.vmult(jump, result.u);
             jump -= system.coupling_rhs;
             if (method == std::string("condensed"))
-              verdict(name + ": constraint to rounding", jump.linfty_norm() / result.u.linfty_norm(), 1e-13);
+              verdict(name + ": constraint to rounding",
+                      jump.linfty_norm() / result.u.linfty_norm(),
+                      1e-13);
           }
       }
   }
@@ -92,7 +106,9 @@ namespace
       {
         const double a = run(plain, method).report.iterations;
         const double b = run(other, method).report.iterations;
-        verdict("units: " + method + ", iterations differ by at most 1", std::fabs(a - b), 1.);
+        verdict("units: " + method + ", iterations differ by at most 1",
+                std::fabs(a - b),
+                1.);
       }
   }
 
@@ -104,9 +120,12 @@ namespace
     for (const std::string method : {"condensed", "saddle point"})
       {
         const Result result = run(system, method, 3);
-        verdict(method + ": three iterations do not converge", result.report.converged ? 1. : 0., 0.);
+        verdict(method + ": three iterations do not converge",
+                result.report.converged ? 1. : 0.,
+                0.);
         verdict(method + ": three iterations are reported",
-                std::fabs(result.report.iterations - 3.) + (result.report.relative_residual < 1. ? 0. : 1.),
+                std::fabs(result.report.iterations - 3.) +
+                  (result.report.relative_residual < 1. ? 0. : 1.),
                 0.);
       }
     scene.load             = 0.;
@@ -117,9 +136,12 @@ namespace
       {
         const Result result = run(zero, method);
         verdict(method + ": no load, no displacement",
-                result.u.l2_norm() + result.lambda.l2_norm() + (result.report.converged ? 0. : 1.),
+                result.u.l2_norm() + result.lambda.l2_norm() +
+                  (result.report.converged ? 0. : 1.),
                 0.);
-        verdict(method + ": not a number stops", run(nan, method).report.converged ? 1. : 0., 0.);
+        verdict(method + ": not a number stops",
+                run(nan, method).report.converged ? 1. : 0.,
+                0.);
       }
     bool thrown = false;
     try

@@ -1,12 +1,13 @@
-// A small tied system without a mesh: two blocks of points joined by springs, each point with three
-// displacements, tied point by point. It never needs more than a few milliseconds.
+// A small tied system without a mesh: two blocks of points joined by springs,
+// each point with three displacements, tied point by point. It never needs more
+// than a few milliseconds.
 #pragma once
-
-#include <mortise/operators/block_system.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <mortise/operators/block_system.h>
 
 #include <vector>
 
@@ -17,19 +18,20 @@ namespace springs
 
   struct Options
   {
-    double       stiffness   = 1.;    ///< of all springs
-    double       length      = 1.;    ///< unit of displacement: K / L^2 keeps energies
-    double       contrast    = 1.;    ///< second block over first
-    bool         tied        = true;
-    bool         floating    = false; ///< the second block is held by the ties alone
-    double       gap         = 0.;    ///< g: the prescribed jump across the tie
-    double       load        = 1.;
-    unsigned int size        = 4;     ///< points per direction of a block
-    unsigned int first_ranks = 0;     ///< ranks that own dofs; 0: all
+    double stiffness  = 1.; ///< of all springs
+    double length     = 1.; ///< unit of displacement: K / L^2 keeps energies
+    double contrast   = 1.; ///< second block over first
+    bool   tied       = true;
+    bool   floating   = false; ///< the second block is held by the ties alone
+    double gap        = 0.;    ///< g: the prescribed jump across the tie
+    double load       = 1.;
+    unsigned int size = 4;        ///< points per direction of a block
+    unsigned int first_ranks = 0; ///< ranks that own dofs; 0: all
   };
 
-  /// Points of block b are numbered after those of block 0; x runs fastest. The blocks lie side by
-  /// side along x: the last layer of block 0 is tied to the first of block 1.
+  /// Points of block b are numbered after those of block 0; x runs fastest. The
+  /// blocks lie side by side along x: the last layer of block 0 is tied to the
+  /// first of block 1.
   class Builder
   {
   public:
@@ -71,7 +73,9 @@ namespace springs
     using Range = std::pair<unsigned int, unsigned int>;
 
     static Range
-    share(const unsigned int total, const unsigned int rank, const unsigned int ranks)
+    share(const unsigned int total,
+          const unsigned int rank,
+          const unsigned int ranks)
     {
       if (rank >= ranks)
         return {total, total};
@@ -97,36 +101,45 @@ namespace springs
     position(const unsigned int p) const
     {
       const unsigned int q = p % (n * n * n);
-      return o.length * dealii::Point<3>(q % n + block(p) * (n - 1.), (q / n) % n, q / (n * n));
+      return o.length * dealii::Point<3>(q % n + block(p) * (n - 1.),
+                                         (q / n) % n,
+                                         q / (n * n));
     }
 
     bool
     is_fixed(const unsigned int p) const
     {
       const unsigned int x = p % n;
-      return (block(p) == 0 && x == 0) || (block(p) == 1 && x == n - 1 && !o.floating);
+      return (block(p) == 0 && x == 0) ||
+             (block(p) == 1 && x == n - 1 && !o.floating);
     }
 
     /// Each spring between near points p, q: k (d (x) d + 0.2 I) on u_p - u_q.
     void
     fill_bulk(BlockSystem &system) const
     {
-      const unsigned int            n_points = 2 * n * n * n;
-      dealii::DynamicSparsityPattern pattern(3 * n_points, 3 * n_points, system.owned_displacement);
-      const auto                     near = [&](const unsigned int p, const unsigned int q) {
-        return block(p) == block(q) && position(p).distance(position(q)) < 1.8 * o.length;
+      const unsigned int             n_points = 2 * n * n * n;
+      dealii::DynamicSparsityPattern pattern(3 * n_points,
+                                             3 * n_points,
+                                             system.owned_displacement);
+      const auto near = [&](const unsigned int p, const unsigned int q) {
+        return block(p) == block(q) &&
+               position(p).distance(position(q)) < 1.8 * o.length;
       };
       for (unsigned int p = owned_points.first; p < owned_points.second; ++p)
         for (unsigned int q = 0; q < n_points; ++q)
           if (p == q || (near(p, q) && !is_fixed(p) && !is_fixed(q)))
             for (unsigned int c = 0; c < 9; ++c)
               pattern.add(3 * p + c / 3, 3 * q + c % 3);
-      system.stiffness.reinit(system.owned_displacement, system.owned_displacement, pattern, comm);
+      system.stiffness.reinit(system.owned_displacement,
+                              system.owned_displacement,
+                              pattern,
+                              comm);
       system.load.reinit(system.owned_displacement, comm);
       for (unsigned int p = owned_points.first; p < owned_points.second; ++p)
         {
-          const double k =
-            o.stiffness / (o.length * o.length) * (block(p) == 1 ? o.contrast : 1.);
+          const double k = o.stiffness / (o.length * o.length) *
+                           (block(p) == 1 ? o.contrast : 1.);
           if (is_fixed(p))
             for (unsigned int d = 0; d < 3; ++d)
               system.stiffness.set(3 * p + d, 3 * p + d, k);
@@ -136,16 +149,23 @@ namespace springs
               for (unsigned int q = 0; q < n_points; ++q)
                 if (q != p && near(p, q))
                   {
-                    const auto direction = (position(p) - position(q)) / o.length;
-                    const auto spring    = k * (dealii::symmetrize(dealii::outer_product(direction, direction)) +
-                                             0.2 * dealii::unit_symmetric_tensor<3>());
+                    const auto direction =
+                      (position(p) - position(q)) / o.length;
+                    const auto spring =
+                      k * (dealii::symmetrize(
+                             dealii::outer_product(direction, direction)) +
+                           0.2 * dealii::unit_symmetric_tensor<3>());
                     diagonal += spring;
                     if (!is_fixed(q))
                       for (unsigned int c = 0; c < 9; ++c)
-                        system.stiffness.set(3 * p + c / 3, 3 * q + c % 3, -spring[c / 3][c % 3]);
+                        system.stiffness.set(3 * p + c / 3,
+                                             3 * q + c % 3,
+                                             -spring[c / 3][c % 3]);
                   }
               for (unsigned int c = 0; c < 9; ++c)
-                system.stiffness.set(3 * p + c / 3, 3 * p + c % 3, diagonal[c / 3][c % 3]);
+                system.stiffness.set(3 * p + c / 3,
+                                     3 * p + c % 3,
+                                     diagonal[c / 3][c % 3]);
               for (unsigned int d = 0; d < 3; ++d)
                 system.load[3 * p + d] =
                   o.load * o.stiffness / o.length * ((p * 7 + d * 3) % 5 - 1.5);
@@ -159,16 +179,22 @@ namespace springs
     void
     fill_tie(BlockSystem &system) const
     {
-      const auto   slave  = [&](const unsigned int t) { return (t % n) * n + (t / n) * n * n + n - 1; };
-      const auto   master = [&](const unsigned int t) { return slave(t) + n * n * n - (n - 1); };
-      const double gamma  = o.stiffness * std::min(1., o.contrast) / (o.length * o.length);
-      const auto   n_u = 6 * n * n * n, n_l = 3 * n * n;
+      const auto slave = [&](const unsigned int t) {
+        return (t % n) * n + (t / n) * n * n + n - 1;
+      };
+      const auto master = [&](const unsigned int t) {
+        return slave(t) + n * n * n - (n - 1);
+      };
+      const double gamma =
+        o.stiffness * std::min(1., o.contrast) / (o.length * o.length);
+      const auto                     n_u = 6 * n * n * n, n_l = 3 * n * n;
       dealii::DynamicSparsityPattern b(n_l, n_u, system.owned_multiplier);
       dealii::DynamicSparsityPattern j(n_u, n_u, system.owned_displacement);
       for (unsigned int t = 0; t < n * n; ++t)
         for (unsigned int d = 0; d < 3; ++d)
           {
-            const Index l = 3 * t + d, s = 3 * slave(t) + d, m = 3 * master(t) + d;
+            const Index l = 3 * t + d, s = 3 * slave(t) + d,
+                        m = 3 * master(t) + d;
             if (system.owned_multiplier.is_element(l))
               {
                 b.add(l, s);
@@ -181,13 +207,20 @@ namespace springs
           }
       for (const Index i : system.owned_displacement)
         j.add(i, i);
-      system.coupling.reinit(system.owned_multiplier, system.owned_displacement, b, comm);
-      system.jump_penalty.reinit(system.owned_displacement, system.owned_displacement, j, comm);
+      system.coupling.reinit(system.owned_multiplier,
+                             system.owned_displacement,
+                             b,
+                             comm);
+      system.jump_penalty.reinit(system.owned_displacement,
+                                 system.owned_displacement,
+                                 j,
+                                 comm);
       system.coupling_rhs.reinit(system.owned_multiplier, comm);
       for (unsigned int t = 0; t < n * n; ++t)
         for (unsigned int d = 0; d < 3; ++d)
           {
-            const Index  l = 3 * t + d, s = 3 * slave(t) + d, m = 3 * master(t) + d;
+            const Index l = 3 * t + d, s = 3 * slave(t) + d,
+                        m     = 3 * master(t) + d;
             const double area = 1. + 0.1 * (t % 3);
             if (system.owned_multiplier.is_element(l))
               {
@@ -198,7 +231,9 @@ namespace springs
             for (const Index row : {s, m})
               if (system.owned_displacement.is_element(row))
                 for (const Index column : {s, m})
-                  system.jump_penalty.set(row, column, row == column ? gamma : -gamma);
+                  system.jump_penalty.set(row,
+                                          column,
+                                          row == column ? gamma : -gamma);
           }
       for (auto *matrix : {&system.coupling, &system.jump_penalty})
         matrix->compress(dealii::VectorOperation::insert);

@@ -13,13 +13,16 @@ namespace mortise
   /// Exit codes of the program (the contract with scripts).
   enum class ExitCode : int
   {
-    success       = 0,
-    defect        = 1, ///< a defect of the program
-    invalid_input = 2, ///< the input is wrong: what, where, what was got, what is allowed
-    not_converged = 3  ///< the solver did not reach its tolerance; what was reached is written
+    success = 0,
+    defect  = 1, ///< a defect of the program
+    invalid_input =
+      2, ///< the input is wrong: what, where, what was got, what is allowed
+    not_converged =
+      3 ///< the solver did not reach its tolerance; what was reached is written
   };
 
-  /// Wrong input. The message says what is wrong, where, what was got and what is allowed.
+  /// Wrong input. The message says what is wrong, where, what was got and what
+  /// is allowed.
   class InputError : public std::runtime_error
   {
   public:
@@ -27,8 +30,9 @@ namespace mortise
   };
 
   /// Throw InputError with @p message on every rank of @p comm if any rank passes a message that
-  /// is not empty (the message of the lowest such rank). Collective: every rank must call it, so
-  /// that an error seen by one rank never leaves the others waiting.
+  /// is not empty (the message of the lowest such rank). Collective: every rank
+  /// must call it, so that an error seen by one rank never leaves the others
+  /// waiting.
   void
   throw_if_any(const std::string &message, MPI_Comm comm);
 

@@ -1,5 +1,6 @@
 // Expressions in x, y, z with exact first and second derivatives.
-// It never differentiates by finite differences and knows no mesh, time or units.
+// It never differentiates by finite differences and knows no mesh, time or
+// units.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -13,13 +14,16 @@
 namespace mortise
 {
   /// A scalar expression of the position. Grammar, from weak to strong binding:
-  ///   c ? a : b    ||    &&    < <= > >= == !=    + -    * /    unary + - !    ^ (right to left)
-  /// with numbers, parentheses, the variables x, y, z, the constant pi and the functions
-  ///   sin cos tan asin acos atan sinh cosh tanh exp log sqrt abs   (one argument)
-  ///   atan2 min max pow (two)   if(condition, then, else) (three; the branch not taken may be
-  ///   undefined).
-  /// -x^2 is -(x^2). Comparisons give 0 or 1. Constant parts are folded when parsing.
-  /// At a kink (abs, min, max, a comparison) the derivatives are those of the branch taken.
+  ///   c ? a : b    ||    &&    < <= > >= == !=    + -    * /    unary + - ! ^
+  ///   (right to left)
+  /// with numbers, parentheses, the variables x, y, z, the constant pi and the
+  /// functions
+  ///   sin cos tan asin acos atan sinh cosh tanh exp log sqrt abs   (one
+  ///   argument) atan2 min max pow (two)   if(condition, then, else) (three;
+  ///   the branch not taken may be undefined).
+  /// -x^2 is -(x^2). Comparisons give 0 or 1. Constant parts are folded when
+  /// parsing. At a kink (abs, min, max, a comparison) the derivatives are those
+  /// of the branch taken.
   class Expression
   {
   public:
@@ -27,7 +31,8 @@ namespace mortise
     Expression();
 
     /// Parse @p text; @p where names the parameter in messages. Throws InputError with the
-    /// position of the first character that is not understood and what is allowed there.
+    /// position of the first character that is not understood and what is
+    /// allowed there.
     explicit Expression(const std::string &text, const std::string &where = "");
 
     double
@@ -69,7 +74,8 @@ namespace mortise
     static unsigned int
     n_operands(Operation operation);
 
-    /// Value of an operation on numbers; operands that it does not have are ignored.
+    /// Value of an operation on numbers; operands that it does not have are
+    /// ignored.
     static double
     apply(Operation operation, double a, double b = 0., double c = 0.);
 
@@ -86,7 +92,8 @@ namespace mortise
     static std::vector<Node>
     parse(const std::string &text, const std::string &where);
 
-    std::vector<Node> nodes; ///< operands before operations; the last is the root
+    std::vector<Node>
+      nodes; ///< operands before operations; the last is the root
   };
 
   /// Three expressions, the components of a vector.
@@ -96,8 +103,10 @@ namespace mortise
     /// The constant zero.
     VectorExpression() = default;
 
-    /// Parse "ex; ey; ez". Throws InputError as Expression does, and for another number of parts.
-    explicit VectorExpression(const std::string &text, const std::string &where = "");
+    /// Parse "ex; ey; ez". Throws InputError as Expression does, and for
+    /// another number of parts.
+    explicit VectorExpression(const std::string &text,
+                              const std::string &where = "");
 
     dealii::Tensor<1, 3>
     value(const dealii::Point<3> &p) const;

@@ -1,4 +1,5 @@
-// The deal.II headers that most sources include, precompiled once. It never defines anything.
+// The deal.II headers that most sources include, precompiled once. It never
+// defines anything.
 #pragma once
 
 #include <deal.II/base/mpi.h>

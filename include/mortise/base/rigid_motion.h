@@ -1,5 +1,5 @@
-// A rotation about the origin followed by a translation: how a body or a scene is placed.
-// It never scales or mirrors, and knows no mesh.
+// A rotation about the origin followed by a translation: how a body or a scene
+// is placed. It never scales or mirrors, and knows no mesh.
 #pragma once
 
 #include <deal.II/base/numbers.h>
@@ -22,13 +22,15 @@ namespace mortise
 
     /// Rotate by @p degrees about the fixed axis x, then y, then z (rotation = Rz Ry Rx), then
     /// translate by @p shift. Multiples of 90 degrees give matrices that are exact.
-    RigidMotion(const std::array<double, 3> &degrees, const std::array<double, 3> &shift)
+    RigidMotion(const std::array<double, 3> &degrees,
+                const std::array<double, 3> &shift)
       : RigidMotion()
     {
       for (unsigned int axis = 0; axis < 3; ++axis)
         {
-          const unsigned int   i = (axis + 1) % 3, j = (axis + 2) % 3;
-          const double         c = cosine(degrees[axis]), s = cosine(degrees[axis] - 90.);
+          const unsigned int i = (axis + 1) % 3, j = (axis + 2) % 3;
+          const double       c = cosine(degrees[axis]),
+                       s       = cosine(degrees[axis] - 90.);
           dealii::Tensor<2, 3> turn;
           turn[axis][axis] = 1.;
           turn[i][i] = turn[j][j] = c;

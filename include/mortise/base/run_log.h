@@ -1,9 +1,9 @@
-// What a run tells on the screen: a line per stage with its time, warnings once, a table at
-// the end. Only rank 0 prints. It never decides anything and never writes files.
+// What a run tells on the screen: a line per stage with its time, warnings
+// once, a table at the end. Only rank 0 prints. It never decides anything and
+// never writes files.
 #pragma once
 
 #include <mortise/base/timers.h>
-
 #include <mpi.h>
 
 #include <iosfwd>
@@ -17,8 +17,8 @@ namespace mortise
   class RunLog
   {
   public:
-    /// One stage of a run: enters the timer of its name and, when it ends without an exception,
-    /// prints "  name   0.12 s   details".
+    /// One stage of a run: enters the timer of its name and, when it ends
+    /// without an exception, prints "  name   0.12 s   details".
     class Stage
     {
     public:
@@ -48,29 +48,34 @@ namespace mortise
     /// @p out is written by rank 0 of @p comm only; it must outlive the log.
     RunLog(std::ostream &out, MPI_Comm comm);
 
-    /// Run a stage: `auto stage = log.stage(timers, "mesh"); ... stage.details("96 cells");`
+    /// Run a stage: `auto stage = log.stage(timers, "mesh"); ...
+    /// stage.details("96 cells");`
     [[nodiscard]] Stage
     stage(Timers &timers, const std::string &name);
 
     /// The line of a stage that took @p seconds.
     void
-    stage_line(const std::string &name, double seconds, const std::string &details = {});
+    stage_line(const std::string &name,
+               double             seconds,
+               const std::string &details = {});
 
     /// A line of text, as it is.
     void
     line(const std::string &text = {});
 
-    /// "warning: text", once for each text. Call it on every rank or on rank 0; what only another
-    /// rank knows must be brought to rank 0 first.
+    /// "warning: text", once for each text. Call it on every rank or on rank 0;
+    /// what only another rank knows must be brought to rank 0 first.
     void
     warning(const std::string &text);
 
-    /// Texts of the warnings so far, in order (of rank 0; the same on all ranks if all called).
+    /// Texts of the warnings so far, in order (of rank 0; the same on all ranks
+    /// if all called).
     const std::vector<std::string> &
     warnings() const;
 
-    /// Rows in aligned columns: the first column to the left, the others to the right. The first
-    /// row is the heading. A row may be shorter than the heading.
+    /// Rows in aligned columns: the first column to the left, the others to the
+    /// right. The first row is the heading. A row may be shorter than the
+    /// heading.
     void
     table(const std::vector<std::vector<std::string>> &rows);
 

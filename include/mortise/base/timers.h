@@ -1,5 +1,5 @@
-// Wall times of the steps of a run, and the memory it took. It never prints and never
-// synchronises ranks: a scope costs two looks at the clock.
+// Wall times of the steps of a run, and the memory it took. It never prints and
+// never synchronises ranks: a scope costs two looks at the clock.
 #pragma once
 
 #include <mpi.h>
@@ -12,8 +12,8 @@
 
 namespace mortise
 {
-  /// Accumulated wall times by name. Scopes may be entered many times; a name that was never
-  /// entered is absent.
+  /// Accumulated wall times by name. Scopes may be entered many times; a name
+  /// that was never entered is absent.
   class Timers
   {
   public:
@@ -58,15 +58,17 @@ namespace mortise
     double
     total() const;
 
-    /// Names in order of first use with the largest time of any rank, and "total" first.
-    /// A name that only some ranks entered is there, too. Collective.
+    /// Names in order of first use with the largest time of any rank, and
+    /// "total" first. A name that only some ranks entered is there, too.
+    /// Collective.
     std::vector<std::pair<std::string, double>>
     walls(MPI_Comm comm) const;
 
   private:
-    Clock::time_point                           start;
-    std::vector<std::pair<std::string, double>> times; ///< in order of first use
-    std::map<std::string, std::size_t>          index;
+    Clock::time_point start;
+    std::vector<std::pair<std::string, double>>
+                                       times; ///< in order of first use
+    std::map<std::string, std::size_t> index;
   };
 
   /// Peak resident memory of the processes, MiB.

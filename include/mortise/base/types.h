@@ -1,5 +1,5 @@
-// The types of the program: the one place that names the linear algebra backend.
-// It never defines behaviour.
+// The types of the program: the one place that names the linear algebra
+// backend. It never defines behaviour.
 #pragma once
 
 #include <deal.II/base/types.h>

@@ -1,12 +1,7 @@
-// One elastic body: triangulation, hp space of displacements, mapping, conformity constraints and
-// material. It never knows of other bodies, of interfaces or of parameter files.
+// One elastic body: triangulation, hp space of displacements, mapping,
+// conformity constraints and material. It never knows of other bodies, of
+// interfaces or of parameter files.
 #pragma once
-
-#include <mortise/base/types.h>
-
-#include <mortise/body/hp_constraints.h>
-#include <mortise/body/mesh_source.h>
-#include <mortise/material/linear_elastic.h>
 
 #include <deal.II/base/index_set.h>
 
@@ -17,6 +12,11 @@
 #include <deal.II/hp/fe_collection.h>
 
 #include <deal.II/lac/affine_constraints.h>
+
+#include <mortise/base/types.h>
+#include <mortise/body/hp_constraints.h>
+#include <mortise/body/mesh_source.h>
+#include <mortise/material/linear_elastic.h>
 
 #include <map>
 #include <memory>
@@ -31,19 +31,25 @@ namespace mortise
     using CellIterator = dealii::DoFHandler<dim>::active_cell_iterator;
 
     /// @p index is the position of the body in the scene.
-    Body(const std::string &name, unsigned int index, const LinearElastic &material, MPI_Comm comm);
+    Body(const std::string   &name,
+         unsigned int         index,
+         const LinearElastic &material,
+         MPI_Comm             comm);
 
-    /// Mesh of the body. Collective; throws InputError (@p where starts the message).
+    /// Mesh of the body. Collective; throws InputError (@p where starts the
+    /// message).
     void
     create_mesh(const MeshParameters &parameters, const std::string &where);
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
-    /// of a cell; mapping of the largest degree on curved meshes; conformity constraints.
-    /// Collective; throws InputError for a region that the mesh does not have.
+    /// of a cell; mapping of the largest degree on curved meshes; conformity
+    /// constraints. Collective; throws InputError for a region that the mesh
+    /// does not have.
     void
-    create_space(unsigned int                                         degree,
-                 const std::map<dealii::types::material_id, unsigned> &degree_by_region,
-                 const std::string                                   &where);
+    create_space(
+      unsigned int                                          degree,
+      const std::map<dealii::types::material_id, unsigned> &degree_by_region,
+      const std::string                                    &where);
 
     /// Degree of the displacement on @p cell.
     unsigned int
@@ -70,17 +76,20 @@ namespace mortise
     const unsigned int  index;
     const LinearElastic material;
 
-    HexTriangulation             triangulation;
-    MeshNames                    names;
-    bool                         curved = false; ///< not meshed by trilinear cells
-    dealii::hp::FECollection<dim> fe;             ///< FESystem(FE_Legendre(p), 3), rising p
-    dealii::DoFHandler<dim>      dof_handler;
+    HexTriangulation triangulation;
+    MeshNames        names;
+    bool             curved = false;  ///< not meshed by trilinear cells
+    dealii::hp::FECollection<dim> fe; ///< FESystem(FE_Legendre(p), 3), rising p
+    dealii::DoFHandler<dim>       dof_handler;
 
     std::unique_ptr<dealii::MappingQCache<dim>> mapping;
     unsigned int                                mapping_degree = 1;
 
-    dealii::IndexSet                  relevant_dofs; ///< of owned and ghost cells, and their masters
-    dealii::AffineConstraints<double> conformity; ///< hanging nodes and mixed degrees; left open
-    std::unique_ptr<EntityDegrees>    degrees;    ///< of edges and faces, by the minimum rule
+    dealii::IndexSet
+      relevant_dofs; ///< of owned and ghost cells, and their masters
+    dealii::AffineConstraints<double>
+      conformity; ///< hanging nodes and mixed degrees; left open
+    std::unique_ptr<EntityDegrees>
+      degrees; ///< of edges and faces, by the minimum rule
   };
 } // namespace mortise

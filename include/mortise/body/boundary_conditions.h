@@ -1,5 +1,5 @@
-// Prescribed displacements of one body as constraints, and prescribed tractions as data.
-// It never assembles.
+// Prescribed displacements of one body as constraints, and prescribed tractions
+// as data. It never assembles.
 #pragma once
 
 #include <mortise/body/body.h>
@@ -13,9 +13,10 @@ namespace mortise
   /// A prescribed displacement of some components on one boundary.
   struct DirichletCondition
   {
-    dealii::types::boundary_id                                    boundary;
-    std::array<bool, dim>                                         fixed{}; ///< components it prescribes
-    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> value; ///< a length; empty: zero
+    dealii::types::boundary_id boundary;
+    std::array<bool, dim>      fixed{}; ///< components it prescribes
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+      value; ///< a length; empty: zero
   };
 
   /// A prescribed traction on one boundary.
@@ -23,16 +24,18 @@ namespace mortise
   {
     dealii::types::boundary_id boundary;
     /// Force per area at a point with outward unit normal.
-    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &, const dealii::Tensor<1, dim> &)>
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &,
+                                         const dealii::Tensor<1, dim> &)>
       traction;
   };
 
   /// Constrain the displacements of @p body on its Dirichlet boundaries. The values are interpolated
-  /// by projections: at vertices, then in L2 on edges, then on faces, up to the degree that
-  /// conformity leaves (Demkowicz, projection-based interpolation). Where boundaries meet, the first
+  /// by projections: at vertices, then in L2 on edges, then on faces, up to the
+  /// degree that conformity leaves (Demkowicz, projection-based interpolation).
+  /// Where boundaries meet, the first
   /// condition that prescribes a component counts. @p constraints holds the body's conformity
-  /// constraints, is not closed, and stays so; dofs that it constrains are left alone.
-  /// Collective.
+  /// constraints, is not closed, and stays so; dofs that it constrains are left
+  /// alone. Collective.
   void
   add_dirichlet_constraints(const Body                            &body,
                             const std::vector<DirichletCondition> &conditions,

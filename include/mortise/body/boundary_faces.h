@@ -1,4 +1,5 @@
-// The faces of a body on one of its boundaries. It never looks at their geometry.
+// The faces of a body on one of its boundaries. It never looks at their
+// geometry.
 #pragma once
 
 #include <mortise/body/body.h>

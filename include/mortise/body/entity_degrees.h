@@ -1,6 +1,7 @@
-// The minimum rule: the polynomial degree of each edge and face of a mesh is the least of all
-// cells around it, across hanging nodes and ranks, and the degree of freedom that stands for a
-// mode there. It never writes constraints (see hp_constraints.h).
+// The minimum rule: the polynomial degree of each edge and face of a mesh is
+// the least of all cells around it, across hanging nodes and ranks, and the
+// degree of freedom that stands for a mode there. It never writes constraints
+// (see hp_constraints.h).
 #pragma once
 
 #include <deal.II/dofs/dof_handler.h>
@@ -9,17 +10,19 @@
 
 namespace mortise
 {
-  /// Degrees of edges and faces by the minimum rule, for a DoFHandler whose elements are
-  /// FE_Legendre or FESystem(FE_Legendre(p), n). The space is
+  /// Degrees of edges and faces by the minimum rule, for a DoFHandler whose
+  /// elements are FE_Legendre or FESystem(FE_Legendre(p), n). The space is
   ///
   /// - cell interiors: all modes of the cell's degree;
-  /// - faces, edges: modes up to the least degree of all cells that touch them with more than a
+  /// - faces, edges: modes up to the least degree of all cells that touch them
+  /// with more than a
   ///   vertex, those on the finer side of a hanging face or edge included;
-  /// - edges of a face that is refined on one side only: not above the degree of that face, since
+  /// - edges of a face that is refined on one side only: not above the degree
+  /// of that face, since
   ///   their modes must be represented by every cell on its finer side.
   ///
-  /// Valid on locally owned and ghost cells. The object must be rebuilt when the DoFHandler
-  /// changes; it keeps a reference to it.
+  /// Valid on locally owned and ghost cells. The object must be rebuilt when
+  /// the DoFHandler changes; it keeps a reference to it.
   class EntityDegrees
   {
   public:
@@ -36,8 +39,9 @@ namespace mortise
     unsigned int
     quad_degree(const CellIterator &cell, unsigned int f) const;
 
-    /// Whether all cells of all ranks have one element: degrees are then those of the cells and
-    /// get_master_dofs() gives the cell's own degrees of freedom.
+    /// Whether all cells of all ranks have one element: degrees are then those
+    /// of the cells and get_master_dofs() gives the cell's own degrees of
+    /// freedom.
     bool
     one_degree() const
     {
@@ -45,14 +49,16 @@ namespace mortise
     }
 
     /// For each local degree of freedom of @p cell the global index of the one that carries its
-    /// mode in the minimum-rule space: itself, that of a neighbour of another degree, or
-    /// numbers::invalid_dof_index if the mode is above the degree of its edge or face (zero).
-    /// Those of hanging edges and faces are not resolved to the coarse side here, and where a
-    /// ghost cell is away from owned cells the result may be one that its owner ties to another:
+    /// mode in the minimum-rule space: itself, that of a neighbour of another
+    /// degree, or numbers::invalid_dof_index if the mode is above the degree of
+    /// its edge or face (zero). Those of hanging edges and faces are not
+    /// resolved to the coarse side here, and where a ghost cell is away from
+    /// owned cells the result may be one that its owner ties to another:
     /// complete_constraints() makes that known. @p masters is resized to n_dofs_per_cell().
     void
-    get_master_dofs(const CellIterator                           &cell,
-                    std::vector<dealii::types::global_dof_index> &masters) const;
+    get_master_dofs(
+      const CellIterator                           &cell,
+      std::vector<dealii::types::global_dof_index> &masters) const;
 
   private:
     /// The element (index in the collection) that stands for an entity.
@@ -71,7 +77,7 @@ namespace mortise
 
     const dealii::DoFHandler<3> &dof_handler;
     bool                         uniform;
-    Entity                       line_degrees, quad_degrees;                 ///< by index
-    Entity                       vertex_element, line_element, quad_element; ///< by index
+    Entity                       line_degrees, quad_degrees; ///< by index
+    Entity vertex_element, line_element, quad_element;       ///< by index
   };
 } // namespace mortise

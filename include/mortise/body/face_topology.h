@@ -1,6 +1,7 @@
-// Where the faces of the unit hexahedron are: face coordinates, edges and vertices of a face in the
-// coordinates of its own cell. Face f has the normal direction d = f / 2 and the face coordinates
-// (xi, eta) along the cell directions (d + 1) % 3 and (d + 2) % 3, as in deal.II's faces in standard
+// Where the faces of the unit hexahedron are: face coordinates, edges and
+// vertices of a face in the coordinates of its own cell. Face f has the normal
+// direction d = f / 2 and the face coordinates (xi, eta) along the cell
+// directions (d + 1) % 3 and (d + 2) % 3, as in deal.II's faces in standard
 // orientation. It never looks at a mesh.
 #pragma once
 
@@ -30,7 +31,8 @@ namespace mortise::face_topology
   inline unsigned int
   vertex(const unsigned int f, const unsigned int i, const unsigned int j)
   {
-    return ((f % 2) << (f / 2)) + (i << direction(f, 0)) + (j << direction(f, 1));
+    return ((f % 2) << (f / 2)) + (i << direction(f, 0)) +
+           (j << direction(f, 1));
   }
 
   /// Line number of the cell for the edge of face @p f that runs along face coordinate @p a at @p side

@@ -1,11 +1,12 @@
-// Coarse hexahedral meshes of simple bodies as plain data, in the body's own coordinates.
-// It never builds a triangulation, never moves the body and never checks its input's ranges.
+// Coarse hexahedral meshes of simple bodies as plain data, in the body's own
+// coordinates. It never builds a triangulation, never moves the body and never
+// checks its input's ranges.
 #pragma once
-
-#include <mortise/body/mesh_source.h>
 
 #include <deal.II/grid/manifold.h>
 #include <deal.II/grid/tria_description.h>
+
+#include <mortise/body/mesh_source.h>
 
 #include <memory>
 #include <string>
@@ -33,7 +34,8 @@ namespace mortise
   std::vector<std::string>
   generator_boundaries(const MeshParameters &parameters);
 
-  /// Names of the generators ("Source" but file) and of the surfaces of a curved block.
+  /// Names of the generators ("Source" but file) and of the surfaces of a
+  /// curved block.
   std::vector<std::string>
   generator_names();
   std::vector<std::string>

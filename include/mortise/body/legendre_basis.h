@@ -1,6 +1,7 @@
-// The one-dimensional hierarchical basis on [0,1]: two linear functions and integrated Legendre
-// (Lobatto) bubbles, their restriction to the halves of the interval, and the same functions as
-// polynomials for deal.II. It never knows a mesh, a cell or a numbering of degrees of freedom.
+// The one-dimensional hierarchical basis on [0,1]: two linear functions and
+// integrated Legendre (Lobatto) bubbles, their restriction to the halves of the
+// interval, and the same functions as polynomials for deal.II. It never knows a
+// mesh, a cell or a numbering of degrees of freedom.
 #pragma once
 
 #include <deal.II/base/polynomial.h>
@@ -17,11 +18,12 @@ namespace mortise
   /// Values and derivatives of the @p degree + 1 functions at @p x, in the order N_0 = 1-x,
   /// N_1 = x, N_2, ..., N_degree with the bubbles
   ///
-  ///   N_k(x) = (P_k(t) - P_{k-2}(t)) / (2 sqrt(2k-1)),  t = 2x-1,  k = 2..degree,
+  ///   N_k(x) = (P_k(t) - P_{k-2}(t)) / (2 sqrt(2k-1)),  t = 2x-1,  k
+  ///   = 2..degree,
   ///
-  /// (P_k: Legendre polynomials), which vanish at both ends and are scaled such that
-  /// int_0^1 N_k' N_l' dx = delta_kl for k, l >= 2 and int_0^1 N_k' N_0' dx = 0.
-  /// Source: Szabo and Babuska, Finite Element Analysis (1991).
+  /// (P_k: Legendre polynomials), which vanish at both ends and are scaled such
+  /// that int_0^1 N_k' N_l' dx = delta_kl for k, l >= 2 and int_0^1 N_k' N_0'
+  /// dx = 0. Source: Szabo and Babuska, Finite Element Analysis (1991).
   ///
   /// @p values, @p derivatives and @p second (any of the last two may be null) have room for
   /// @p degree + 1 numbers each; derivatives are with respect to x. @p x may lie outside [0,1].
@@ -33,29 +35,40 @@ namespace mortise
                    double      *derivatives = nullptr,
                    double      *second      = nullptr);
 
-  /// Matrix R with N_j(x)|_child = sum_i R(i,j) N_i(y), where the child is [0,1/2] (x = y/2) for
+  /// Matrix R with N_j(x)|_child = sum_i R(i,j) N_i(y), where the child is
+  /// [0,1/2] (x = y/2) for
   /// @p child 0 and [1/2,1] (x = (1+y)/2) for @p child 1. Square, of size max_lobatto_degree + 1;
-  /// the leading block of size p+1 is the matrix of degree p (R(i,j) = 0 for i > j >= 1).
-  /// Entries that are 0 or 1 in exact arithmetic are exactly so.
+  /// the leading block of size p+1 is the matrix of degree p (R(i,j) = 0 for i
+  /// > j >= 1). Entries that are 0 or 1 in exact arithmetic are exactly so.
   const dealii::FullMatrix<double> &
   lobatto_restriction(unsigned int child);
 
-  /// Matrix C with which a function on the two halves becomes one on [0,1]: its coefficients are
-  /// C_0 u_0 + C_1 u_1. Values at the ends are kept, the rest is the best approximation in the
-  /// H1-seminorm; sum_c C_c R_c = I with R_c = lobatto_restriction(c). Same size and nesting.
+  /// Matrix C with which a function on the two halves becomes one on [0,1]: its
+  /// coefficients are C_0 u_0 + C_1 u_1. Values at the ends are kept, the rest
+  /// is the best approximation in the H1-seminorm; sum_c C_c R_c = I with R_c =
+  /// lobatto_restriction(c). Same size and nesting.
   const dealii::FullMatrix<double> &
   lobatto_coarsening(unsigned int child);
 
-  /// The functions of evaluate_lobatto() as polynomials in the lexicographic order of deal.II's
-  /// tensor product elements: N_0, N_2, ..., N_degree, N_1 (the end of the interval last). They
-  /// are kept as products of roots, which is accurate to rounding, unlike powers of x.
+  /// The functions of evaluate_lobatto() as polynomials in the lexicographic
+  /// order of deal.II's tensor product elements: N_0, N_2, ..., N_degree, N_1
+  /// (the end of the interval last). They are kept as products of roots, which
+  /// is accurate to rounding, unlike powers of x.
   std::vector<dealii::Polynomials::Polynomial<double>>
   lobatto_polynomials(unsigned int degree);
 
-  /// Place of N_k (in the order of evaluate_lobatto()) in the order of lobatto_polynomials().
+  /// Place of N_k (in the order of evaluate_lobatto()) in the order of
+  /// lobatto_polynomials().
   inline unsigned int
   lobatto_to_lexicographic(const unsigned int degree, const unsigned int k)
   {
     return k == 0 ? 0 : (k == 1 ? degree : k - 1);
+  }
+
+  /// Place in the order of evaluate_lobatto() of place @p l in the lexicographic order of nodes.
+  inline unsigned int
+  lexicographic_to_lobatto(const unsigned int degree, const unsigned int l)
+  {
+    return l == 0 ? 0 : (l == degree ? 1 : l + 1);
   }
 } // namespace mortise

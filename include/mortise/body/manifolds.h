@@ -1,19 +1,20 @@
-// Closed-form geometry of curved bodies: sphere, cylinder, block with a curved middle surface.
-// Smooth, cheap, never iterative; each carries the rigid motion of its body and has no length
-// scale of its own.
+// Closed-form geometry of curved bodies: sphere, cylinder, block with a curved
+// middle surface. Smooth, cheap, never iterative; each carries the rigid motion
+// of its body and has no length scale of its own.
 #pragma once
 
-#include <mortise/base/rigid_motion.h>
-
 #include <deal.II/grid/manifold.h>
+
+#include <mortise/base/rigid_motion.h>
 
 #include <memory>
 
 namespace mortise
 {
-  /// Concentric spheres about the body's origin: a point between others has the weighted mean of
-  /// their radii and the normalised weighted mean of their directions. Weights must be such that
-  /// the mean direction does not vanish (an octant always is).
+  /// Concentric spheres about the body's origin: a point between others has the
+  /// weighted mean of their radii and the normalised weighted mean of their
+  /// directions. Weights must be such that the mean direction does not vanish
+  /// (an octant always is).
   class SphereManifold : public dealii::Manifold<3>
   {
   public:
@@ -23,22 +24,26 @@ namespace mortise
     clone() const override;
 
     dealii::Point<3>
-    get_new_point(const dealii::ArrayView<const dealii::Point<3>> &points,
-                  const dealii::ArrayView<const double>           &weights) const override;
+    get_new_point(
+      const dealii::ArrayView<const dealii::Point<3>> &points,
+      const dealii::ArrayView<const double>           &weights) const override;
 
     void
-    get_new_points(const dealii::ArrayView<const dealii::Point<3>> &points,
-                   const dealii::Table<2, double>                  &weights,
-                   dealii::ArrayView<dealii::Point<3>>              new_points) const override;
+    get_new_points(
+      const dealii::ArrayView<const dealii::Point<3>> &points,
+      const dealii::Table<2, double>                  &weights,
+      dealii::ArrayView<dealii::Point<3>> new_points) const override;
 
     dealii::Tensor<1, 3>
-    get_tangent_vector(const dealii::Point<3> &x1, const dealii::Point<3> &x2) const override;
+    get_tangent_vector(const dealii::Point<3> &x1,
+                       const dealii::Point<3> &x2) const override;
 
   private:
     dealii::Point<3> centre;
   };
 
-  /// Concentric cylinders about the body's z axis; chart (r, angle, z) with the angle in
+  /// Concentric cylinders about the body's z axis; chart (r, angle, z) with the
+  /// angle in
   /// (-pi, pi], so a body must not cross the half plane y = 0, x < 0.
   class CylinderManifold : public dealii::ChartManifold<3>
   {
@@ -58,10 +63,11 @@ namespace mortise
     RigidMotion motion;
   };
 
-  /// A block x0..x1, y0..y1, z0..z1 whose middle plane z = z_middle is bent into
-  /// z = z_middle + F(x, y): chart (x, y, zeta) with z = zeta + g(zeta) F(x, y), where the hat
-  /// function g is 1 on the middle plane and falls linearly to 0 on bottom and top. Linear in zeta
-  /// in each half, so inverted exactly. Needs |F| below the height of each half.
+  /// A block x0..x1, y0..y1, z0..z1 whose middle plane z = z_middle is bent
+  /// into z = z_middle + F(x, y): chart (x, y, zeta) with z = zeta + g(zeta)
+  /// F(x, y), where the hat function g is 1 on the middle plane and falls
+  /// linearly to 0 on bottom and top. Linear in zeta in each half, so inverted
+  /// exactly. Needs |F| below the height of each half.
   class CurvedBlockManifold : public dealii::ChartManifold<3>
   {
   public:

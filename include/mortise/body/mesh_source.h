@@ -1,5 +1,6 @@
-// Where the mesh of a body comes from: a generator or a file, then refinement, then placement.
-// It never distributes degrees of freedom and never reads the parameter file itself.
+// Where the mesh of a body comes from: a generator or a file, then refinement,
+// then placement. It never distributes degrees of freedom and never reads the
+// parameter file itself.
 #pragma once
 
 #include <mortise/base/rigid_motion.h>
@@ -27,9 +28,9 @@ namespace mortise
   /// |                 |                            |                       | (lower, upper)       |
   /// | file            | -                          | -                     | physical surfaces    |
   ///
-  /// Material ids: box 0..7, the octant of the coarse cell, (x half) + 2 (y half) + 4 (z half);
-  /// shell octant 0..2, the patch around x, y, z; cylinder sector 0; curved block 0 lower,
-  /// 1 upper half; file: the physical volumes.
+  /// Material ids: box 0..7, the octant of the coarse cell, (x half) + 2 (y
+  /// half) + 4 (z half); shell octant 0..2, the patch around x, y, z; cylinder
+  /// sector 0; curved block 0 lower, 1 upper half; file: the physical volumes.
   struct MeshParameters
   {
     std::string               source = "box";
@@ -37,30 +38,35 @@ namespace mortise
     std::vector<double>       extent;
     std::vector<unsigned int> subdivisions;
     unsigned int              refinements = 0;
-    std::string               refine_near; ///< "x, y, z, radius, times; ...", moved coordinates
-    std::string               file;
-    std::array<double, 3>     rotate{}; ///< degrees about x, then y, then z; then
-    std::array<double, 3>     translate{};
+    std::string
+      refine_near; ///< "x, y, z, radius, times; ...", moved coordinates
+    std::string           file;
+    std::array<double, 3> rotate{}; ///< degrees about x, then y, then z; then
+    std::array<double, 3> translate{};
 
-    /// box, "Bottom slope" and "Top slope" = sx, sy: the faces zmin and zmax are the planes
-    /// z = z0 + sx (x - x0) + sy (y - y0), and the same with z1.
+    /// box, "Bottom slope" and "Top slope" = sx, sy: the faces zmin and zmax
+    /// are the planes z = z0 + sx (x - x0) + sy (y - y0), and the same with z1.
     std::array<double, 2> bottom_slope{};
     std::array<double, 2> top_slope{};
 
-    /// box, "Distort": largest shift of a vertex as a fraction of its cell's edges, 0 to 0.3; the
-    /// same on every run and rank. Boundary faces stay in their planes.
+    /// box, "Distort": largest shift of a vertex as a fraction of its cell's
+    /// edges, 0 to 0.3; the same on every run and rank. Boundary faces stay in
+    /// their planes.
     double distort = 0.;
 
     /// curved block, "Half" = lower | upper | both; "Surface" = bump | saddle | wave: with s, t
-    /// in [-1, 1] across the block, the halves meet at z = z_middle + Amplitude f(s, t),
-    ///   bump:   f = cos(pi s/2) cos(pi t/2)            a dome, flat on the block's sides
-    ///   saddle: f = (s^2 - t^2 + s/2) / 1.5            curvatures of opposite sign
-    ///   wave:   f = sin(pi s/2 + 1/2) cos(pi t/2)      both kinds, no symmetry in s
+    /// in [-1, 1] across the block, the halves meet at z = z_middle + Amplitude
+    /// f(s, t),
+    ///   bump:   f = cos(pi s/2) cos(pi t/2)            a dome, flat on the
+    ///   block's sides saddle: f = (s^2 - t^2 + s/2) / 1.5 curvatures of
+    ///   opposite sign wave:   f = sin(pi s/2 + 1/2) cos(pi t/2)      both
+    ///   kinds, no symmetry in s
     /// with z_middle = z0 + Middle (z1 - z0).
-    std::string half      = "both";
-    std::string surface   = "bump";
-    double      amplitude = 0.; ///< length, below 0.9 times the height of the thinner half
-    double      middle    = 0.5;
+    std::string half    = "both";
+    std::string surface = "bump";
+    double      amplitude =
+      0.; ///< length, below 0.9 times the height of the thinner half
+    double middle = 0.5;
   };
 
   /// What the ids on a mesh mean.
@@ -79,7 +85,8 @@ namespace mortise
     unsigned int     times;
   };
 
-  /// Entries "x, y, z, radius, times" separated by ';'. Throws InputError for anything else.
+  /// Entries "x, y, z, radius, times" separated by ';'. Throws InputError for
+  /// anything else.
   std::vector<RefinementBall>
   parse_refine_near(const std::string &text, const std::string &where);
 
@@ -92,14 +99,15 @@ namespace mortise
   void
   validate(const MeshParameters &parameters, const std::string &where);
 
-  /// Names of the boundaries that create_mesh() would return. Throws InputError for an unknown
-  /// source or an unreadable file. Not collective.
+  /// Names of the boundaries that create_mesh() would return. Throws InputError
+  /// for an unknown source or an unreadable file. Not collective.
   std::vector<std::string>
   boundary_names(const MeshParameters &parameters);
 
   /// Fill the empty @p triangulation: coarse mesh, manifolds on all entities, motion, global and
-  /// local refinement. Cells are consistently ordered; coarse mesh the same on every rank. The
-  /// manifolds live in the triangulation. Collective; throws InputError on all ranks alike.
+  /// local refinement. Cells are consistently ordered; coarse mesh the same on
+  /// every rank. The manifolds live in the triangulation. Collective; throws
+  /// InputError on all ranks alike.
   MeshNames
   create_mesh(const MeshParameters &parameters,
               HexTriangulation     &triangulation,

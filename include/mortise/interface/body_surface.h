@@ -1,28 +1,31 @@
-// The faces of a body on one named boundary: geometry as SurfaceFace, and the trace of the
-// displacement on each as plain data that can travel to another rank. It never clips.
+// The faces of a body on one named boundary: geometry as SurfaceFace, and the
+// trace of the displacement on each as plain data that can travel to another
+// rank. It never clips.
 #pragma once
+
+#include <deal.II/lac/affine_constraints.h>
 
 #include <mortise/body/body.h>
 #include <mortise/body/numbering.h>
 #include <mortise/interface/surface_face.h>
 
-#include <deal.II/lac/affine_constraints.h>
-
 #include <vector>
 
 namespace mortise
 {
-  /// Displacement on one face: u_c(xi) = sum_k N_k(xi) (sum_j weight_j d_column_j + constant), with
-  /// N_k, k = i + (degree + 1) j, the tensor products of the 1D functions of legendre_basis.h and
-  /// row = c (degree + 1)^2 + k. Constraints of the body are resolved.
+  /// Displacement on one face: u_c(xi) = sum_k N_k(xi) (sum_j weight_j
+  /// d_column_j + constant), with N_k, k = i + (degree + 1) j, the tensor
+  /// products of the 1D functions of legendre_basis.h and row = c (degree +
+  /// 1)^2 + k. Constraints of the body are resolved.
   struct FaceTrace
   {
-    unsigned int                                  degree  = 1;
-    double                                        modulus = 1.; ///< Young's modulus behind the face
-    std::vector<unsigned int>                     begin;    ///< by row, one past the end included
-    std::vector<dealii::types::global_dof_index> column;   ///< numbering of the scene
-    std::vector<double>                           weight;
-    std::vector<double>                           constant; ///< by row: prescribed displacements
+    unsigned int              degree  = 1;
+    double                    modulus = 1.; ///< Young's modulus behind the face
+    std::vector<unsigned int> begin; ///< by row, one past the end included
+    std::vector<dealii::types::global_dof_index>
+                        column; ///< numbering of the scene
+    std::vector<double> weight;
+    std::vector<double> constant; ///< by row: prescribed displacements
 
     unsigned int
     n_functions() const
@@ -41,14 +44,16 @@ namespace mortise
   /// Faces of one boundary that belong to cells this rank owns, in one order.
   struct BodySurface
   {
-    std::vector<SurfaceFace>        faces; ///< finalized; the payload is the packed trace
+    std::vector<SurfaceFace>
+      faces; ///< finalized; the payload is the packed trace
     std::vector<FaceTrace>          traces;
     std::vector<Body::CellIterator> cells;
     std::vector<unsigned int>       face_numbers;
   };
 
   /// Extract the owned faces with boundary id @p boundary. The geometry is that of the body's mapping,
-  /// exactly; vertex normals are averaged over all faces of this boundary around the vertex.
+  /// exactly; vertex normals are averaged over all faces of this boundary
+  /// around the vertex.
   /// @p constraints are those of the scene.
   BodySurface
   extract_surface(const Body                              &body,
@@ -56,8 +61,10 @@ namespace mortise
                   const DisplacementNumbering             &numbering,
                   const dealii::AffineConstraints<double> &constraints);
 
-  /// Dofs (numbering of the body's DoFHandler) of the face functions of component c: entry
-  /// [c][k], k as in FaceTrace.
+  /// Dofs (numbering of the body's DoFHandler) of the face functions of
+  /// component c: entry [c][k], k as in FaceTrace.
   std::array<std::vector<dealii::types::global_dof_index>, dim>
-  face_dofs(const Body &body, const Body::CellIterator &cell, unsigned int face_number);
+  face_dofs(const Body               &body,
+            const Body::CellIterator &cell,
+            unsigned int              face_number);
 } // namespace mortise

@@ -1,5 +1,6 @@
-// The overlap of a slave face with a master face as a closed loop in the slave's reference
-// square. It never places quadrature points and never looks at distances or normals.
+// The overlap of a slave face with a master face as a closed loop in the
+// slave's reference square. It never places quadrature points and never looks
+// at distances or normals.
 #pragma once
 
 #include <mortise/interface/projection.h>
@@ -11,8 +12,8 @@ namespace mortise
   /// Reference coordinates this close to a side of the unit square are on it.
   constexpr double on_side = 1e-13;
 
-  /// Distance of xi from a side of the unit square, positive inside. Sides: 0: xi_1 >= 0,
-  /// 1: xi_1 <= 1, 2: xi_2 >= 0, 3: xi_2 <= 1.
+  /// Distance of xi from a side of the unit square, positive inside. Sides: 0:
+  /// xi_1 >= 0, 1: xi_1 <= 1, 2: xi_2 >= 0, 3: xi_2 <= 1.
   inline double
   inside_by(const double (&xi)[2], const unsigned int side)
   {
@@ -27,55 +28,62 @@ namespace mortise
       x = std::abs(x) <= on_side ? 0. : std::abs(1. - x) <= on_side ? 1. : x;
   }
 
-  /// Both points are outside on one of the sides of the other coordinate: a crossing between
-  /// them is of no interest.
+  /// Both points are outside on one of the sides of the other coordinate: a
+  /// crossing between them is of no interest.
   inline bool
-  both_beside(const double (&a)[2], const double (&b)[2], const unsigned int side)
+  both_beside(const double (&a)[2],
+              const double (&b)[2],
+              const unsigned int side)
   {
     const unsigned int other = 1 - side / 2;
     return (a[other] < -on_side && b[other] < -on_side) ||
            (a[other] > 1. + on_side && b[other] > 1. + on_side);
   }
 
-  /// One side of an overlap, from p to q in the slave's reference coordinates: straight, or the
-  /// pull-back of a part of a master edge.
+  /// One side of an overlap, from p to q in the slave's reference coordinates:
+  /// straight, or the pull-back of a part of a master edge.
   struct LoopPiece
   {
     double p[2], q[2];
     int    edge    = -1; ///< master edge 0..3, see EdgePolynomial; -1: straight
     double tau_p   = 0;  ///< parameters of the ends on that edge
     double tau_q   = 0;
-    double mid[2]  = {0, 0}; ///< the curve's point at the mean of both parameters
+    double mid[2]  = {0,
+                      0}; ///< the curve's point at the mean of both parameters
     bool   has_mid = false;
   };
 
-  /// Clips the four curved edges of a master face, pulled back to the slave's reference
-  /// coordinates, against the unit square.
+  /// Clips the four curved edges of a master face, pulled back to the slave's
+  /// reference coordinates, against the unit square.
   ///
-  /// Every edge is cut where it crosses a side of the square, by Newton's method on
-  /// (tau, xi, alpha) within a bracket; after that no piece crosses a side, and Sutherland and
-  /// Hodgman's walk needs no geometry for curved pieces. Pieces that lie outside on one side are
-  /// replaced by their chords, which are outside as well. No decision depends on a tolerance in
-  /// a way that could change the area by more than rounding: values below 1e-13 count as "on the
-  /// side", and taking them for inside or outside is equally right.
+  /// Every edge is cut where it crosses a side of the square, by Newton's
+  /// method on (tau, xi, alpha) within a bracket; after that no piece crosses a
+  /// side, and Sutherland and Hodgman's walk needs no geometry for curved
+  /// pieces. Pieces that lie outside on one side are replaced by their chords,
+  /// which are outside as well. No decision depends on a tolerance in a way
+  /// that could change the area by more than rounding: values below 1e-13 count
+  /// as "on the side", and taking them for inside or outside is equally right.
   class LoopClipper
   {
   public:
-    /// Compute the loop; it runs in the direction in which the master's edges run. Returns false
-    /// where a Newton iteration near the slave face did not converge.
+    /// Compute the loop; it runs in the direction in which the master's edges
+    /// run. Returns false where a Newton iteration near the slave face did not
+    /// converge.
     bool
     clip(const SlaveMap &slave, const MasterMap &master);
 
     /// The overlap; empty where there is none.
     std::vector<LoopPiece> loop;
 
-    /// The whole master face lies in the slave face: the loop is the master's own boundary.
+    /// The whole master face lies in the slave face: the loop is the master's
+    /// own boundary.
     bool whole_master = false;
 
     /// The loop is the boundary of the whole square.
     bool whole_slave = false;
 
-    /// Signed area of the polygon through ends and middles of the pieces, and its centroid.
+    /// Signed area of the polygon through ends and middles of the pieces, and
+    /// its centroid.
     double area        = 0;
     double centroid[2] = {0, 0};
 
@@ -91,9 +99,10 @@ namespace mortise
     {
       unsigned int first, last; ///< breakpoints
       bool         far;         ///< outside on one side
-      bool         checked   = false;
-      double       deviation = 0; ///< of the curve from its cubic through ends and slopes
-      double       mid[2];        ///< the curve's point at the mean parameter
+      bool         checked = false;
+      double       deviation =
+        0;           ///< of the curve from its cubic through ends and slopes
+      double mid[2]; ///< the curve's point at the mean parameter
     };
 
     struct Crossing
@@ -107,7 +116,10 @@ namespace mortise
     void
     subdivide_edge(const unsigned int edge);
     void
-    subdivide(const unsigned int edge, const double tau_0, const double tau_1, unsigned int depth);
+    subdivide(const unsigned int edge,
+              const double       tau_0,
+              const double       tau_1,
+              unsigned int       depth);
     void
     locate(const unsigned int begin, const bool has_guess);
     void
@@ -115,13 +127,18 @@ namespace mortise
     void
     check_segments();
     static double
-    on_cubic(const Breakpoint &a, const Breakpoint &b, const unsigned int i, const double t);
+    on_cubic(const Breakpoint  &a,
+             const Breakpoint  &b,
+             const unsigned int i,
+             const double       t);
     bool
     check_segment(Segment &segment, const Breakpoint &middle) const;
     void
     find_crossings(const unsigned int segment, const unsigned int side);
     void
-    sample_segment(const unsigned int segment, const unsigned int side, const unsigned int rounds);
+    sample_segment(const unsigned int segment,
+                   const unsigned int side,
+                   const unsigned int rounds);
     void
     solve_crossings();
     void
@@ -151,6 +168,7 @@ namespace mortise
     std::vector<Segment>    segments, new_segments;
     std::vector<Crossing>   crossings;
     std::vector<LoopPiece>  scratch;
-    std::vector<double>     control; ///< stack of control polygons of the subdivision
+    std::vector<double>
+      control; ///< stack of control polygons of the subdivision
   };
 } // namespace mortise

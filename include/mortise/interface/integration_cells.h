@@ -1,5 +1,6 @@
-// Quadrature on the overlap of a slave face with a master face: clip, cut into cells, place
-// points and map each back to both faces. It never knows shape functions or degrees of freedom.
+// Quadrature on the overlap of a slave face with a master face: clip, cut into
+// cells, place points and map each back to both faces. It never knows shape
+// functions or degrees of freedom.
 #pragma once
 
 #include <mortise/interface/search.h>
@@ -11,17 +12,20 @@
 
 namespace mortise
 {
-  /// Points of one pair, as separate arrays that keep their storage from pair to pair. Entry q of
-  /// each array belongs to the same point: x_m(eta) = x_s(xi) + gap n/|n|, n the slave's averaged
-  /// normal field.
+  /// Points of one pair, as separate arrays that keep their storage from pair
+  /// to pair. Entry q of each array belongs to the same point: x_m(eta) =
+  /// x_s(xi) + gap n/|n|, n the slave's averaged normal field.
   struct IntegrationPoints
   {
-    std::array<std::vector<double>, 2> slave_xi;   ///< reference coordinates in the slave face
-    std::array<std::vector<double>, 2> master_eta; ///< reference coordinates in the master face
-    std::vector<double>                weight;     ///< area on the true slave surface
-    std::array<std::vector<double>, 3> slave_x;    ///< position on the slave face
-    std::array<std::vector<double>, 3> master_x;   ///< position on the master face
-    std::vector<double>                gap;        ///< along the unit normal; positive: open
+    std::array<std::vector<double>, 2>
+      slave_xi; ///< reference coordinates in the slave face
+    std::array<std::vector<double>, 2>
+      master_eta;               ///< reference coordinates in the master face
+    std::vector<double> weight; ///< area on the true slave surface
+    std::array<std::vector<double>, 3> slave_x; ///< position on the slave face
+    std::array<std::vector<double>, 3>
+                        master_x; ///< position on the master face
+    std::vector<double> gap;      ///< along the unit normal; positive: open
 
     unsigned int
     size() const
@@ -38,35 +42,39 @@ namespace mortise
   {
     accepted,
     no_overlap,    ///< nothing left after clipping
-    normals_agree, ///< the outward normals do not oppose everywhere on the overlap
-    too_far,       ///< the gap exceeds the search fraction of the larger face somewhere
-    failed         ///< a Newton iteration did not converge: to be counted and reported
+    normals_agree, ///< the outward normals do not oppose everywhere on the
+                   ///< overlap
+    too_far,       ///< the gap exceeds the search fraction of the larger face
+                   ///< somewhere
+    failed ///< a Newton iteration did not converge: to be counted and reported
   };
 
   struct PairResult
   {
-    PairStatus   status  = PairStatus::no_overlap;
-    double       area    = 0; ///< of the overlap on the slave surface; 0 unless accepted
+    PairStatus status = PairStatus::no_overlap;
+    double area = 0; ///< of the overlap on the slave surface; 0 unless accepted
     unsigned int n_cells = 0; ///< integration cells
     double       max_gap = 0; ///< largest |gap| of the points
   };
 
-  /// Points per direction in each integration cell, for products of two shape functions of
+  /// Points per direction in each integration cell, for products of two shape
+  /// functions of
   /// the given degrees. @p distortion is 0 where both faces are parallelograms with one normal
-  /// and all maps are linear; else the variation (max - min) / (max + min) over the overlap of
-  /// the surface elements of both faces, less than 1. The choice and its measured errors stand
-  /// with the definition.
+  /// and all maps are linear; else the variation (max - min) / (max + min) over
+  /// the overlap of the surface elements of both faces, less than 1. The choice
+  /// and its measured errors stand with the definition.
   unsigned int
   quadrature_points(const unsigned int degree_slave,
                     const unsigned int degree_master,
                     const double       distortion);
 
-  /// Integrates over one slave face after the other against any number of masters. Owns all
-  /// scratch memory: one object per thread.
+  /// Integrates over one slave face after the other against any number of
+  /// masters. Owns all scratch memory: one object per thread.
   class PairIntegrator
   {
   public:
-    explicit PairIntegrator(const double search_fraction = default_search_fraction);
+    explicit PairIntegrator(
+      const double search_fraction = default_search_fraction);
     ~PairIntegrator();
 
     /// Choose the slave face of the pairs to come. Copies what it needs.
@@ -74,7 +82,8 @@ namespace mortise
     reinit(const SurfaceFace &slave);
 
     /// The overlap of the present slave with @p master; @p points is overwritten and is empty
-    /// unless the pair is accepted. The degrees are those of the shape functions.
+    /// unless the pair is accepted. The degrees are those of the shape
+    /// functions.
     PairResult
     integrate(const SurfaceFace &master,
               const unsigned int degree_slave,

@@ -1,6 +1,7 @@
-// One interface between a slave and a master surface: finds the pairs of faces, clips them and hands
-// integration points to whoever integrates. The only class of this room that other rooms call.
-// It never evaluates shape functions and assembles nothing.
+// One interface between a slave and a master surface: finds the pairs of faces,
+// clips them and hands integration points to whoever integrates. The only class
+// of this room that other rooms call. It never evaluates shape functions and
+// assembles nothing.
 #pragma once
 
 #include <mortise/interface/body_surface.h>
@@ -15,44 +16,50 @@ namespace mortise
 {
   struct InterfaceOptions
   {
-    /// Largest gap or penetration that is bridged, as a fraction of the larger face's size.
+    /// Largest gap or penetration that is bridged, as a fraction of the larger
+    /// face's size.
     double search_fraction = default_search_fraction;
-    /// Points per direction in an integration cell; absent: by degrees and geometry.
+    /// Points per direction in an integration cell; absent: by degrees and
+    /// geometry.
     std::optional<unsigned int> points_per_direction;
   };
 
   /// Totals over all ranks.
   struct InterfaceReport
   {
-    std::uint64_t    slave_faces       = 0;
-    std::uint64_t    master_faces      = 0;
-    std::uint64_t    candidate_pairs   = 0;
-    std::uint64_t    pairs             = 0;
-    std::uint64_t    integration_cells = 0;
-    std::uint64_t    quadrature_points = 0;
-    std::uint64_t    failed_pairs      = 0; ///< projections that did not converge
-    double           slave_area        = 0.;
-    double           covered_area      = 0.;
-    double           worst_face_error  = 0.; ///< largest |1 - covered / area| of a slave face
+    std::uint64_t slave_faces       = 0;
+    std::uint64_t master_faces      = 0;
+    std::uint64_t candidate_pairs   = 0;
+    std::uint64_t pairs             = 0;
+    std::uint64_t integration_cells = 0;
+    std::uint64_t quadrature_points = 0;
+    std::uint64_t failed_pairs      = 0; ///< projections that did not converge
+    double        slave_area        = 0.;
+    double        covered_area      = 0.;
+    double        worst_face_error =
+      0.; ///< largest |1 - covered / area| of a slave face
     dealii::Point<3> worst_face_centre;
-    double           max_gap           = 0.; ///< largest |gap| at a quadrature point, a length
-    double           clipping_seconds  = 0.; ///< spent in clipping and projection, this rank
+    double max_gap = 0.; ///< largest |gap| at a quadrature point, a length
+    double clipping_seconds =
+      0.; ///< spent in clipping and projection, this rank
   };
 
   class InterfaceHandler
   {
   public:
-    /// Takes the owned faces of both sides and collects the master faces near to this rank's slave
-    /// faces, with their traces. Collective.
+    /// Takes the owned faces of both sides and collects the master faces near
+    /// to this rank's slave faces, with their traces. Collective.
     InterfaceHandler(const std::string      &name,
                      BodySurface             slave,
                      BodySurface             master,
                      const InterfaceOptions &options,
                      MPI_Comm                comm);
 
-    /// Called for each pair of faces that overlap: slave number, number among masters(), points.
-    using Visitor =
-      std::function<void(unsigned int slave, unsigned int master, const IntegrationPoints &points)>;
+    /// Called for each pair of faces that overlap: slave number, number among
+    /// masters(), points.
+    using Visitor = std::function<void(unsigned int             slave,
+                                       unsigned int             master,
+                                       const IntegrationPoints &points)>;
 
     /// Clip all pairs, slave by slave. Collective (for the totals).
     void
@@ -77,7 +84,8 @@ namespace mortise
       return master_surface;
     }
 
-    /// Traces of the master faces near to this rank's slaves, whichever rank owns them.
+    /// Traces of the master faces near to this rank's slaves, whichever rank
+    /// owns them.
     const std::vector<FaceTrace> &
     master_traces() const
     {
@@ -106,7 +114,9 @@ namespace mortise
 
   private:
     void
-    sum_report(const Coverage &local, double worst_error, const dealii::Point<3> &worst_centre);
+    sum_report(const Coverage         &local,
+               double                  worst_error,
+               const dealii::Point<3> &worst_centre);
 
     std::string                            interface_name;
     BodySurface                            slave_surface;

@@ -1,13 +1,15 @@
-// The one rule for points of the interface, x_m(eta) = x_s(xi) + alpha n(xi), solved in both
-// directions on the true curved faces. It never decides whether two faces belong together.
+// The one rule for points of the interface, x_m(eta) = x_s(xi) + alpha n(xi),
+// solved in both directions on the true curved faces. It never decides whether
+// two faces belong together.
 #pragma once
 
 #include <mortise/interface/surface_evaluation.h>
 
 namespace mortise
 {
-  /// A slave face with its normal field n: bilinear in the vertex normals. All positions are
-  /// relative to origin(), the face's centre, so that a scene far from zero loses nothing.
+  /// A slave face with its normal field n: bilinear in the vertex normals. All
+  /// positions are relative to origin(), the face's centre, so that a scene far
+  /// from zero loses nothing.
   class SlaveMap
   {
   public:
@@ -35,7 +37,9 @@ namespace mortise
     std::array<double, 3>
     chart(const Vec3<double> &x) const
     {
-      return {{0.5 + dot(x, center_dual[0]), 0.5 + dot(x, center_dual[1]), dot(x, height_dual)}};
+      return {{0.5 + dot(x, center_dual[0]),
+               0.5 + dot(x, center_dual[1]),
+               dot(x, height_dual)}};
     }
 
     /// Position, derivatives and normal field at points of the face.
@@ -45,9 +49,10 @@ namespace mortise
     Vec3<Lanes>
     normal(const Lanes (&xi)[2]) const;
 
-    /// What a Newton step needs at any xi: the face continued a little beyond the reference square
-    /// by its polynomial and then by its tangents (continuously, and well defined however far
-    /// away), the normal field continued in the same way, and dx[i] + alpha dn/dxi_i.
+    /// What a Newton step needs at any xi: the face continued a little beyond
+    /// the reference square by its polynomial and then by its tangents
+    /// (continuously, and well defined however far away), the normal field
+    /// continued in the same way, and dx[i] + alpha dn/dxi_i.
     void
     evaluate_extended(const Lanes (&xi)[2],
                       const Lanes &alpha,
@@ -55,11 +60,16 @@ namespace mortise
                       Vec3<Lanes> (&dx)[2],
                       Vec3<Lanes> &n) const;
 
-    /// Solve x = x_s(xi) + alpha n(xi) for xi and alpha. Points far outside of the face get their
+    /// Solve x = x_s(xi) + alpha n(xi) for xi and alpha. Points far outside of
+    /// the face get their
     /// chart coordinates: only the side on which they lie matters there. With @p has_guess, xi
-    /// and alpha start the iteration. Returns the lanes that did not converge as bits.
+    /// and alpha start the iteration. Returns the lanes that did not converge
+    /// as bits.
     unsigned int
-    pull_back(const Vec3<Lanes> &x, const bool has_guess, Lanes (&xi)[2], Lanes &alpha) const;
+    pull_back(const Vec3<Lanes> &x,
+              const bool         has_guess,
+              Lanes (&xi)[2],
+              Lanes &alpha) const;
 
     /// d xi / d tau for a point that moves with velocity @p dx, by differentiating the rule.
     void
@@ -68,19 +78,20 @@ namespace mortise
                          const Lanes &alpha,
                          Lanes (&dxi)[2]) const;
 
-    /// Chart coordinates beyond these, widened by twist() times the height, belong to points that
-    /// are outside of the face on that side.
+    /// Chart coordinates beyond these, widened by twist() times the height,
+    /// belong to points that are outside of the face on that side.
     double near_lower[2], near_upper[2];
 
-    /// How much the normal field tilts against the frame's normal, in reference coordinates per
-    /// unit of height.
+    /// How much the normal field tilts against the frame's normal, in reference
+    /// coordinates per unit of height.
     double
     twist() const
     {
       return normal_twist;
     }
 
-    /// Heights beyond this count as this (the farthest master that can be a partner).
+    /// Heights beyond this count as this (the farthest master that can be a
+    /// partner).
     double height_limit;
 
   private:
@@ -88,8 +99,9 @@ namespace mortise
     FaceFrame      frame;
     FacePolynomial polynomial;
     Vec3<double>   center_dual[2], height_dual;
-    Vec3<double>   vertex_normal[4]; ///< as coefficients of 1, xi_1, xi_2, xi_1 xi_2
-    double         normal_twist;
+    Vec3<double>
+           vertex_normal[4]; ///< as coefficients of 1, xi_1, xi_2, xi_1 xi_2
+    double normal_twist;
   };
 
   /// A master face relative to the origin of a slave face.
@@ -107,7 +119,8 @@ namespace mortise
 
     /// Solve x_m(eta) = x + alpha n for eta and alpha, n fixed. With @p has_guess, eta starts the
     /// iteration. @p x_m is the point, @p slope the product n . outward master normal direction
-    /// (negative where the faces oppose). Returns the lanes that did not converge as bits.
+    /// (negative where the faces oppose). Returns the lanes that did not
+    /// converge as bits.
     unsigned int
     project(const Vec3<Lanes> &x,
             const Vec3<Lanes> &n,
@@ -122,7 +135,8 @@ namespace mortise
     double         orientation;
 
   private:
-    /// Newton's method from eta as it stands; returns the lanes that did not converge.
+    /// Newton's method from eta as it stands; returns the lanes that did not
+    /// converge.
     unsigned int
     iterate(const Vec3<Lanes> &x,
             const Vec3<Lanes> &n,

@@ -1,9 +1,9 @@
-// Which master faces are near to a slave face: boxes in a packed R-tree on one rank, and the
-// exchange of near faces between ranks. It never clips and never decides about contact.
+// Which master faces are near to a slave face: boxes in a packed R-tree on one
+// rank, and the exchange of near faces between ranks. It never clips and never
+// decides about contact.
 #pragma once
 
 #include <mortise/interface/surface_face.h>
-
 #include <mpi.h>
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace mortise
 {
-  /// Two faces can be a pair while their distance is at most this fraction of the size of the
-  /// larger one.
+  /// Two faces can be a pair while their distance is at most this fraction of
+  /// the size of the larger one.
   constexpr double default_search_fraction = 0.5;
 
   /// Boxes of master faces in a packed tree.
@@ -21,14 +21,16 @@ namespace mortise
   public:
     /// Keeps a reference to @p masters: they have to be finalized and outlive the tree.
     explicit FaceTree(const std::vector<SurfaceFace> &masters,
-                      const double                    search_fraction = default_search_fraction);
+                      const double search_fraction = default_search_fraction);
     ~FaceTree();
 
     /// Positions in @p masters, ascending, of the faces that may overlap @p slave: boxes meet,
-    /// normals oppose, no separating axis among the sides of either face's bounding
-    /// parallelogram. Never misses an overlapping face within the search distance.
+    /// normals oppose, no separating axis among the sides of either face's
+    /// bounding parallelogram. Never misses an overlapping face within the
+    /// search distance.
     void
-    candidates(const SurfaceFace &slave, std::vector<unsigned int> &result) const;
+    candidates(const SurfaceFace         &slave,
+               std::vector<unsigned int> &result) const;
 
   private:
     struct Tree;
@@ -37,9 +39,10 @@ namespace mortise
     std::unique_ptr<Tree>           tree;
   };
 
-  /// The master faces of all ranks that are near to a slave face of this rank, sorted by id and
-  /// without doubles: what this rank needs to integrate over its slave faces. A face travels
-  /// whole, with its payload. Collective; a rank may own no faces.
+  /// The master faces of all ranks that are near to a slave face of this rank,
+  /// sorted by id and without doubles: what this rank needs to integrate over
+  /// its slave faces. A face travels whole, with its payload. Collective; a
+  /// rank may own no faces.
   std::vector<SurfaceFace>
   exchange_near_faces(const std::vector<SurfaceFace> &owned_slaves,
                       const std::vector<SurfaceFace> &owned_masters,

@@ -1,5 +1,5 @@
-// Evaluation of the polynomial of one curved face or of one of its edges, eight points at a time.
-// It never iterates, projects or allocates.
+// Evaluation of the polynomial of one curved face or of one of its edges, eight
+// points at a time. It never iterates, projects or allocates.
 #pragma once
 
 #include <mortise/interface/surface_face.h>
@@ -8,12 +8,14 @@
 
 namespace mortise
 {
-  /// Eight numbers that are computed together; the compiler maps them to what the processor has.
+  /// Eight numbers that are computed together; the compiler maps them to what
+  /// the processor has.
   using Lanes = double __attribute__((vector_size(64)));
 
   constexpr unsigned int n_lanes = 8;
 
-  /// Largest geometry degree and the number of 1D support points that belongs to it.
+  /// Largest geometry degree and the number of 1D support points that belongs
+  /// to it.
   constexpr unsigned int max_face_degree = 8;
   constexpr unsigned int max_face_nodes  = max_face_degree + 1;
 
@@ -111,7 +113,9 @@ namespace mortise
   inline Vec3<T>
   cross(const Vec3<T> &a, const Vec3<T> &b)
   {
-    return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    return {{a[1] * b[2] - a[2] * b[1],
+             a[2] * b[0] - a[0] * b[2],
+             a[0] * b[1] - a[1] * b[0]}};
   }
 
   inline Vec3<double>
@@ -131,10 +135,10 @@ namespace mortise
   {
     unsigned int degree;
     double       node[max_face_nodes];
-    double       weight[max_face_nodes]; ///< barycentric: 1 / prod_j (x_i - x_j)
+    double weight[max_face_nodes]; ///< barycentric: 1 / prod_j (x_i - x_j)
 
-    /// Bernstein coefficients of the basis: row i, column of basis function j. The control
-    /// points of a face contain it in their convex hull.
+    /// Bernstein coefficients of the basis: row i, column of basis function j.
+    /// The control points of a face contain it in their convex hull.
     double bernstein[max_face_nodes][max_face_nodes];
   };
 
@@ -142,7 +146,8 @@ namespace mortise
   const LagrangeBasis &
   lagrange_basis(const unsigned int degree);
 
-  /// Gauss points on [0,1], and their tensor product on the square as separate arrays.
+  /// Gauss points on [0,1], and their tensor product on the square as separate
+  /// arrays.
   struct GaussRule
   {
     explicit GaussRule(const unsigned int n);
@@ -169,13 +174,18 @@ namespace mortise
     void
     reinit(const SurfaceFace &face, const dealii::Point<3> &origin);
 
-    /// Position and both derivatives at (xi_1, xi_2); also right outside [0,1]^2.
+    /// Position and both derivatives at (xi_1, xi_2); also right outside
+    /// [0,1]^2.
     void
-    evaluate(const Lanes &xi_1, const Lanes &xi_2, Vec3<Lanes> &x, Vec3<Lanes> (&dx)[2]) const;
+    evaluate(const Lanes &xi_1,
+             const Lanes &xi_2,
+             Vec3<Lanes> &x,
+             Vec3<Lanes> (&dx)[2]) const;
   };
 
-  /// Polynomial of one edge of a face: edge 0: xi_2 = 0, 1: xi_1 = 1, 2: xi_2 = 1, 3: xi_1 = 0,
-  /// run through counter-clockwise in the reference square as tau goes from 0 to 1.
+  /// Polynomial of one edge of a face: edge 0: xi_2 = 0, 1: xi_1 = 1, 2: xi_2 =
+  /// 1, 3: xi_1 = 0, run through counter-clockwise in the reference square as
+  /// tau goes from 0 to 1.
   struct EdgePolynomial
   {
     unsigned int degree = 0;
@@ -202,7 +212,8 @@ namespace mortise
       }
   }
 
-  /// Position and derivative at tau, lane by lane on one of four edges (@p edge holds 0..3).
+  /// Position and derivative at tau, lane by lane on one of four edges (@p edge
+  /// holds 0..3).
   void
   evaluate_edges(const EdgePolynomial (&edges)[4],
                  const unsigned int (&edge)[n_lanes],

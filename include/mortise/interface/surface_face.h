@@ -1,5 +1,6 @@
-// One curved face of a body's surface as plain data, with what follows from its points alone:
-// box, size, frame, corner normals, area. It never knows a mesh, a DoFHandler or another face.
+// One curved face of a body's surface as plain data, with what follows from its
+// points alone: box, size, frame, corner normals, area. It never knows a mesh,
+// a DoFHandler or another face.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -11,61 +12,71 @@
 
 namespace mortise
 {
-  /// Reference shape of a face. Triangles are reserved: nothing here computes with them yet.
+  /// Reference shape of a face. Triangles are reserved: nothing here computes
+  /// with them yet.
   enum class FaceShape : unsigned char
   {
     triangle      = 3,
     quadrilateral = 4
   };
 
-  /// Linear picture of a face about its centre, used for search, initial guesses and everything
-  /// far away. The chart of a point x is 1/2 + dual[i] . (x - center), exact for a parallelogram
+  /// Linear picture of a face about its centre, used for search, initial
+  /// guesses and everything far away. The chart of a point x is 1/2 + dual[i] .
+  /// (x - center), exact for a parallelogram
   /// and blind to motion along @p normal.
   struct FaceFrame
   {
-    dealii::Point<3>                    center;  ///< the face's point at (1/2, 1/2)
+    dealii::Point<3> center; ///< the face's point at (1/2, 1/2)
     std::array<dealii::Tensor<1, 3>, 2> tangent; ///< derivatives at the centre
-    std::array<dealii::Tensor<1, 3>, 2> dual;    ///< dual[i].tangent[j] = delta_ij, dual.normal = 0
-    dealii::Tensor<1, 3>                normal;  ///< mean of the vertex normals, unit length
-    std::array<double, 2>               chart_lower; ///< box of the whole face in its own chart
-    std::array<double, 2>               chart_upper;
-    double                              height_lower; ///< extent along normal about the centre
-    double                              height_upper;
+    std::array<dealii::Tensor<1, 3>, 2>
+      dual; ///< dual[i].tangent[j] = delta_ij, dual.normal = 0
+    dealii::Tensor<1, 3> normal; ///< mean of the vertex normals, unit length
+    std::array<double, 2>
+      chart_lower; ///< box of the whole face in its own chart
+    std::array<double, 2> chart_upper;
+    double height_lower; ///< extent along normal about the centre
+    double height_upper;
   };
 
-  /// One curved face. The caller fills the first group; finalize() derives the second.
+  /// One curved face. The caller fills the first group; finalize() derives the
+  /// second.
   struct SurfaceFace
   {
     FaceShape    shape  = FaceShape::quadrilateral;
     unsigned int degree = 1; ///< of the geometry, 1..8
 
-    /// (degree+1)^2 support points of the tensor Lagrange basis on the Gauss-Lobatto nodes of
-    /// [0,1]^2, first coordinate fastest. Any origin; lengths in the scene's unit.
+    /// (degree+1)^2 support points of the tensor Lagrange basis on the
+    /// Gauss-Lobatto nodes of [0,1]^2, first coordinate fastest. Any origin;
+    /// lengths in the scene's unit.
     std::vector<dealii::Point<3>> points;
 
-    /// orientation * (dx/dxi_1 x dx/dxi_2) is the outward normal of the face's body; +1 or -1.
+    /// orientation * (dx/dxi_1 x dx/dxi_2) is the outward normal of the face's
+    /// body; +1 or -1.
     double orientation = 1.;
 
-    /// The continuous normal field at the vertices (0,0), (1,0), (0,1), (1,1): outward, unit
-    /// length, equal on all faces around a vertex. All zero: finalize() takes the face's own.
+    /// The continuous normal field at the vertices (0,0), (1,0), (0,1), (1,1):
+    /// outward, unit length, equal on all faces around a vertex. All zero:
+    /// finalize() takes the face's own.
     std::array<dealii::Tensor<1, 3>, 4> vertex_normals;
 
     std::uint64_t id    = 0; ///< global, unique on its side of the interface
     unsigned int  owner = 0; ///< rank that owns the face
 
-    /// Anything its owner wants to travel with the face (for instance dof indices).
+    /// Anything its owner wants to travel with the face (for instance dof
+    /// indices).
     std::vector<char> payload;
 
     // Derived by finalize():
-    bool             affine = false; ///< a parallelogram, to rounding (1e-12 of its size)
-    bool             linear = false; ///< affine, and all vertex normals equal to rounding
-    dealii::Point<3> lower;          ///< box that contains the whole curved face
+    bool affine = false; ///< a parallelogram, to rounding (1e-12 of its size)
+    bool linear = false; ///< affine, and all vertex normals equal to rounding
+    dealii::Point<3> lower; ///< box that contains the whole curved face
     dealii::Point<3> upper;
     double           size = 0; ///< longest diagonal of the corners
     FaceFrame        frame;
 
-    /// Derive box, size, frame and flags from the points and normals. Throws InputError for a
-    /// wrong number of points, a degree out of range and a face without area at its centre.
+    /// Derive box, size, frame and flags from the points and normals. Throws
+    /// InputError for a wrong number of points, a degree out of range and a
+    /// face without area at its centre.
     void
     finalize();
 
@@ -74,18 +85,21 @@ namespace mortise
     serialize(Archive &archive, const unsigned int version);
   };
 
-  /// orientation * (dx/dxi_1 x dx/dxi_2) at the four vertices: the outward normals of the face,
-  /// weighted by area (not of unit length). Needs points, degree and orientation only.
+  /// orientation * (dx/dxi_1 x dx/dxi_2) at the four vertices: the outward
+  /// normals of the face, weighted by area (not of unit length). Needs points,
+  /// degree and orientation only.
   std::array<dealii::Tensor<1, 3>, 4>
   corner_normals(const SurfaceFace &face);
 
-  /// Set the vertex normals of all faces to the unit mean of the area-weighted corner normals of
+  /// Set the vertex normals of all faces to the unit mean of the area-weighted
+  /// corner normals of
   /// the faces that share a vertex; @p vertices holds four vertex numbers per face. Faces that
   /// other ranks own have to be among @p faces for the field to be the same on every rank.
   /// Call finalize() afterwards.
   void
-  average_vertex_normals(std::vector<SurfaceFace>                        &faces,
-                         const std::vector<std::array<std::uint64_t, 4>> &vertices);
+  average_vertex_normals(
+    std::vector<SurfaceFace>                        &faces,
+    const std::vector<std::array<std::uint64_t, 4>> &vertices);
 
   /// Area of a face by the tensor Gauss rule with @p n points per direction (0: exact for a
   /// parallelogram and to about 1e-13 for moderately curved faces).
@@ -116,7 +130,8 @@ namespace mortise
       archive &normal;
     archive &affine &linear &lower &upper &size &frame.center &frame.normal;
     for (unsigned int i = 0; i < 2; ++i)
-      archive &frame.tangent[i] & frame.dual[i] & frame.chart_lower[i] & frame.chart_upper[i];
+      archive &frame.tangent[i] & frame.dual[i] & frame.chart_lower[i] &
+        frame.chart_upper[i];
     archive &frame.height_lower &frame.height_upper;
   }
 } // namespace mortise

@@ -1,5 +1,5 @@
-// Exact solutions of elastic problems, with stresses and body forces derived exactly.
-// It never uses a mesh or finite differences.
+// Exact solutions of elastic problems, with stresses and body forces derived
+// exactly. It never uses a mesh or finite differences.
 #pragma once
 
 #include <mortise/base/expression.h>
@@ -36,7 +36,8 @@ namespace mortise
     n_bodies() const = 0;
   };
 
-  /// A displacement given by expressions, the same in every body; stresses by body's material.
+  /// A displacement given by expressions, the same in every body; stresses by
+  /// body's material.
   class ExpressionSolution : public ExactSolution
   {
   public:
@@ -59,10 +60,11 @@ namespace mortise
     std::vector<LinearElastic> materials;
   };
 
-  /// Lame's thick sphere, or thick cylinder in plane strain, of one or more concentric layers
-  /// under pressure inside and outside; displacement and radial stress are continuous where two
-  /// layers meet. u_r = A r + B / r^(d-1) with d = 3 (sphere) or 2 (cylinder) in each layer.
-  /// Source: Timoshenko and Goodier, Theory of Elasticity, chapters 4 and 12.
+  /// Lame's thick sphere, or thick cylinder in plane strain, of one or more
+  /// concentric layers under pressure inside and outside; displacement and
+  /// radial stress are continuous where two layers meet. u_r = A r + B /
+  /// r^(d-1) with d = 3 (sphere) or 2 (cylinder) in each layer. Source:
+  /// Timoshenko and Goodier, Theory of Elasticity, chapters 4 and 12.
   class LameSolution : public ExactSolution
   {
   public:
@@ -79,9 +81,11 @@ namespace mortise
       LinearElastic material; ///< nu = 0.5 is allowed here
     };
 
-    /// Layer i is body i; layers may come in any order of radius. The centre (axis) is the origin
+    /// Layer i is body i; layers may come in any order of radius. The centre
+    /// (axis) is the origin
     /// (z axis) before @p motion. Pressures are positive in compression. Throws InputError for
-    /// radii that are not 0 < inner < outer and for layers that do not touch (1e-8 relative).
+    /// radii that are not 0 < inner < outer and for layers that do not touch
+    /// (1e-8 relative).
     LameSolution(Geometry                  geometry,
                  const std::vector<Layer> &layers,
                  double                    pressure_inside,
@@ -108,14 +112,15 @@ namespace mortise
     radial_stress(double radius, unsigned int body) const;
 
   private:
-    /// u_r = A r + B / r^(d-1); sigma_r = mean - shear / r^d. The stresses have constants of their
-    /// own, which stay finite at nu = 0.5.
+    /// u_r = A r + B / r^(d-1); sigma_r = mean - shear / r^d. The stresses have
+    /// constants of their own, which stay finite at nu = 0.5.
     struct Coefficients
     {
       double A, B, mean, shear, poisson_ratio;
     };
 
-    /// p in the frame of the solution, projected to the xy plane for the cylinder.
+    /// p in the frame of the solution, projected to the xy plane for the
+    /// cylinder.
     dealii::Tensor<1, 3>
     radius_vector(const dealii::Point<3> &p) const;
 

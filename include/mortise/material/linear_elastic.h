@@ -1,5 +1,6 @@
-// Isotropic linear elasticity in three dimensions (and plane strain, which is the same law).
-// It never treats the incompressible limit: Poisson's ratio is below 0.5.
+// Isotropic linear elasticity in three dimensions (and plane strain, which is
+// the same law). It never treats the incompressible limit: Poisson's ratio is
+// below 0.5.
 #pragma once
 
 #include <deal.II/base/symmetric_tensor.h>
@@ -19,7 +20,8 @@ namespace mortise
     double
     lame_lambda() const
     {
-      return young_modulus * poisson_ratio / ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
+      return young_modulus * poisson_ratio /
+             ((1. + poisson_ratio) * (1. - 2. * poisson_ratio));
     }
 
     /// mu = E / (2 (1 + nu)), the shear modulus.
@@ -29,7 +31,8 @@ namespace mortise
       return young_modulus / (2. * (1. + poisson_ratio));
     }
 
-    /// sigma = lambda tr(strain) I + 2 mu strain, tensor components (not engineering shears).
+    /// sigma = lambda tr(strain) I + 2 mu strain, tensor components (not
+    /// engineering shears).
     dealii::SymmetricTensor<2, 3>
     stress(const dealii::SymmetricTensor<2, 3> &strain) const
     {
@@ -41,9 +44,11 @@ namespace mortise
     }
 
     /// Force per volume that balances a displacement with second derivatives @p hessian
-    /// (hessian[i] of u_i): b = -div sigma = -(lambda + mu) grad div u - mu laplace u.
+    /// (hessian[i] of u_i): b = -div sigma = -(lambda + mu) grad div u - mu
+    /// laplace u.
     dealii::Tensor<1, 3>
-    body_force(const std::array<dealii::SymmetricTensor<2, 3>, 3> &hessian) const;
+    body_force(
+      const std::array<dealii::SymmetricTensor<2, 3>, 3> &hessian) const;
 
     /// Throw InputError unless E > 0 and -1 < nu < 0.5 (both finite); @p where names the
     /// subsection in the message.

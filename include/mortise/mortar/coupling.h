@@ -1,12 +1,13 @@
-// Coupling of two surfaces by multipliers: D and M as one matrix over the numbering of the scene,
-// what preconditioners need of it, and how well it couples. It never solves.
+// Coupling of two surfaces by multipliers: D and M as one matrix over the
+// numbering of the scene, what preconditioners need of it, and how well it
+// couples. It never solves.
 #pragma once
+
+#include <deal.II/base/index_set.h>
 
 #include <mortise/base/types.h>
 #include <mortise/mortar/local_coupling.h>
 #include <mortise/mortar/multiplier_space.h>
-
-#include <deal.II/base/index_set.h>
 
 #include <memory>
 #include <vector>
@@ -33,16 +34,16 @@ namespace mortise
     MPI_Comm                comm;
   };
 
-  /// The constraint B u = g of all interfaces: B = [D, -M], multipliers x displacements, with
-  /// Dirichlet values moved to g. Collective.
+  /// The constraint B u = g of all interfaces: B = [D, -M], multipliers x
+  /// displacements, with Dirichlet values moved to g. Collective.
   void
   assemble_constraint(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition,
                       SparseMatrix                &coupling,
                       Vector                      &coupling_rhs);
 
-  /// What preconditioners need: the jump penalty J, see BlockSystem; the couplings were integrated with
-  /// the masters' masses. Collective.
+  /// What preconditioners need: the jump penalty J, see BlockSystem; the
+  /// couplings were integrated with the masters' masses. Collective.
   void
   assemble_jump_penalty(const std::vector<Coupling> &couplings,
                         const CouplingPartition     &partition,
@@ -51,29 +52,38 @@ namespace mortise
   /// How exactly constant and linear fields pass an interface.
   struct TransferErrors
   {
-    /// max_i |sum_j D_ij - sum_j M_ij| / max_i |sum_j D_ij| over the multipliers.
+    /// max_i |sum_j D_ij - sum_j M_ij| / max_i |sum_j D_ij| over the
+    /// multipliers.
     double partition_of_unity = 0.;
-    /// max_i |int lambda_i (x_master - x_slave)| / (int |lambda_i| h), h the size of a slave face.
+    /// max_i |int lambda_i (x_master - x_slave)| / (int |lambda_i| h), h the
+    /// size of a slave face.
     double linear_completeness = 0.;
   };
 
   /// Collective.
   TransferErrors
-  transfer_errors(const Coupling &coupling, const dealii::IndexSet &owned_multiplier, MPI_Comm comm);
+  transfer_errors(const Coupling         &coupling,
+                  const dealii::IndexSet &owned_multiplier,
+                  MPI_Comm                comm);
 
   /// Imbalance of what the multipliers put on the two sides.
   struct ResultantErrors
   {
-    double force  = 0.; ///< |F_slave - F_master| / int |lambda|
-    double moment = 0.; ///< |M_slave - M_master| / (int |lambda| times the root of the area)
+    double force = 0.; ///< |F_slave - F_master| / int |lambda|
+    double moment =
+      0.; ///< |M_slave - M_master| / (int |lambda| times the root of the area)
   };
 
   /// @p multiplier: owned entries of the solution. Collective.
   ResultantErrors
-  resultant_errors(const Coupling &coupling, const Vector &multiplier, MPI_Comm comm);
+  resultant_errors(const Coupling &coupling,
+                   const Vector   &multiplier,
+                   MPI_Comm        comm);
 
-  /// Coefficients of the multiplier on the slave faces of this rank: by slave face, entry
-  /// c (degree + 1)^2 + k as in FaceTrace. Collective.
+  /// Coefficients of the multiplier on the slave faces of this rank: by slave
+  /// face, entry c (degree + 1)^2 + k as in FaceTrace. Collective.
   std::vector<std::vector<double>>
-  multiplier_on_faces(const Coupling &coupling, const Vector &multiplier, MPI_Comm comm);
+  multiplier_on_faces(const Coupling &coupling,
+                      const Vector   &multiplier,
+                      MPI_Comm        comm);
 } // namespace mortise

@@ -1,29 +1,35 @@
-// Integrals of shape functions over one slave face and its partners: the local blocks of D and M.
-// They are the same for the three components. It never knows a global numbering.
+// Integrals of shape functions over one slave face and its partners: the local
+// blocks of D and M. They are the same for the three components. It never knows
+// a global numbering.
 #pragma once
 
-#include <mortise/interface/interface_handler.h>
-
 #include <deal.II/lac/full_matrix.h>
+
+#include <mortise/interface/interface_handler.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// Integrals over the covered part of one slave face. Functions are those of FaceTrace.
+  /// Integrals over the covered part of one slave face. Functions are those of
+  /// FaceTrace.
   struct LocalCoupling
   {
     struct Partner
     {
-      unsigned int               master; ///< among InterfaceHandler::master_faces()
-      dealii::FullMatrix<double> mixed;  ///< int N_i^slave N_j^master
-      dealii::FullMatrix<double> mass;   ///< int N_i^master N_j^master; empty unless asked for
+      unsigned int master; ///< among InterfaceHandler::master_faces()
+      dealii::FullMatrix<double> mixed; ///< int N_i^slave N_j^master
+      dealii::FullMatrix<double>
+        mass; ///< int N_i^master N_j^master; empty unless asked for
     };
 
-    dealii::FullMatrix<double>             mass;       ///< int N_i^slave N_j^slave; empty: no partner
-    std::vector<dealii::Tensor<1, dim>>    gap_moment; ///< int N_i^slave (x_master - x_slave)
-    std::vector<Partner>                   partners;
-    double penalty = 0.; ///< 2.5 E / h of the softer side, the scale of jump penalties
+    dealii::FullMatrix<double>
+      mass; ///< int N_i^slave N_j^slave; empty: no partner
+    std::vector<dealii::Tensor<1, dim>>
+                         gap_moment; ///< int N_i^slave (x_master - x_slave)
+    std::vector<Partner> partners;
+    double               penalty =
+      0.; ///< 2.5 E / h of the softer side, the scale of jump penalties
   };
 
   /// Clip @p interface and integrate; one entry per slave face. Collective.

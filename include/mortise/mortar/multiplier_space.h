@@ -1,23 +1,29 @@
-// The multipliers of one interface: the trace space of the slave's displacements, component by
-// component, reduced where that keeps the coupling stable. It never integrates.
+// The multipliers of one interface: the trace space of the slave's
+// displacements, component by component, reduced where that keeps the coupling
+// stable. It never integrates.
 //
 // The reduction, without any flag from the user, per component c:
-// - rims: where all displacements of a slave face's edge are prescribed (Dirichlet, or the dofs of an
-//   earlier interface), the degree across the edge is one less in that face, so that there are
-//   as many multipliers as free displacements and constants stay representable; at degree 1 the
-//   vertex on the rim takes the mean of its neighbours off the rim; where no vertex of a patch of faces
-//   is free, one constant is left on it, which the other side follows if it can;
-// - hanging nodes and mixed degrees: the conforming trace space, by the body's constraints;
-// - no partner: faces covered by less than a tenth have no multipliers of their own, faces covered
+// - rims: where all displacements of a slave face's edge are prescribed
+// (Dirichlet, or the dofs of an
+//   earlier interface), the degree across the edge is one less in that face, so
+//   that there are as many multipliers as free displacements and constants stay
+//   representable; at degree 1 the vertex on the rim takes the mean of its
+//   neighbours off the rim; where no vertex of a patch of faces is free, one
+//   constant is left on it, which the other side follows if it can;
+// - hanging nodes and mixed degrees: the conforming trace space, by the body's
+// constraints;
+// - no partner: faces covered by less than a tenth have no multipliers of their
+// own, faces covered
 //   by less than nine tenths only those of degree 1.
-// Sources: Bernardi, Maday, Patera (1994); Wohlmuth (2000); Seshaiyer, Suri (2000).
+// Sources: Bernardi, Maday, Patera (1994); Wohlmuth (2000); Seshaiyer, Suri
+// (2000).
 #pragma once
+
+#include <deal.II/lac/affine_constraints.h>
 
 #include <mortise/body/body.h>
 #include <mortise/interface/body_surface.h>
 #include <mortise/mortar/multiplier_faces.h>
-
-#include <deal.II/lac/affine_constraints.h>
 
 #include <array>
 #include <vector>
@@ -29,23 +35,24 @@ namespace mortise
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Multipliers on one face: value_c(xi) = sum_k N_k(xi) sum_j weight_j lambda_index_j with
-    /// row = c (degree + 1)^2 + k as in FaceTrace.
+    /// Multipliers on one face: value_c(xi) = sum_k N_k(xi) sum_j weight_j
+    /// lambda_index_j with row = c (degree + 1)^2 + k as in FaceTrace.
     struct FaceRows
     {
       std::vector<unsigned int> begin;
-      std::vector<Index>        index; ///< numbering of all multipliers of the scene
-      std::vector<double>       weight;
+      std::vector<Index>  index; ///< numbering of all multipliers of the scene
+      std::vector<double> weight;
     };
 
     /// Decide which multipliers there are. @p blocked: whether a locally owned displacement dof
-    /// (position in the owned range) is prescribed by a boundary condition or belongs to an
+    /// (position in the owned range) is prescribed by a boundary condition or
+    /// belongs to an
     /// earlier interface. @p partners: by face of @p slave. Collective.
-    MultiplierSpace(const Body                &body,
-                    dealii::types::boundary_id boundary,
-                    const BodySurface         &slave,
+    MultiplierSpace(const Body                      &body,
+                    dealii::types::boundary_id       boundary,
+                    const BodySurface               &slave,
                     const std::vector<PartnerState> &partners,
-                    const std::vector<bool>   &blocked);
+                    const std::vector<bool>         &blocked);
 
     /// Multipliers owned by this rank.
     unsigned int
@@ -54,7 +61,8 @@ namespace mortise
       return owned_dofs.size();
     }
 
-    /// Displacement dofs (DoFHandler's numbering, owned) that the owned multipliers sit on.
+    /// Displacement dofs (DoFHandler's numbering, owned) that the owned
+    /// multipliers sit on.
     const std::vector<Index> &
     slave_dofs() const
     {
@@ -74,9 +82,10 @@ namespace mortise
     }
 
   private:
-    const Body                       &body;
-    std::vector<Index>                owned_dofs;
-    dealii::AffineConstraints<double> reduction; ///< in the body's numbering; closed
-    std::vector<FaceRows>             face_rows;
+    const Body        &body;
+    std::vector<Index> owned_dofs;
+    dealii::AffineConstraints<double>
+                          reduction; ///< in the body's numbering; closed
+    std::vector<FaceRows> face_rows;
   };
 } // namespace mortise

@@ -1,21 +1,24 @@
-// The assembled saddle-point system of a whole scene, all bodies and all interfaces in one numbering:
+// The assembled saddle-point system of a whole scene, all bodies and all
+// interfaces in one numbering:
 //
 //     [ K  B^T ] [ u      ]   [ f ]
 //     [ B   0  ] [ lambda ] = [ g ]
 //
-// together with what preconditioners need to know about it. It never solves and knows no mesh.
+// together with what preconditioners need to know about it. It never solves and
+// knows no mesh.
 #pragma once
 
-#include <mortise/base/types.h>
-
 #include <deal.II/base/index_set.h>
+
+#include <mortise/base/types.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// Indices are global, numbered rank by rank, so that what a rank owns is one contiguous range in
-  /// the displacement and one in the multiplier numbering; either may be empty on a rank.
+  /// Indices are global, numbered rank by rank, so that what a rank owns is one
+  /// contiguous range in the displacement and one in the multiplier numbering;
+  /// either may be empty on a rank.
   struct BlockSystem
   {
     MPI_Comm communicator = MPI_COMM_NULL;
@@ -23,32 +26,39 @@ namespace mortise
     dealii::IndexSet owned_displacement;
     dealii::IndexSet owned_multiplier;
 
-    /// K, symmetric, the interiors of cells eliminated; a constrained or eliminated degree of
-    /// freedom (Dirichlet, hanging node, interior of a cell) has a row and a column that are zero but
-    /// for a positive diagonal, and zero in f. Singular when a body is held only by its interfaces.
+    /// K, symmetric, the interiors of cells eliminated; a constrained or
+    /// eliminated degree of freedom (Dirichlet, hanging node, interior of a
+    /// cell) has a row and a column that are zero but for a positive diagonal,
+    /// and zero in f. Singular when a body is held only by its interfaces.
     SparseMatrix stiffness;
     Vector       load;
 
-    /// B: rows are multipliers, columns displacements; columns of constrained dofs are zero.
-    /// No rows at all when the scene has no interface. The constraint reads B u = g.
+    /// B: rows are multipliers, columns displacements; columns of constrained
+    /// dofs are zero. No rows at all when the scene has no interface. The
+    /// constraint reads B u = g.
     SparseMatrix coupling;
     Vector       coupling_rhs;
 
-    /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the softer side: symmetric, positive
-    /// semi-definite, touches interface dofs only. K + J is regular even where K is not; it is for
-    /// preconditioning and never part of the equations.
+    /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the
+    /// softer side: symmetric, positive semi-definite, touches interface dofs
+    /// only. K + J is regular even where K is not; it is for preconditioning
+    /// and never part of the equations.
     SparseMatrix jump_penalty;
 
-    /// Owned displacement dofs that belong to the degree-one subspace (vertex functions), three per
-    /// vertex, x, y, z consecutive, constrained ones included.
+    /// Owned displacement dofs that belong to the degree-one subspace (vertex
+    /// functions), three per vertex, x, y, z consecutive, constrained ones
+    /// included.
     std::vector<dealii::types::global_dof_index> vertex_dofs;
-    /// The coordinates of the vertex that each three consecutive entries of vertex_dofs belong to.
+    /// The coordinates of the vertex that each three consecutive entries of
+    /// vertex_dofs belong to.
     std::vector<dealii::Point<dim>> vertex_points;
-    /// Body of each of those vertices (for rigid body modes per body if wanted).
+    /// Body of each of those vertices (for rigid body modes per body if
+    /// wanted).
     std::vector<unsigned int> vertex_body;
 
-    /// Owned displacement dofs grouped by mesh entity (a vertex, edge or face with its three
-    /// components and all modes); a dof of a cell's interior is in none and couples with nothing.
+    /// Owned displacement dofs grouped by mesh entity (a vertex, edge or face
+    /// with its three components and all modes); a dof of a cell's interior is
+    /// in none and couples with nothing.
     std::vector<std::vector<dealii::types::global_dof_index>> entity_blocks;
 
     /// Largest polynomial degree in the scene.

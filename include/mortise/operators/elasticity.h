@@ -1,15 +1,15 @@
-// Linear elasticity of one body assembled into the system of the scene, and its loads.
-// It never knows of interfaces and never solves.
+// Linear elasticity of one body assembled into the system of the scene, and its
+// loads. It never knows of interfaces and never solves.
 #pragma once
+
+#include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <mortise/base/types.h>
 #include <mortise/body/body.h>
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/numbering.h>
 #include <mortise/operators/condensed_interiors.h>
-
-#include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <functional>
 #include <vector>
@@ -20,8 +20,9 @@ namespace mortise
   struct Loads
   {
     /// Force per volume; empty: none.
-    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)> body_force;
-    std::vector<TractionCondition>                                    tractions;
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+                                   body_force;
+    std::vector<TractionCondition> tractions;
   };
 
   /// Couplings of the dofs of each cell of @p body. @p constraints are those of the scene.
@@ -32,9 +33,10 @@ namespace mortise
                      dealii::DynamicSparsityPattern          &sparsity);
 
   /// Add int sigma(u):eps(v) and int b.v + int t.v to @p stiffness and @p load, interiors of cells
-  /// eliminated and constraints resolved; the caller compresses. The row of an interior dof has
-  /// nothing but its diagonal. Returns the interiors of the owned cells, in the order of iteration;
-  /// none at degree 1. Collective; throws InputError on all ranks for a cell of negative volume.
+  /// eliminated and constraints resolved; the caller compresses. The row of an
+  /// interior dof has nothing but its diagonal. Returns the interiors of the
+  /// owned cells, in the order of iteration; none at degree 1. Collective;
+  /// throws InputError on all ranks for a cell of negative volume.
   CondensedInteriors
   assemble_elasticity(const Body                              &body,
                       const Loads                             &loads,

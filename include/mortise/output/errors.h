@@ -1,4 +1,5 @@
-// Errors against an exact solution, and functionals of a solution. It never prints.
+// Errors against an exact solution, and functionals of a solution. It never
+// prints.
 #pragma once
 
 #include <mortise/base/types.h>
@@ -25,21 +26,27 @@ namespace mortise
                       const std::vector<BodyVector> &displacements,
                       const ExactSolution           &exact);
 
-  /// |lambda - t| / |t| in L2 over the slave faces with a partner, t the exact traction, all
+  /// |lambda - t| / |t| in L2 over the slave faces with a partner, t the exact
+  /// traction, all
   /// interfaces together (over |sigma| there if t is zero); @p coefficients by interface, see multiplier_on_faces(). Collective.
   double
-  multiplier_error(const Bodies                                         &bodies,
-                   const std::vector<Coupling>                          &couplings,
-                   const std::vector<unsigned int>                      &slave_bodies,
-                   const std::vector<std::vector<std::vector<double>>>  &coefficients,
-                   const ExactSolution                                  &exact);
+  multiplier_error(
+    const Bodies                                        &bodies,
+    const std::vector<Coupling>                         &couplings,
+    const std::vector<unsigned int>                     &slave_bodies,
+    const std::vector<std::vector<std::vector<double>>> &coefficients,
+    const ExactSolution                                 &exact);
 
-  /// Displacement at a point of a body; absent if the point lies outside (farther than rounding).
-  /// Collective.
+  /// Displacement at a point of a body; absent if the point lies outside
+  /// (farther than rounding). Collective.
   std::optional<dealii::Tensor<1, dim>>
-  point_value(const Body &body, const BodyVector &displacement, const dealii::Point<dim> &point);
+  point_value(const Body               &body,
+              const BodyVector         &displacement,
+              const dealii::Point<dim> &point);
 
   /// Force on a boundary, int sigma_h n. Collective.
   dealii::Tensor<1, dim>
-  resultant(const Body &body, const BodyVector &displacement, dealii::types::boundary_id boundary);
+  resultant(const Body                &body,
+            const BodyVector          &displacement,
+            dealii::types::boundary_id boundary);
 } // namespace mortise

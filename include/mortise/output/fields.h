@@ -1,5 +1,5 @@
-// Fields of a solution as VTU files for ParaView: one file per body, one per interface.
-// It never computes errors or forces.
+// Fields of a solution as VTU files for ParaView: one file per body, one per
+// interface. It never computes errors or forces.
 #pragma once
 
 #include <mortise/output/errors.h>
@@ -16,17 +16,19 @@ namespace mortise
     bool traction     = false; ///< on slave surfaces: traction and gap
   };
 
-  /// DIRECTORY/NAME.vtu with displacement and stress of one body; higher-order cells, so that a
-  /// high degree looks as smooth as it is. Collective; all ranks write one file.
+  /// DIRECTORY/NAME.vtu with displacement and stress of one body; higher-order
+  /// cells, so that a high degree looks as smooth as it is. Collective; all
+  /// ranks write one file.
   void
-  write_body_fields(const Body            &body,
-                    const BodyVector      &displacement,
-                    const FieldSelection  &selection,
-                    const std::string     &directory);
+  write_body_fields(const Body           &body,
+                    const BodyVector     &displacement,
+                    const FieldSelection &selection,
+                    const std::string    &directory);
 
-  /// DIRECTORY/NAME.vtu with the traction that the slave side bears (force per area), the
-  /// displacement, and the gap (x_master - x_slave before deformation, a length) on the slave surface. @p
-  /// coefficients as of multiplier_on_faces(). Collective.
+  /// DIRECTORY/NAME.vtu with the traction that the slave side bears (force per
+  /// area), the displacement, and the gap (x_master - x_slave before
+  /// deformation, a length) on the slave surface. @p coefficients as of
+  /// multiplier_on_faces(). Collective.
   void
   write_interface_fields(const Body                             &slave_body,
                          const Coupling                         &coupling,

@@ -1,9 +1,9 @@
-// The summary of a run, `summary.json`, as plain data: what scripts read. Members that a run
-// has no value for are absent in the file, not zero. It never computes anything.
+// The summary of a run, `summary.json`, as plain data: what scripts read.
+// Members that a run has no value for are absent in the file, not zero. It
+// never computes anything.
 #pragma once
 
 #include <mortise/base/timers.h>
-
 #include <mpi.h>
 
 #include <cstdint>
@@ -65,7 +65,7 @@ namespace mortise
 
   struct SolverSummary
   {
-    std::string                  method; ///< "saddle point", "condensed", "direct"
+    std::string method; ///< "saddle point", "condensed", "direct"
     std::optional<std::string>   preconditioner;
     std::optional<std::uint64_t> iterations;
     double                       relative_residual = 0.;
@@ -88,28 +88,33 @@ namespace mortise
     std::vector<InterfaceSummary> interfaces;
     std::optional<SolverSummary>  solver; ///< absent until solved
     std::optional<ErrorSummary>   errors; ///< absent without an exact solution
-    /// User-requested functionals in the order of the request: point values, resultants.
+    /// User-requested functionals in the order of the request: point values,
+    /// resultants.
     std::vector<std::pair<std::string, std::vector<double>>> quantities;
   };
 
   struct Summary
   {
-    ProgramInfo                                 program;
-    std::string                                 title;
-    std::string                                 status; ///< "done", "not converged", ...
-    std::vector<StepSummary>                    steps;
-    std::vector<std::pair<std::string, double>> timings; ///< Timers::walls(), seconds
-    PeakMemory                                  memory;
+    ProgramInfo              program;
+    std::string              title;
+    std::string              status; ///< "done", "not converged", ...
+    std::vector<StepSummary> steps;
+    std::vector<std::pair<std::string, double>>
+               timings; ///< Timers::walls(), seconds
+    PeakMemory memory;
   };
 
-  /// The text of summary.json. Numbers are written with the digits that read back to the same
-  /// double (17 at most); one that is not finite is written as null.
+  /// The text of summary.json. Numbers are written with the digits that read
+  /// back to the same double (17 at most); one that is not finite is written as
+  /// null.
   std::string
   to_json(const Summary &summary);
 
   /// Write @p directory /summary.json, made with its parents if need be. A reader sees the old
-  /// file or the new one, never half of it. Rank 0 writes. Throws InputError on every rank if
-  /// the directory cannot be made or written. Collective.
+  /// file or the new one, never half of it. Rank 0 writes. Throws InputError on
+  /// every rank if the directory cannot be made or written. Collective.
   void
-  write_summary(const Summary &summary, const std::string &directory, MPI_Comm comm);
+  write_summary(const Summary     &summary,
+                const std::string &directory,
+                MPI_Comm           comm);
 } // namespace mortise

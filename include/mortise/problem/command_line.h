@@ -1,4 +1,5 @@
-// The command line as data. It never reads the parameter file and never runs a scene.
+// The command line as data. It never reads the parameter file and never runs a
+// scene.
 #pragma once
 
 #include <mortise/problem/parameters.h>
@@ -20,8 +21,8 @@ namespace mortise
     };
 
     Action      action = Action::run;
-    std::string file;     ///< the parameter file, for run and validate
-    Settings    settings; ///< --set and --output, in the order of the command line
+    std::string file;  ///< the parameter file, for run and validate
+    Settings settings; ///< --set and --output, in the order of the command line
   };
 
   /// @p arguments without the name of the program. Throws InputError.

@@ -1,5 +1,5 @@
-// The one place where errors become messages and exit codes, on any number of ranks.
-// It never knows what the program does.
+// The one place where errors become messages and exit codes, on any number of
+// ranks. It never knows what the program does.
 #pragma once
 
 #include <mpi.h>
@@ -10,7 +10,8 @@
 
 namespace mortise
 {
-  /// The solver did not reach its tolerance. Thrown after what was reached has been written.
+  /// The solver did not reach its tolerance. Thrown after what was reached has
+  /// been written.
   class ConvergenceError : public std::runtime_error
   {
   public:
@@ -18,9 +19,11 @@ namespace mortise
   };
 
   /// Run @p program on every rank of @p comm and return the exit code of the process: 0, 2 after
-  /// InputError, 3 after ConvergenceError, 1 after anything else. If any rank fails, one message
+  /// InputError, 3 after ConvergenceError, 1 after anything else. If any rank
+  /// fails, one message
   /// (of the lowest failed rank) goes to @p error, and every rank returns the same code. When a
-  /// rank fails alone, so that others wait for it in vain, it prints and aborts all of them with
+  /// rank fails alone, so that others wait for it in vain, it prints and aborts
+  /// all of them with
   /// the code after @p patience seconds. Collective.
   int
   run_guarded(MPI_Comm                     comm,

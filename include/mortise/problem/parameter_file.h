@@ -1,5 +1,6 @@
-// The lines of a parameter file in the syntax of dealii::ParameterHandler, each with its origin,
-// so that messages can name the line. It never knows which parameters exist.
+// The lines of a parameter file in the syntax of dealii::ParameterHandler, each
+// with its origin, so that messages can name the line. It never knows which
+// parameters exist.
 #pragma once
 
 #include <string>
@@ -7,7 +8,8 @@
 
 namespace mortise
 {
-  /// "set name = value" within nested subsections, or the opening of a subsection (no name).
+  /// "set name = value" within nested subsections, or the opening of a
+  /// subsection (no name).
   struct Assignment
   {
     std::vector<std::string> sections;
@@ -27,8 +29,8 @@ namespace mortise
   };
 
   /// Lines of @p text: comments (#) and continuations (\ at the end of a line) are understood,
-  /// and "include FILE" takes another file, sought beside the including one, then in the current
-  /// directory. Throws InputError with the line.
+  /// and "include FILE" takes another file, sought beside the including one,
+  /// then in the current directory. Throws InputError with the line.
   std::vector<Assignment>
   scan_parameter_text(const std::string &text, const std::string &file);
 

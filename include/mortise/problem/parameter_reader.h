@@ -1,5 +1,5 @@
-// Values of one subsection of a parameter file, with messages that say where they stand. It
-// never knows which parameters a subsection has.
+// Values of one subsection of a parameter file, with messages that say where
+// they stand. It never knows which parameters a subsection has.
 #pragma once
 
 #include <mortise/base/error.h>
@@ -28,7 +28,9 @@ namespace mortise
 
     /// Throw InputError: what was got, and what is allowed.
     [[noreturn]] void
-    fail(const std::string &name, const std::string &got, const std::string &allowed) const;
+    fail(const std::string &name,
+         const std::string &got,
+         const std::string &allowed) const;
 
     std::string
     text(const std::string &name) const;
@@ -56,14 +58,16 @@ namespace mortise
       return result;
     }
 
-    /// Three components between ';' or, without any ';', between ','. Absent for an empty text;
-    /// "exact" stands for three of it.
+    /// Three components between ';' or, without any ';', between ','. Absent
+    /// for an empty text; "exact" stands for three of it.
     std::optional<Components>
     components(const std::string &name, const std::string &allowed) const;
 
     /// "a: b; c: d; ..." as records of @p n parts, none of them empty.
     std::vector<std::vector<std::string>>
-    records(const std::string &name, std::size_t n, const std::string &allowed) const;
+    records(const std::string &name,
+            std::size_t        n,
+            const std::string &allowed) const;
 
     /// Index of @p body among the bodies of the scene.
     unsigned int

@@ -1,11 +1,11 @@
-// Which parameters exist, with default, unit, meaning and what is allowed. It never interprets
-// values beyond their type.
+// Which parameters exist, with default, unit, meaning and what is allowed. It
+// never interprets values beyond their type.
 #pragma once
-
-#include <mortise/problem/parameter_file.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/patterns.h>
+
+#include <mortise/problem/parameter_file.h>
 
 #include <memory>
 #include <string>
@@ -16,9 +16,10 @@ namespace mortise
   /// The names that make the subsections of a scene.
   struct SceneNames
   {
-    std::vector<std::string>              bodies;
-    std::vector<std::vector<std::string>> boundaries; ///< of each body, those that the file names
-    std::vector<std::string>              interfaces;
+    std::vector<std::string> bodies;
+    std::vector<std::vector<std::string>>
+      boundaries; ///< of each body, those that the file names
+    std::vector<std::string> interfaces;
   };
 
   struct ParameterDeclaration
@@ -42,14 +43,16 @@ namespace mortise
   public:
     explicit ParameterSchema(const SceneNames &names);
 
-    /// Check that the parameter exists and that the value has its type, then store it. Throws
-    /// InputError with what, where, what was got, and what is allowed or nearest.
+    /// Check that the parameter exists and that the value has its type, then
+    /// store it. Throws InputError with what, where, what was got, and what is
+    /// allowed or nearest.
     void
     assign(const Assignment &assignment);
 
     /// The value of a parameter.
     std::string
-    get(const std::vector<std::string> &sections, const std::string &name) const;
+    get(const std::vector<std::string> &sections,
+        const std::string              &name) const;
 
     const std::vector<ParameterDeclaration> &
     declarations() const;
@@ -65,8 +68,8 @@ namespace mortise
     dealii::ParameterHandler          handler;
   };
 
-  /// A parameter file with every parameter at its default, each with its unit, meaning and what
-  /// is allowed as a comment: what --parameters prints.
+  /// A parameter file with every parameter at its default, each with its unit,
+  /// meaning and what is allowed as a comment: what --parameters prints.
   std::string
   parameter_reference();
 } // namespace mortise

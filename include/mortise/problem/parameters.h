@@ -1,16 +1,17 @@
-// What a parameter file says, as plain data: one struct per subsection, with the defaults.
-// It never opens a mesh, and nothing here knows how a parameter is used.
+// What a parameter file says, as plain data: one struct per subsection, with
+// the defaults. It never opens a mesh, and nothing here knows how a parameter
+// is used.
 //
-// Files have the syntax of dealii::ParameterHandler. `parameter_file.h` reads the lines,
-// `parameter_schema.h` declares the parameters (and prints them for people).
+// Files have the syntax of dealii::ParameterHandler. `parameter_file.h` reads
+// the lines, `parameter_schema.h` declares the parameters (and prints them for
+// people).
 #pragma once
+
+#include <deal.II/base/point.h>
 
 #include <mortise/body/mesh_source.h>
 #include <mortise/solvers/solver_options.h>
-
 #include <mpi.h>
-
-#include <deal.II/base/point.h>
 
 #include <array>
 #include <map>
@@ -20,9 +21,9 @@
 
 namespace mortise
 {
-  /// The three components of a vector, each the text of an expression in x, y, z. Displacements
-  /// of a boundary may also say "-" (free), and everything that an exact solution determines may
-  /// say "exact".
+  /// The three components of a vector, each the text of an expression in x, y,
+  /// z. Displacements of a boundary may also say "-" (free), and everything
+  /// that an exact solution determines may say "exact".
   using Components = std::array<std::string, 3>;
 
   /// "ex; ey; ez", as VectorExpression takes it.
@@ -39,20 +40,22 @@ namespace mortise
   /// What acts on one named boundary. Nothing at all: free of traction.
   struct BoundaryParameters
   {
-    std::optional<std::string> pressure;     ///< acts against the outward normal; or "exact"
-    std::optional<Components>  traction;     ///< force per area; or "exact"
-    std::optional<Components>  displacement; ///< "-": free; or "exact"
+    std::optional<std::string>
+      pressure; ///< acts against the outward normal; or "exact"
+    std::optional<Components> traction;     ///< force per area; or "exact"
+    std::optional<Components> displacement; ///< "-": free; or "exact"
   };
 
   struct BodyParameters
   {
-    std::string                          name;
-    unsigned int                         degree = 1;
-    std::map<unsigned int, unsigned int> degree_by_region; ///< material id of the mesh -> degree
-    MeshParameters                       mesh;
-    MaterialParameters                   material;
-    /// Force per volume. Absent ("auto"): from the exact solution if that is given by
-    /// expressions, else zero.
+    std::string  name;
+    unsigned int degree = 1;
+    std::map<unsigned int, unsigned int>
+                       degree_by_region; ///< material id of the mesh -> degree
+    MeshParameters     mesh;
+    MaterialParameters material;
+    /// Force per volume. Absent ("auto"): from the exact solution if that is
+    /// given by expressions, else zero.
     std::optional<Components>                 body_force;
     std::map<std::string, BoundaryParameters> boundaries;
   };
@@ -69,10 +72,11 @@ namespace mortise
     std::string    name;
     SideParameters slave; ///< carries the multiplier
     SideParameters master;
-    std::string    law             = "tie";
-    std::string    multiplier      = "standard";
-    double         search_distance = 0.5; ///< largest gap or overlap that is bridged, in face sizes
-    unsigned int   quadrature_points =
+    std::string    law        = "tie";
+    std::string    multiplier = "standard";
+    double         search_distance =
+      0.5; ///< largest gap or overlap that is bridged, in face sizes
+    unsigned int quadrature_points =
       0; ///< per direction and integration cell; 0 ("auto"): by the degrees
   };
 
@@ -116,8 +120,9 @@ namespace mortise
 
   struct OutputParameters
   {
-    std::string                    directory; ///< for summary.json and the files of fields
-    std::vector<std::string>       fields;    ///< of field_names(); empty: no files of fields
+    std::string directory; ///< for summary.json and the files of fields
+    std::vector<std::string>
+      fields; ///< of field_names(); empty: no files of fields
     std::vector<PointQuantity>     points;
     std::vector<ResultantQuantity> resultants;
   };
@@ -135,7 +140,8 @@ namespace mortise
     std::map<std::string, std::string>
       origins; ///< "Body inner/Degree" -> "line 7 of FILE", "--set"
 
-    /// "Body inner/Degree (line 7 of scene.prm)"; without the parentheses for a default.
+    /// "Body inner/Degree (line 7 of scene.prm)"; without the parentheses for a
+    /// default.
     std::string
     where(const std::string &path) const;
 
@@ -152,17 +158,23 @@ namespace mortise
   using Settings = std::vector<std::string>;
 
   /// Parse the text of a parameter file, with @p settings after it. @p file stands in messages
-  /// and locates included files. Throws InputError. Not collective; reads only included files.
+  /// and locates included files. Throws InputError. Not collective; reads only
+  /// included files.
   Parameters
-  parse_parameters(const std::string &text, const std::string &file, const Settings &settings = {});
+  parse_parameters(const std::string &text,
+                   const std::string &file,
+                   const Settings    &settings = {});
 
   /// Read and parse @p file. Collective: rank 0 reads, every rank gets the same parameters or
   /// the same InputError.
   Parameters
-  read_parameters(const std::string &file, const Settings &settings, MPI_Comm comm);
+  read_parameters(const std::string &file,
+                  const Settings    &settings,
+                  MPI_Comm           comm);
 
-  /// Check ranges and combinations: all that can be known without the meshes. Throws InputError,
-  /// also for what is documented but not available yet. Reads no files, writes none.
+  /// Check ranges and combinations: all that can be known without the meshes.
+  /// Throws InputError, also for what is documented but not available yet.
+  /// Reads no files, writes none.
   void
   validate(const Parameters &parameters);
 
@@ -172,8 +184,8 @@ namespace mortise
   check_output_directory(const Parameters &parameters, MPI_Comm comm);
 
   /// Do the boundaries that the scene names exist? @p names[b] are those of the mesh of body b.
-  /// Checks the Boundary subsections, both sides of the interfaces, and the resultants.
-  /// Throws InputError with the names that exist.
+  /// Checks the Boundary subsections, both sides of the interfaces, and the
+  /// resultants. Throws InputError with the names that exist.
   void
   check_boundary_names(const Parameters                            &parameters,
                        const std::vector<std::vector<std::string>> &names);

@@ -1,5 +1,5 @@
-// Rigid motions that a scene leaves free: found before anything is assembled, and named.
-// It never solves and never adds a support.
+// Rigid motions that a scene leaves free: found before anything is assembled,
+// and named. It never solves and never adds a support.
 #pragma once
 
 #include <mortise/body/boundary_conditions.h>
@@ -11,11 +11,13 @@
 
 namespace mortise
 {
-  /// Throw InputError (on all ranks) that names the motions which neither Dirichlet conditions nor
+  /// Throw InputError (on all ranks) that names the motions which neither
+  /// Dirichlet conditions nor
   /// ties prevent. Tied bodies move as one; @p ties are pairs of bodies. @p dirichlet by body.
   /// Collective.
   void
-  check_rigid_motions(const Bodies                                       &bodies,
-                      const std::vector<std::vector<DirichletCondition>> &dirichlet,
-                      const std::vector<std::pair<unsigned int, unsigned int>> &ties);
+  check_rigid_motions(
+    const Bodies                                             &bodies,
+    const std::vector<std::vector<DirichletCondition>>       &dirichlet,
+    const std::vector<std::pair<unsigned int, unsigned int>> &ties);
 } // namespace mortise

@@ -1,5 +1,6 @@
-// What the parameters of a scene mean as functions: exact solution, loads, prescribed
-// displacements. It never touches a mesh beyond the ids of its boundaries.
+// What the parameters of a scene mean as functions: exact solution, loads,
+// prescribed displacements. It never touches a mesh beyond the ids of its
+// boundaries.
 #pragma once
 
 #include <mortise/body/boundary_conditions.h>
@@ -16,9 +17,10 @@ namespace mortise
   std::vector<LinearElastic>
   materials(const Parameters &parameters);
 
-  /// The exact solution that the parameters name; null if there is none. The named ones take
-  /// radii, pressures, materials and the motion of the scene from the bodies. Throws InputError if
-  /// the bodies are not what the named solution is for.
+  /// The exact solution that the parameters name; null if there is none. The
+  /// named ones take radii, pressures, materials and the motion of the scene
+  /// from the bodies. Throws InputError if the bodies are not what the named
+  /// solution is for.
   std::shared_ptr<const ExactSolution>
   make_exact_solution(const Parameters &parameters);
 

@@ -1,5 +1,6 @@
-// The composition root: one run of a scene, from parameters to results. Its members stand in the
-// order of the data flow. It never computes anything itself.
+// The composition root: one run of a scene, from parameters to results. Its
+// members stand in the order of the data flow. It never computes anything
+// itself.
 #pragma once
 
 #include <mortise/base/run_log.h>
@@ -23,17 +24,18 @@ namespace mortise
   public:
     Simulation(const Parameters &parameters, RunLog &log, MPI_Comm comm);
 
-    /// Open the meshes and check what depends on them; builds no spaces. Collective; throws
-    /// InputError.
+    /// Open the meshes and check what depends on them; builds no spaces.
+    /// Collective; throws InputError.
     void
     create_meshes();
 
-    /// Everything up to errors and functionals; writes nothing. Collective; throws InputError.
+    /// Everything up to errors and functionals; writes nothing. Collective;
+    /// throws InputError.
     void
     compute();
 
-    /// The whole run. Collective; throws InputError before anything is written, and
-    /// ConvergenceError after what was reached has been written.
+    /// The whole run. Collective; throws InputError before anything is written,
+    /// and ConvergenceError after what was reached has been written.
     void
     run();
 
@@ -78,20 +80,21 @@ namespace mortise
     Timers            timers;
     Summary           summary;
 
-    std::shared_ptr<const ExactSolution>                    exact;
-    Bodies                                                  bodies;
-    std::vector<std::vector<DirichletCondition>>            dirichlet;
-    std::vector<dealii::AffineConstraints<double>>          body_constraints;
-    DisplacementNumbering                                   numbering;
-    dealii::AffineConstraints<double>                       constraints;
-    SolverMethod                                            method = SolverMethod::automatic; ///< chosen
-    std::vector<Coupling>                                   couplings;
-    std::vector<std::vector<bool>>                          occupied; ///< by body, owned dofs
-    BlockSystem                                             system;
-    std::vector<CondensedInteriors>                         interiors; ///< by body
-    Vector                                                  displacement, multiplier;
-    SolveReport                                             solve_report;
-    std::vector<BodyVector>                                 displacements;
-    std::vector<std::vector<std::vector<double>>>           tractions; ///< by interface and face
+    std::shared_ptr<const ExactSolution>           exact;
+    Bodies                                         bodies;
+    std::vector<std::vector<DirichletCondition>>   dirichlet;
+    std::vector<dealii::AffineConstraints<double>> body_constraints;
+    DisplacementNumbering                          numbering;
+    dealii::AffineConstraints<double>              constraints;
+    SolverMethod                   method = SolverMethod::automatic; ///< chosen
+    std::vector<Coupling>          couplings;
+    std::vector<std::vector<bool>> occupied; ///< by body, owned dofs
+    BlockSystem                    system;
+    std::vector<CondensedInteriors> interiors; ///< by body
+    Vector                          displacement, multiplier;
+    SolveReport                     solve_report;
+    std::vector<BodyVector>         displacements;
+    std::vector<std::vector<std::vector<double>>>
+      tractions; ///< by interface and face
   };
 } // namespace mortise

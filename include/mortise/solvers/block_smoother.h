@@ -1,32 +1,36 @@
-// Symmetric block Gauss-Seidel on overlapping blocks of rows, which may reach into other ranks;
-// additive between the blocks of different ranks. It never solves exactly.
+// Symmetric block Gauss-Seidel on overlapping blocks of rows, which may reach
+// into other ranks; additive between the blocks of different ranks. It never
+// solves exactly.
 #pragma once
+
+#include <deal.II/base/types.h>
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Import.h>
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 
-#include <deal.II/base/types.h>
-
 #include <memory>
 #include <vector>
 
 namespace mortise
 {
-  /// M^{-1} = sum over ranks of R^T G R: R takes the rows in this rank's blocks, G is a sweep forward and
-  /// one back over them. Symmetric and positive definite, since each G is. Weights that make the
-  /// shares of the ranks sum to one cut functions apart: on the thick sphere of degree 4 on two ranks
-  /// conjugate gradients take 30 iterations with them, 17 without (12 on one rank).
+  /// M^{-1} = sum over ranks of R^T G R: R takes the rows in this rank's
+  /// blocks, G is a sweep forward and one back over them. Symmetric and
+  /// positive definite, since each G is. Weights that make the shares of the
+  /// ranks sum to one cut functions apart: on the thick sphere of degree 4 on
+  /// two ranks conjugate gradients take 30 iterations with them, 17 without (12
+  /// on one rank).
   class BlockSmoother
   {
   public:
     /// @p blocks: global rows of each block; every row of the matrix is in at least one block of some
-    /// rank. The matrix must stay alive. False, on this rank, when a block is not positive definite.
-    /// Collective.
+    /// rank. The matrix must stay alive. False, on this rank, when a block is
+    /// not positive definite. Collective.
     bool
-    initialize(const Epetra_CrsMatrix                                          &matrix,
-               const std::vector<std::vector<dealii::types::global_dof_index>> &blocks);
+    initialize(
+      const Epetra_CrsMatrix                                          &matrix,
+      const std::vector<std::vector<dealii::types::global_dof_index>> &blocks);
 
     /// x = M^{-1} r. Collective.
     void
@@ -44,8 +48,8 @@ namespace mortise
       return patches;
     }
 
-    /// Global numbers of the rows that this rank works on: the owned ones, then those of other ranks
-    /// in its blocks.
+    /// Global numbers of the rows that this rank works on: the owned ones, then
+    /// those of other ranks in its blocks.
     const Epetra_Map &
     map() const
     {
@@ -66,19 +70,24 @@ namespace mortise
                  const std::vector<unsigned int> &selected) const;
 
     void
-    create_local_matrix(const Epetra_CrsMatrix                                          &matrix,
-                        const std::vector<std::vector<dealii::types::global_dof_index>> &blocks);
+    create_local_matrix(
+      const Epetra_CrsMatrix                                          &matrix,
+      const std::vector<std::vector<dealii::types::global_dof_index>> &blocks);
     void
     relax(const Block &block, double *x, const double *r) const;
+    /// x += A_b^{-1} times the right hand side of the block in the workspace.
+    void
+    add_solution(const Block &block, double *x) const;
     void
     sweep(double *x, const double *r) const;
 
-    std::vector<Block>                patches;
-    const Epetra_CrsMatrix           *matrix = nullptr; ///< what the sweeps run on
-    std::unique_ptr<Epetra_CrsMatrix> local_matrix;     ///< with the rows of other ranks; none on one rank
-    std::unique_ptr<Epetra_Map>       local_map;
-    std::unique_ptr<Epetra_Import>    to_local;
-    mutable std::vector<double>       workspace;
-    std::unique_ptr<Epetra_Vector>    x_local, r_local; ///< scratch of vmult()
+    std::vector<Block>      patches;
+    const Epetra_CrsMatrix *matrix = nullptr; ///< what the sweeps run on
+    std::unique_ptr<Epetra_CrsMatrix>
+      local_matrix; ///< with the rows of other ranks; none on one rank
+    std::unique_ptr<Epetra_Map>    local_map;
+    std::unique_ptr<Epetra_Import> to_local;
+    mutable std::vector<double>    workspace;
+    std::unique_ptr<Epetra_Vector> x_local, r_local; ///< scratch of vmult()
   };
 } // namespace mortise

@@ -1,4 +1,5 @@
-// The projector onto { u : B u = 0 } that the condensed system is written with. It never looks at K.
+// The projector onto { u : B u = 0 } that the condensed system is written with.
+// It never looks at K.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -12,7 +13,8 @@ namespace mortise
   {
   public:
     /// Both must stay alive. Collective.
-    ConstraintProjector(const BlockSystem &system, const InterfaceLifting &lifting);
+    ConstraintProjector(const BlockSystem      &system,
+                        const InterfaceLifting &lifting);
 
     /// False when the multipliers are not independent of each other.
     bool

@@ -1,6 +1,6 @@
-// Direct solution of the monolithic saddle-point system [K B^T; B 0] with iterative refinement:
-// small scenes and reference. It never approximates and never looks at the preconditioner's data
-// except for scaling.
+// Direct solution of the monolithic saddle-point system [K B^T; B 0] with
+// iterative refinement: small scenes and reference. It never approximates and
+// never looks at the preconditioner's data except for scaling.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -9,8 +9,11 @@
 
 namespace mortise
 {
-  /// Solve by a sparse factorisation. Works on any number of ranks, those without dofs included.
-  /// See solve() for the arguments.
+  /// Solve by a sparse factorisation. Works on any number of ranks, those
+  /// without dofs included. See solve() for the arguments.
   SolveReport
-  solve_direct(const BlockSystem &system, const SolverOptions &options, Vector &u, Vector &lambda);
+  solve_direct(const BlockSystem   &system,
+               const SolverOptions &options,
+               Vector              &u,
+               Vector              &lambda);
 } // namespace mortise

@@ -1,5 +1,6 @@
-// Which mesh entities of a rank couple with which others in A = K + J, found in the graph of the
-// matrices: the patches around vertices. It never looks at values.
+// Which mesh entities of a rank couple with which others in A = K + J, found in
+// the graph of the matrices: the patches around vertices. It never looks at
+// values.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -9,17 +10,19 @@
 
 namespace mortise
 {
-  /// Entities are the blocks of BlockSystem::entity_blocks, numbered as there on their own rank.
+  /// Entities are the blocks of BlockSystem::entity_blocks, numbered as there
+  /// on their own rank.
   class EntityGraph
   {
   public:
     /// Collective.
     explicit EntityGraph(const BlockSystem &system);
 
-    /// Overlapping groups of dofs, those of other ranks included; the groups of all ranks together hold
-    /// all dofs that are in a block. A group is the star of an owned vertex v
-    /// (every entity o with N(o) within N(v), N being the neighbours in A); on an interface with the
-    /// entities of the other side that J couples with that star alone.
+    /// Overlapping groups of dofs, those of other ranks included; the groups of
+    /// all ranks together hold all dofs that are in a block. A group is the
+    /// star of an owned vertex v (every entity o with N(o) within N(v), N being
+    /// the neighbours in A); on an interface with the entities of the other
+    /// side that J couples with that star alone.
     std::vector<std::vector<dealii::types::global_dof_index>>
     patches(const BlockSystem &system) const;
 
@@ -47,15 +50,17 @@ namespace mortise
     bool
     is_owned(const int block) const
     {
-      return block >= first_block && block < first_block + static_cast<int>(neighbors.size());
+      return block >= first_block &&
+             block < first_block + static_cast<int>(neighbors.size());
     }
 
-    std::vector<int>     rank_start;      ///< first block of each rank, and their number
-    std::map<int, Ghost> ghosts;          ///< neighbours of owned vertices
-    int               first_block = 0; ///< blocks of all ranks are numbered rank by rank
-    std::vector<int>  block_of_dof;    ///< owned dofs, by position; -1: interior of a cell
-    Lists             neighbors;       ///< in A, sorted, itself included
-    Lists             jump_neighbors;  ///< in J
+    std::vector<int> rank_start; ///< first block of each rank, and their number
+    std::map<int, Ghost> ghosts; ///< neighbours of owned vertices
+    int first_block = 0; ///< blocks of all ranks are numbered rank by rank
+    std::vector<int>
+          block_of_dof;   ///< owned dofs, by position; -1: interior of a cell
+    Lists neighbors;      ///< in A, sorted, itself included
+    Lists jump_neighbors; ///< in J
     std::vector<bool> vertex;
   };
 } // namespace mortise

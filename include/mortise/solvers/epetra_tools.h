@@ -1,10 +1,10 @@
-// Small helpers for Epetra matrices that several solvers share. It never owns a matrix.
+// Small helpers for Epetra matrices that several solvers share. It never owns a
+// matrix.
 #pragma once
-
-#include <mortise/operators/block_system.h>
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_IntVector.h>
+#include <mortise/operators/block_system.h>
 
 #include <algorithm>
 #include <memory>
@@ -12,7 +12,8 @@
 
 namespace mortise
 {
-  /// A view of one owned row of a matrix, columns in the numbering of its column map.
+  /// A view of one owned row of a matrix, columns in the numbering of its
+  /// column map.
   struct EpetraRow
   {
     int     length  = 0;
@@ -25,7 +26,8 @@ namespace mortise
     }
   };
 
-  /// One integer per owned row, also known on the columns of the matrix. Collective.
+  /// One integer per owned row, also known on the columns of the matrix.
+  /// Collective.
   inline std::vector<int>
   on_columns(const Epetra_CrsMatrix &matrix, const std::vector<int> &owned)
   {
@@ -35,7 +37,8 @@ namespace mortise
       target.Import(source, *matrix.Importer(), Insert);
     else
       std::copy(owned.begin(), owned.end(), target.Values());
-    return std::vector<int>(target.Values(), target.Values() + target.MyLength());
+    return std::vector<int>(target.Values(),
+                            target.Values() + target.MyLength());
   }
 
   /// The vector as Epetra's solvers take it.
@@ -53,7 +56,8 @@ namespace mortise
   inline std::vector<const Epetra_CrsMatrix *>
   summands_of_bulk(const BlockSystem &system)
   {
-    std::vector<const Epetra_CrsMatrix *> result{&system.stiffness.trilinos_matrix()};
+    std::vector<const Epetra_CrsMatrix *> result{
+      &system.stiffness.trilinos_matrix()};
     if (system.owned_multiplier.size() > 0)
       result.push_back(&system.jump_penalty.trilinos_matrix());
     return result;
@@ -63,6 +67,8 @@ namespace mortise
   inline dealii::types::global_dof_index
   first_displacement(const BlockSystem &system)
   {
-    return system.owned_displacement.n_elements() > 0 ? system.owned_displacement.nth_index_in_set(0) : 0;
+    return system.owned_displacement.n_elements() > 0 ?
+             system.owned_displacement.nth_index_in_set(0) :
+             0;
   }
 } // namespace mortise

@@ -1,6 +1,7 @@
-// An approximate inverse of the elasticity block A = K + J that uses the hierarchy of the element:
-// algebraic multigrid on the vertex functions, block smoothers on the higher modes, right for
-// degrees 1 to 8. It never looks at the multipliers.
+// An approximate inverse of the elasticity block A = K + J that uses the
+// hierarchy of the element: algebraic multigrid on the vertex functions, block
+// smoothers on the higher modes, right for degrees 1 to 8. It never looks at
+// the multipliers.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -11,7 +12,8 @@
 
 namespace mortise
 {
-  /// Symmetric and positive definite, hence usable in conjugate gradients and MINRES.
+  /// Symmetric and positive definite, hence usable in conjugate gradients and
+  /// GMRES.
   class HierarchicalPreconditioner
   {
   public:
@@ -19,7 +21,8 @@ namespace mortise
     ~HierarchicalPreconditioner();
 
     /// Build for A = K + J of @p system (A = K without an interface). Collective. False, on every
-    /// rank, when A turned out not to be positive definite; vmult() must not be called then.
+    /// rank, when A turned out not to be positive definite; vmult() must not be
+    /// called then.
     bool
     initialize(const BlockSystem &system);
 

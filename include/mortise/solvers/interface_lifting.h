@@ -1,5 +1,6 @@
-// How a multiplier moves displacements cheaply: exact solves on the patches around the vertices of the
-// interface. Projector and Schur complement of the solvers are made of it. It never sweeps.
+// How a multiplier moves displacements cheaply: exact solves on the patches
+// around the vertices of the interface. Projector and Schur complement of the
+// solvers are made of it. It never sweeps.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -10,8 +11,9 @@
 
 namespace mortise
 {
-  /// T = sum over the patches p that hold interface dofs of R_p^T A_p^{-1} R_p with A = K + J, and
-  /// C = B T B^T. T is symmetric, positive semi-definite and positive on the range of B^T.
+  /// T = sum over the patches p that hold interface dofs of R_p^T A_p^{-1} R_p
+  /// with A = K + J, and C = B T B^T. T is symmetric, positive semi-definite
+  /// and positive on the range of B^T.
   class InterfaceLifting
   {
   public:
@@ -33,18 +35,20 @@ namespace mortise
     /// The columns of B that a patch touches.
     struct PatchCoupling
     {
-      unsigned int                                 block;       ///< of the smoother
-      std::vector<int>                             dofs;        ///< positions in the block
+      unsigned int     block; ///< of the smoother
+      std::vector<int> dofs;  ///< positions in the block
       std::vector<dealii::types::global_dof_index> multipliers; ///< sorted
-      std::vector<double>                          values;      ///< multipliers x dofs, column major
+      std::vector<double> values; ///< multipliers x dofs, column major
     };
 
     PatchCoupling
     couple(unsigned int block, const Epetra_CrsMatrix &transposed) const;
     void
-    select(std::vector<PatchCoupling> &patches, const BlockSystem &system) const;
+    select(std::vector<PatchCoupling> &patches,
+           const BlockSystem          &system) const;
     void
-    assemble(const std::vector<PatchCoupling> &patches, const BlockSystem &system);
+    assemble(const std::vector<PatchCoupling> &patches,
+             const BlockSystem                &system);
 
     const BlockSmoother      &smoother;
     std::vector<unsigned int> blocks; ///< that take part

@@ -1,20 +1,22 @@
 // The measure of error that all solvers report. It never preconditions.
 #pragma once
 
-#include <mortise/operators/block_system.h>
-
 #include <Epetra_Vector.h>
+#include <mortise/operators/block_system.h>
 
 #include <memory>
 
 namespace mortise
 {
-  /// The true residual of the whole system in a norm that does not depend on units:
+  /// The true residual of the whole system in a norm that does not depend on
+  /// units:
   ///
-  ///     |(r_u, r_lambda)|^2 = r_u . D_u^{-1} r_u + r_lambda . D_lambda^{-1} r_lambda
+  ///     |(r_u, r_lambda)|^2 = r_u . D_u^{-1} r_u + r_lambda . D_lambda^{-1}
+  ///     r_lambda
   ///
-  /// with D_u = diag(K) and D_lambda = diag(B D_u^{-1} B^T). Both terms are energies, so that scaling
-  /// the lengths, the modulus or the load changes nothing in the relative residual.
+  /// with D_u = diag(K) and D_lambda = diag(B D_u^{-1} B^T). Both terms are
+  /// energies, so that scaling the lengths, the modulus or the load changes
+  /// nothing in the relative residual.
   class ScaledResidual
   {
   public:
@@ -22,9 +24,13 @@ namespace mortise
 
     /// r_u = f - K u - B^T lambda, r_lambda = g - B u. Collective.
     void
-    compute(const Vector &u, const Vector &lambda, Vector &r_u, Vector &r_lambda) const;
+    compute(const Vector &u,
+            const Vector &lambda,
+            Vector       &r_u,
+            Vector       &r_lambda) const;
 
-    /// The norm above; r_lambda is not looked at without an interface. Collective.
+    /// The norm above; r_lambda is not looked at without an interface.
+    /// Collective.
     double
     norm(const Vector &r_u, const Vector &r_lambda) const;
 

@@ -1,4 +1,5 @@
-// The one entrance to the solvers: chooses a method and runs it. It never changes the system.
+// The one entrance to the solvers: chooses a method and runs it. It never
+// changes the system.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -13,17 +14,23 @@ namespace mortise
     std::string  reason; ///< empty when the method was asked for
   };
 
-  /// The method for a scene of that many displacements: what was asked for, else the one that
-  /// measurements favour.
+  /// The method for a scene of that many displacements: what was asked for,
+  /// else the one that measurements favour.
   SolverChoice
-  choose_solver(SolverMethod asked, dealii::types::global_dof_index n_displacements, unsigned int max_degree);
+  choose_solver(SolverMethod                    asked,
+                dealii::types::global_dof_index n_displacements,
+                unsigned int                    max_degree);
 
   /// Solve the system by the method asked for. Collective.
   ///
   /// @p u and @p lambda are (re)initialised to the owned ranges of the system; what they held is
   /// not used. lambda has size zero without an interface.
-  /// A solve that does not reach the tolerance returns converged == false and the last iterate;
-  /// nothing is thrown. The reported residual is always recomputed from the equations.
+  /// A solve that does not reach the tolerance returns converged == false and
+  /// the last iterate; nothing is thrown. The reported residual is always
+  /// recomputed from the equations.
   SolveReport
-  solve(const BlockSystem &system, const SolverOptions &options, Vector &u, Vector &lambda);
+  solve(const BlockSystem   &system,
+        const SolverOptions &options,
+        Vector              &u,
+        Vector              &lambda);
 } // namespace mortise

@@ -8,13 +8,15 @@ namespace mortise
 {
   struct SolveReport
   {
-    std::string  method;            ///< direct | condensed | saddle point
-    std::string  preconditioner;    ///< what was used, in words
-    unsigned int iterations = 0;    ///< of the outer iteration; 0 for a direct solve
-    double       relative_residual = 0.; ///< |(f - K u - B^T lambda, g - B u)| / |(f, g)|, scaled as documented
-    bool         converged  = false;
-    std::vector<double> history;    ///< residual of each iteration
-    double       setup_seconds = 0.;
-    double       solve_seconds = 0.;
+    std::string  method;         ///< direct | condensed | saddle point
+    std::string  preconditioner; ///< what was used, in words
+    unsigned int iterations =
+      0; ///< of the outer iteration; 0 for a direct solve
+    double relative_residual = 0.; ///< |(f - K u - B^T lambda, g - B u)| / |(f,
+                                   ///< g)|, scaled as documented
+    bool                converged = false;
+    std::vector<double> history; ///< residual of each iteration
+    double              setup_seconds = 0.;
+    double              solve_seconds = 0.;
   };
 } // namespace mortise

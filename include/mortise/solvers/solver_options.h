@@ -10,7 +10,8 @@ namespace mortise
 {
   enum class SolverMethod
   {
-    automatic, ///< chosen by the size of the system; the report says which and why
+    automatic, ///< chosen by the size of the system; the report says which and
+               ///< why
     saddle_point,
     condensed,
     direct
@@ -18,23 +19,26 @@ namespace mortise
 
   struct SolverOptions
   {
-    SolverMethod method         = SolverMethod::automatic;
-    double       tolerance      = 1e-10; ///< of the relative residual, see ScaledResidual
+    SolverMethod method = SolverMethod::automatic;
+    double tolerance = 1e-10; ///< of the relative residual, see ScaledResidual
     unsigned int max_iterations = 1000;
 
-    /// Iterative solvers go on until the root of the estimated energy of the error, too, is below this
-    /// fraction of the solution's: on fine meshes a small residual alone says little.
+    /// Iterative solvers go on until the root of the estimated energy of the
+    /// error, too, is below this fraction of the solution's: on fine meshes a
+    /// small residual alone says little.
     double
     energy_tolerance() const
     {
       return std::max(0.03 * tolerance, 1e-12); // what rounding leaves
     }
 
-    /// Called on every rank after each iteration with its number and the relative residual.
+    /// Called on every rank after each iteration with its number and the
+    /// relative residual.
     std::function<void(unsigned int, double)> monitor;
   };
 
-  /// "auto", "saddle point", "condensed", "direct": the names of a parameter file.
+  /// "auto", "saddle point", "condensed", "direct": the names of a parameter
+  /// file.
   std::vector<std::string>
   solver_method_names();
 

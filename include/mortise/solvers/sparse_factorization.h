@@ -1,5 +1,5 @@
-// A sparse factorisation (Amesos) of a distributed matrix, kept for repeated solves. It never
-// refines and never checks how good a solution is.
+// A sparse factorisation (Amesos) of a distributed matrix, kept for repeated
+// solves. It never refines and never checks how good a solution is.
 #pragma once
 
 #include <Epetra_CrsMatrix.h>
@@ -21,9 +21,9 @@ namespace mortise
     ~SparseFactorization();
 
     /// Factorise @p matrix, whose rows must be numbered 0, 1, ... over the ranks and which must stay
-    /// alive; ranks without rows take part. MUMPS where Amesos has it, else KLU (measured: MUMPS
-    /// is 7 times as fast at 5,000 dofs of degree 3). False when the factorisation broke down.
-    /// Collective.
+    /// alive; ranks without rows take part. MUMPS where Amesos has it, else KLU
+    /// (measured: MUMPS is 7 times as fast at 5,000 dofs of degree 3). False
+    /// when the factorisation broke down. Collective.
     bool
     initialize(const Epetra_CrsMatrix &matrix);
 
