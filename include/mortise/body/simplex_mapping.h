@@ -1,0 +1,43 @@
+// Curved tetrahedra: a mapping of any degree 1..8 whose points lie on the
+// manifolds of the mesh and are computed once, as MappingQCache does for
+// hexahedra. It never moves a vertex and never changes a manifold.
+#pragma once
+
+#include <deal.II/fe/mapping_fe.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// Polynomial of degree @p degree on each cell through the points of
+  /// simplex_interpolation_points(). Those on a line, on a face and inside are
+  /// means of the vertices of that line, face or cell on its own manifold, so
+  /// cells that share it have the same points whatever their numbering. A cell
+  /// with a curved face needs a manifold itself for the full rate: nothing is
+  /// blended here. Source of the seam: MappingFE of deal.II, of which only the
+  /// origin of the points is replaced.
+  class SimplexMapping : public dealii::MappingFE<3>
+  {
+  public:
+    using CellIterator = dealii::Triangulation<3>::cell_iterator;
+
+    /// @p degree: 1..8. The points are those of all cells of
+    /// @p triangulation that are not artificial, as it is now.
+    SimplexMapping(unsigned int                    degree,
+                   const dealii::Triangulation<3> &triangulation);
+
+    std::unique_ptr<dealii::Mapping<3>>
+    clone() const override;
+
+  protected:
+    std::vector<dealii::Point<3>>
+    compute_mapping_support_points(const CellIterator &cell) const override;
+
+  private:
+    using Points = std::vector<std::vector<dealii::Point<3>>>;
+
+    /// By active cell index; shared by all clones.
+    std::shared_ptr<const Points> points;
+  };
+} // namespace mortise

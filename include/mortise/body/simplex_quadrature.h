@@ -1,0 +1,22 @@
+// Quadrature on triangles and tetrahedra for any degree, from the rules that
+// deal.II has. It never tabulates a rule of its own.
+#pragma once
+
+#include <deal.II/base/quadrature.h>
+
+namespace mortise
+{
+  /// A rule with positive weights and points inside the reference triangle
+  /// (dim 2) or tetrahedron (dim 3) that is exact for all polynomials of
+  /// degree @p degree: the symmetric one of Witherden and Vincent (2015) where
+  /// deal.II has it (degree 13 or 14 on triangles, 9 or 10 on tetrahedra),
+  /// else Gauss points in collapsed coordinates (Duffy 1982).
+  template <int dim>
+  dealii::Quadrature<dim>
+  simplex_quadrature(unsigned int degree);
+
+  /// The collapsed rule for any degree.
+  template <int dim>
+  dealii::Quadrature<dim>
+  collapsed_quadrature(unsigned int degree);
+} // namespace mortise

@@ -1,0 +1,274 @@
+#include <deal.II/fe/fe_poly.h>
+
+#include <deal.II/grid/manifold.h>
+
+#include <mortise/body/fe_simplex_legendre.h>
+#include <mortise/body/simplex_mapping.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The polynomials that are one at one interpolation point and zero at the
+    /// others, as combinations of the modes.
+    class NodalPolynomials : public ScalarPolynomialsBase<3>
+    {
+    public:
+      explicit NodalPolynomials(const unsigned int degree)
+        : ScalarPolynomialsBase<3>(degree,
+                                   (degree + 1) * (degree + 2) * (degree + 3) /
+                                     6)
+        , modal(degree, {{0, 1, 2, 3}})
+        , modes(this->n(), this->n())
+      {
+        const auto         nodes = simplex_interpolation_points(degree);
+        FullMatrix<double> at_nodes(this->n(), this->n());
+        for (unsigned int q = 0; q < this->n(); ++q)
+          for (unsigned int i = 0; i < this->n(); ++i)
+            at_nodes(q, i) = modal.compute_value(i, nodes[q]);
+        modes.invert(at_nodes);
+      }
+
+      void
+      evaluate(const Point<3>            &point,
+               std::vector<double>       &values,
+               std::vector<Tensor<1, 3>> &gradients,
+               std::vector<Tensor<2, 3>> &hessians,
+               std::vector<Tensor<3, 3>> &third_derivatives,
+               std::vector<Tensor<4, 3>> &fourth_derivatives) const override
+      {
+        modal.evaluate(point,
+                       values,
+                       gradients,
+                       hessians,
+                       third_derivatives,
+                       fourth_derivatives);
+        combine(values);
+        combine(gradients);
+        combine(hessians);
+      }
+
+      double
+      compute_value(const unsigned int i, const Point<3> &x) const override
+      {
+        double                    sum = 0.;
+        std::vector<double>       values(this->n());
+        std::vector<Tensor<1, 3>> no_1;
+        std::vector<Tensor<2, 3>> no_2;
+        std::vector<Tensor<3, 3>> no_3;
+        std::vector<Tensor<4, 3>> no_4;
+        modal.evaluate(x, values, no_1, no_2, no_3, no_4);
+        for (unsigned int k = 0; k < this->n(); ++k)
+          sum += modes(k, i) * values[k];
+        return sum;
+      }
+
+      Tensor<1, 3>
+      compute_1st_derivative(const unsigned int i,
+                             const Point<3>    &x) const override
+      {
+        Tensor<1, 3>              sum;
+        std::vector<double>       no_0;
+        std::vector<Tensor<1, 3>> gradients(this->n());
+        std::vector<Tensor<2, 3>> no_2;
+        std::vector<Tensor<3, 3>> no_3;
+        std::vector<Tensor<4, 3>> no_4;
+        modal.evaluate(x, no_0, gradients, no_2, no_3, no_4);
+        for (unsigned int k = 0; k < this->n(); ++k)
+          sum += modes(k, i) * gradients[k];
+        return sum;
+      }
+
+      Tensor<1, 3>
+      compute_grad(const unsigned int i, const Point<3> &x) const override
+      {
+        return compute_1st_derivative(i, x);
+      }
+
+      // What a mapping never asks for one by one.
+      Tensor<2, 3>
+      compute_2nd_derivative(const unsigned int,
+                             const Point<3> &) const override
+      {
+        AssertThrow(false, ExcNotImplemented());
+        return {};
+      }
+      Tensor<3, 3>
+      compute_3rd_derivative(const unsigned int,
+                             const Point<3> &) const override
+      {
+        AssertThrow(false, ExcNotImplemented());
+        return {};
+      }
+      Tensor<4, 3>
+      compute_4th_derivative(const unsigned int,
+                             const Point<3> &) const override
+      {
+        AssertThrow(false, ExcNotImplemented());
+        return {};
+      }
+      Tensor<2, 3>
+      compute_grad_grad(const unsigned int, const Point<3> &) const override
+      {
+        AssertThrow(false, ExcNotImplemented());
+        return {};
+      }
+
+      std::unique_ptr<ScalarPolynomialsBase<3>>
+      clone() const override
+      {
+        return std::make_unique<NodalPolynomials>(*this);
+      }
+
+      std::string
+      name() const override
+      {
+        return "SimplexNodal";
+      }
+
+    private:
+      template <typename Number>
+      void
+      combine(std::vector<Number> &functions) const
+      {
+        if (functions.empty())
+          return;
+        const std::vector<Number> modal_functions = functions;
+        for (unsigned int i = 0; i < this->n(); ++i)
+          {
+            functions[i] = modes(0, i) * modal_functions[0];
+            for (unsigned int k = 1; k < this->n(); ++k)
+              functions[i] += modes(k, i) * modal_functions[k];
+          }
+      }
+
+      SimplexLegendrePolynomials modal;
+      FullMatrix<double>         modes; ///< of the functions, one per column
+    };
+
+    /// Positions of one cell; it does not connect cells.
+    class FE_Positions : public FE_Poly<3>
+    {
+    public:
+      explicit FE_Positions(const unsigned int degree)
+        : FE_Positions(NodalPolynomials(degree))
+      {}
+
+      std::unique_ptr<FiniteElement<3>>
+      clone() const override
+      {
+        return std::make_unique<FE_Positions>(this->degree);
+      }
+
+      std::string
+      get_name() const override
+      {
+        return "FE_Positions<3>(" + std::to_string(this->degree) + ")";
+      }
+
+    private:
+      explicit FE_Positions(const NodalPolynomials &polynomials)
+        : FE_Poly<3>(polynomials,
+                     FiniteElementData<3>({0, 0, 0, polynomials.n()},
+                                          ReferenceCells::Tetrahedron,
+                                          1,
+                                          polynomials.degree(),
+                                          FiniteElementData<3>::L2),
+                     std::vector<bool>(polynomials.n(), true),
+                     std::vector<ComponentMask>(polynomials.n(),
+                                                std::vector<bool>(1, true)))
+      {
+        this->unit_support_points =
+          simplex_interpolation_points(polynomials.degree());
+      }
+    };
+
+    /// The manifold of the vertex, line, face or inside on which a node lies,
+    /// given by the local vertices that have a part in it.
+    const Manifold<3> &
+    manifold_of(const SimplexMapping::CellIterator &cell,
+                const std::vector<unsigned int>    &parts)
+    {
+      const auto within = [&](const unsigned int *vertices, unsigned int n) {
+        return std::all_of(parts.begin(), parts.end(), [&](unsigned int v) {
+          return std::find(vertices, vertices + n, v) != vertices + n;
+        });
+      };
+      if (parts.size() <= 2)
+        for (unsigned int l = 0; l < 6; ++l)
+          if (within(tetrahedron_lines[l], 2))
+            return cell->line(l)->get_manifold();
+      if (parts.size() == 3)
+        for (unsigned int f = 0; f < 4; ++f)
+          if (within(tetrahedron_faces[f], 3))
+            return cell->face(f)->get_manifold();
+      return cell->get_manifold();
+    }
+
+    /// Nodes of @p cell, from @p nodes of the reference cell.
+    std::vector<Point<3>>
+    cell_points(const SimplexMapping::CellIterator &cell,
+                const std::vector<Point<3>>        &nodes)
+    {
+      const VertexOrder     order = vertex_order(cell);
+      std::vector<Point<3>> points;
+      for (const Point<3> &node : nodes)
+        {
+          const double lambda[4] = {1. - node[0] - node[1] - node[2],
+                                    node[0],
+                                    node[1],
+                                    node[2]};
+          // ascending, so that all cells around ask the same question
+          std::vector<unsigned int> parts;
+          std::vector<Point<3>>     vertices;
+          std::vector<double>       weights;
+          for (const unsigned int v : order)
+            if (lambda[v] > 1e-12)
+              {
+                parts.push_back(v);
+                vertices.push_back(cell->vertex(v));
+                weights.push_back(lambda[v]);
+              }
+          points.push_back(parts.size() == 1 ?
+                             vertices[0] :
+                             manifold_of(cell, parts)
+                               .get_new_point(make_array_view(vertices.cbegin(),
+                                                              vertices.cend()),
+                                              make_array_view(weights.cbegin(),
+                                                              weights.cend())));
+        }
+      return points;
+    }
+  } // namespace
+
+  SimplexMapping::SimplexMapping(const unsigned int      degree,
+                                 const Triangulation<3> &triangulation)
+    : MappingFE<3>(FE_Positions(degree))
+  {
+    const auto nodes = simplex_interpolation_points(degree);
+    auto       all   = std::make_shared<Points>(triangulation.n_active_cells());
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (!cell->is_artificial())
+        (*all)[cell->active_cell_index()] = cell_points(cell, nodes);
+    points = all;
+  }
+
+  std::unique_ptr<Mapping<3>>
+  SimplexMapping::clone() const
+  {
+    return std::make_unique<SimplexMapping>(*this);
+  }
+
+  std::vector<Point<3>>
+  SimplexMapping::compute_mapping_support_points(const CellIterator &cell) const
+  {
+    const unsigned int index = cell->active_cell_index();
+    Assert(index < points->size() && !(*points)[index].empty(),
+           ExcMessage("SimplexMapping: the mesh has changed"));
+    return (*points)[index];
+  }
+} // namespace mortise
