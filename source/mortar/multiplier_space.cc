@@ -1,13 +1,11 @@
-#include <deal.II/base/mpi.h>
-
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/body/face_topology.h>
 #include <mortise/mortar/multiplier_faces.h>
 #include <mortise/mortar/multiplier_space.h>
+#include <mortise/mortar/stranded_vertices.h>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -172,126 +170,12 @@ namespace mortise
         reduction.add_entry(dof, other, 1. / of.size());
     }
 
-    /// The patches of faces whose vertices are all stranded: one constant each.
-    class StrandedPatches
-    {
-    public:
-      StrandedPatches(const Body                        &body,
-                      const std::vector<MultiplierFace> &faces,
-                      const Records                     &records)
-        : owned(body.dof_handler.locally_owned_dofs())
-        , smallest(owned,
-                   body.relevant_dofs,
-                   body.triangulation.get_communicator())
-        , follow(smallest)
-      {
-        smallest = none;
-        for (const auto &[dof, record] : records)
-          if (owned.is_element(dof) && record.is_stranded() &&
-              !body.conformity.is_constrained(dof))
-            {
-              smallest(dof) = dof;
-              follow(dof)   = record.can_follow ? 1. : 0.;
-            }
-        const MPI_Comm comm = body.triangulation.get_communicator();
-        do
-          exchange();
-        while (Utilities::MPI::max(spread(faces) ? 1 : 0, comm) > 0);
-        exchange();
-      }
-
-      /// The dof that carries the constant of the patch that owned @p dof is in; nothing if the other
-      /// side cannot follow.
-      std::optional<types::global_dof_index>
-      representative(const types::global_dof_index dof) const
-      {
-        if (follow(dof) == 0.)
-          return {};
-        return static_cast<types::global_dof_index>(smallest(dof));
-      }
-
-      /// The dofs that lines of owned dofs may refer to, those of far ranks
-      /// too.
-      void
-      add_representatives(IndexSet &set) const
-      {
-        for (const auto dof : owned)
-          if (follow(dof) != 0.)
-            set.add_index(static_cast<types::global_dof_index>(smallest(dof)));
-        set.compress();
-      }
-
-    private:
-      static constexpr double none = -1.;
-
-      void
-      exchange()
-      {
-        smallest.update_ghost_values();
-        follow.update_ghost_values();
-        for (auto &[dof, state] : states)
-          state = {smallest(dof), follow(dof)};
-      }
-
-      /// Pass the smallest dof of each face to its stranded vertices; whether
-      /// an owned one changed.
-      bool
-      spread(const std::vector<MultiplierFace> &faces)
-      {
-        const auto state =
-          [&](
-            const types::global_dof_index dof) -> std::pair<double, double> & {
-          return states.try_emplace(dof, smallest(dof), follow(dof))
-            .first->second;
-        };
-        bool again = true, changed = false;
-        while (again)
-          {
-            again = false;
-            for (const MultiplierFace &face : faces)
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  std::pair<double, double> best(
-                    std::numeric_limits<double>::infinity(), 0.);
-                  const auto visit = [&](const auto &action) {
-                    for (const unsigned int k :
-                         {0U, 1U, face.degree + 1, face.degree + 2})
-                      if (auto &s = state(face.dofs[c][k]); s.first != none)
-                        action(s);
-                  };
-                  visit([&](const auto &s) {
-                    best = {std::min(best.first, s.first),
-                            std::max(best.second, s.second)};
-                  });
-                  visit([&](auto &s) {
-                    again = again || s != best;
-                    s     = best;
-                  });
-                }
-            changed = changed || again;
-          }
-        smallest.zero_out_ghost_values();
-        follow.zero_out_ghost_values();
-        for (const auto &[dof, s] : states)
-          if (owned.is_element(dof))
-            {
-              smallest(dof) = s.first;
-              follow(dof)   = s.second;
-            }
-        return changed;
-      }
-
-      const IndexSet                            &owned;
-      LinearAlgebra::distributed::Vector<double> smallest, follow;
-      std::map<types::global_dof_index, std::pair<double, double>> states;
-    };
-
     /// The line of one dof without conformity constraints; none if it is a
     /// multiplier.
     void
     add_reduction(const types::global_dof_index dof,
                   const Records                &records,
-                  const StrandedPatches        &stranded,
+                  const StrandedVertices       &stranded,
                   AffineConstraints<double>    &reduction)
     {
       const auto found = records.find(dof);
@@ -344,8 +228,12 @@ namespace mortise
             FaceRules(face, c, records).apply();
         }
 
-    const StrandedPatches stranded(body, faces, records);
-    IndexSet              known = body.relevant_dofs;
+    std::map<types::global_dof_index, bool> may_follow;
+    for (const auto &[dof, record] : records)
+      if (record.is_stranded() && !body.conformity.is_constrained(dof))
+        may_follow.emplace(dof, record.can_follow);
+    const StrandedVertices stranded(body, faces, may_follow);
+    IndexSet               known = body.relevant_dofs;
     stranded.add_representatives(known);
     reduction.reinit(known);
     for (const auto dof : on_surface)

@@ -1,0 +1,106 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/mortar/stranded_vertices.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double not_stranded = -1.;
+  }
+
+  StrandedVertices::StrandedVertices(const Body                        &body,
+                                     const std::vector<MultiplierFace> &faces,
+                                     const std::map<Index, bool> &may_follow)
+    : owned(body.dof_handler.locally_owned_dofs())
+    , smallest(owned, body.relevant_dofs, body.triangulation.get_communicator())
+    , follow(smallest)
+  {
+    smallest = not_stranded;
+    for (const auto &[dof, follows] : may_follow)
+      if (owned.is_element(dof))
+        {
+          smallest(dof) = dof;
+          follow(dof)   = follows ? 1. : 0.;
+        }
+    const MPI_Comm comm = body.triangulation.get_communicator();
+    do
+      exchange();
+    while (Utilities::MPI::max(spread(faces) ? 1 : 0, comm) > 0);
+    exchange();
+  }
+
+  std::optional<StrandedVertices::Index>
+  StrandedVertices::representative(const Index dof) const
+  {
+    if (follow(dof) == 0.)
+      return {};
+    return static_cast<Index>(smallest(dof));
+  }
+
+  void
+  StrandedVertices::add_representatives(IndexSet &set) const
+  {
+    for (const auto dof : owned)
+      if (follow(dof) != 0.)
+        set.add_index(static_cast<Index>(smallest(dof)));
+    set.compress();
+  }
+
+  void
+  StrandedVertices::exchange()
+  {
+    smallest.update_ghost_values();
+    follow.update_ghost_values();
+    for (auto &[dof, state] : states)
+      state = {smallest(dof), follow(dof)};
+  }
+
+  bool
+  StrandedVertices::spread(const std::vector<MultiplierFace> &faces)
+  {
+    const auto state = [&](const Index dof) -> std::pair<double, double> & {
+      return states.try_emplace(dof, smallest(dof), follow(dof)).first->second;
+    };
+    bool again = true, changed = false;
+    while (again)
+      {
+        again = false;
+        for (const MultiplierFace &face : faces)
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              std::pair<double, double> best(
+                std::numeric_limits<double>::infinity(), 0.);
+              const auto visit = [&](const auto &action) {
+                for (const unsigned int k :
+                     {0U, 1U, face.degree + 1, face.degree + 2})
+                  if (auto &s = state(face.dofs[c][k]); s.first != not_stranded)
+                    action(s);
+              };
+              visit([&](const auto &s) {
+                best = {std::min(best.first, s.first),
+                        std::max(best.second, s.second)};
+              });
+              visit([&](auto &s) {
+                again = again || s != best;
+                s     = best;
+              });
+            }
+        changed = changed || again;
+      }
+    smallest.zero_out_ghost_values();
+    follow.zero_out_ghost_values();
+    for (const auto &[dof, s] : states)
+      if (owned.is_element(dof))
+        {
+          smallest(dof) = s.first;
+          follow(dof)   = s.second;
+        }
+    return changed;
+  }
+} // namespace mortise
