@@ -18,9 +18,12 @@ namespace mortise
                                      const std::vector<MultiplierFace> &faces,
                                      const std::map<Index, bool> &may_follow)
     : owned(body.dof_handler.locally_owned_dofs())
-    , smallest(owned, body.relevant_dofs, body.triangulation.get_communicator())
-    , follow(smallest)
   {
+    const MPI_Comm comm = body.triangulation.get_communicator();
+    if (Utilities::MPI::max(may_follow.size(), comm) == 0)
+      return;
+    smallest.reinit(owned, body.relevant_dofs, comm);
+    follow.reinit(smallest);
     smallest = not_stranded;
     for (const auto &[dof, follows] : may_follow)
       if (owned.is_element(dof))
@@ -28,7 +31,6 @@ namespace mortise
           smallest(dof) = dof;
           follow(dof)   = follows ? 1. : 0.;
         }
-    const MPI_Comm comm = body.triangulation.get_communicator();
     do
       exchange();
     while (Utilities::MPI::max(spread(faces) ? 1 : 0, comm) > 0);
@@ -46,6 +48,8 @@ namespace mortise
   void
   StrandedVertices::add_representatives(IndexSet &set) const
   {
+    if (follow.size() == 0)
+      return;
     for (const auto dof : owned)
       if (follow(dof) != 0.)
         set.add_index(static_cast<Index>(smallest(dof)));

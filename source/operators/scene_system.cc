@@ -194,7 +194,6 @@ namespace mortise
                                           block.begin(),
                                           block.end());
                 system.vertex_points.push_back(cell->vertex(v));
-                system.vertex_body.push_back(body->index);
               }
             for (const unsigned int l : cell->line_indices())
               take(fe.get_first_line_index() + l * fe.n_dofs_per_line(),

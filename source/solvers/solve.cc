@@ -12,10 +12,11 @@ namespace mortise
 {
   namespace
   {
-    /// A factorisation (MUMPS, one core, setup included) is the fastest up to
-    /// about 2,500 p^2 dofs, since dense blocks suit it: 11,718 dofs of degree
-    /// 2: 3.5 s against 2.5 s; 21,846 of degree 5: 9 s against 24 s; 94,776 of
-    /// degree 6: 47 s against 142 s. Its memory sets the second limit.
+    /// A factorisation (MUMPS) is the fastest up to about 2,500 p^2 dofs, since
+    /// dense blocks suit it. Whole runs on one core, direct against condensed:
+    /// degree 2, 94,650 dofs: 14 s, 7 s; degree 4, 30,426: 4.5 s, 6.4 s, and
+    /// 94,650: 21 s, 18 s; degree 5, 56,661: 13 s, 15 s; degree 6, 94,776:
+    /// 44 s, 38 s. Its memory sets the second limit.
     constexpr unsigned int direct_dofs     = 2500;
     constexpr unsigned int max_direct_dofs = 100000;
   } // namespace

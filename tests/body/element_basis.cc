@@ -27,20 +27,11 @@
 
 #include <iostream>
 
+#include "bound_verdict.h"
 #include "element_meshes.h"
 
 using namespace dealii;
 using namespace mortise;
-
-void
-verdict(const std::string &what, const double got, const double allowed)
-{
-  if (got <= allowed)
-    std::cout << "OK  " << what << ": " << allowed << std::endl;
-  else
-    std::cout << "FAILED  " << what << ": got " << got << ", allowed "
-              << allowed << std::endl;
-}
 
 constexpr unsigned int P = max_lobatto_degree;
 

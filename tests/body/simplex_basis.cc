@@ -15,20 +15,11 @@
 #include <iostream>
 #include <set>
 
+#include "bound_verdict.h"
 #include "simplex_meshes.h"
 
 using namespace dealii;
 using namespace mortise;
-
-void
-verdict(const std::string &what, const double got, const double allowed)
-{
-  if (got <= allowed)
-    std::cout << "OK  " << what << ": " << allowed << std::endl;
-  else
-    std::cout << "FAILED  " << what << ": got " << got << ", allowed "
-              << allowed << std::endl;
-}
 
 std::string
 at(const unsigned int p)

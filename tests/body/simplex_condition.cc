@@ -20,23 +20,9 @@
 #include <cstdio>
 #include <iostream>
 
-using namespace dealii;
+#include "scaled_condition.h"
 
-/// Largest over smallest eigenvalue above the kernel (the first @p n_kernel
-/// are left out) after scaling the diagonal to one.
-double
-scaled_condition(const FullMatrix<double> &matrix, const unsigned int n_kernel)
-{
-  const unsigned int       n = matrix.m();
-  LAPACKFullMatrix<double> scaled(n);
-  for (unsigned int i = 0; i < n; ++i)
-    for (unsigned int j = 0; j < n; ++j)
-      scaled(i, j) = matrix(i, j) / std::sqrt(matrix(i, i) * matrix(j, j));
-  FullMatrix<double> vectors;
-  Vector<double>     eigenvalues;
-  scaled.compute_eigenvalues_symmetric(-1e300, 1e300, 0., eigenvalues, vectors);
-  return eigenvalues(n - 1) / std::abs(eigenvalues(n_kernel));
-}
+using namespace dealii;
 
 struct Matrices
 {

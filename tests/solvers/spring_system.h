@@ -64,7 +64,6 @@ namespace springs
           for (unsigned int d = 0; d < 3; ++d)
             system.vertex_dofs.push_back(3 * p + d);
           system.vertex_points.push_back(position(p));
-          system.vertex_body.push_back(block(p));
         }
       return system;
     }

@@ -52,10 +52,6 @@ namespace mortise
     /// The coordinates of the vertex that each three consecutive entries of
     /// vertex_dofs belong to.
     std::vector<dealii::Point<dim>> vertex_points;
-    /// Body of each of those vertices (for rigid body modes per body if
-    /// wanted).
-    std::vector<unsigned int> vertex_body;
-
     /// Owned displacement dofs grouped by mesh entity (a vertex, edge or face
     /// with its three components and all modes); a dof of a cell's interior is
     /// in none and couples with nothing.

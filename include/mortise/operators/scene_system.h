@@ -45,7 +45,7 @@ namespace mortise
                      const std::vector<CondensedInteriors>   &interiors,
                      const Vector                            &displacement);
 
-  /// Fill vertex_dofs, vertex_points, vertex_body, entity_blocks and max_degree of @p system.
+  /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
   void
   describe_structure(const Bodies                &bodies,
                      const DisplacementNumbering &numbering,
