@@ -6,20 +6,14 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <mortise/body/face_shape.h>
+
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace mortise
 {
-  /// Reference shape of a face. Triangles are reserved: nothing here computes
-  /// with them yet.
-  enum class FaceShape : unsigned char
-  {
-    triangle      = 3,
-    quadrilateral = 4
-  };
-
   /// Linear picture of a face about its centre, used for search, initial
   /// guesses and everything far away. The chart of a point x is 1/2 + dual[i] .
   /// (x - center), exact for a parallelogram
