@@ -246,10 +246,7 @@ namespace mortise
   {
     const Checker check(where);
     check.choice("Source", parameters.source, mesh_source_names());
-    check.require(
-      parameters.cells != "tetrahedra",
-      "Cells = tetrahedra is not available yet; allowed: hexahedra");
-    check.choice("Cells", parameters.cells, {"hexahedra"});
+    check.choice("Cells", parameters.cells, {"hexahedra", "tetrahedra"});
     if (parameters.source == "curved block")
       check.choice("Half", parameters.half, {"lower", "upper", "both"});
     check.require(parameters.source == "file" || parameters.file.empty(),
@@ -266,6 +263,12 @@ namespace mortise
     check.require(levels <= 14,
                   "Refinements and the times of Refine near make " +
                     std::to_string(levels) + " levels; allowed: 14 in all");
+    check.require(
+      parameters.cells == "hexahedra" || balls.empty(),
+      "Refine near = '" + parameters.refine_near +
+        "' belongs to hexahedra, since tetrahedra cannot be refined "
+        "locally; try Degree by region, Refinements, or a gmsh file "
+        "whose Mesh size varies");
     check.require(all_finite(parameters.rotate) &&
                     all_finite(parameters.translate),
                   "Rotate or Translate is not finite");
