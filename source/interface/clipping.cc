@@ -48,22 +48,23 @@ namespace mortise
   {
     slave  = &slave_map;
     master = &master_map;
+    shape  = slave_map.shape();
     failed = false;
     breakpoints.clear();
     segments.clear();
     crossings.clear();
     loop.clear();
-    for (unsigned int edge = 0; edge < 4; ++edge)
+    for (unsigned int edge = 0; edge < n_vertices(master->shape); ++edge)
       subdivide_edge(edge);
     locate_breakpoints();
     check_segments();
     for (unsigned int s = 0; s < segments.size(); ++s)
       if (!segments[s].far)
-        for (unsigned int side = 0; side < 4; ++side)
+        for (const unsigned int side : sides_of(shape))
           find_crossings(s, side);
     solve_crossings();
     build_pieces();
-    for (unsigned int side = 0; side < 4; ++side)
+    for (const unsigned int side : sides_of(shape))
       clip_straight(side);
     measure();
     return !failed;
@@ -112,7 +113,7 @@ namespace mortise
   {
     locate(0, false);
     for (auto &point : breakpoints)
-      snap_to_sides(point.xi);
+      snap_to_sides(shape, point.xi);
     // The end of an edge is the beginning of the next one.
     for (unsigned int b = 0; b < breakpoints.size(); ++b)
       if (breakpoints[b].tau == 0.)
@@ -162,7 +163,7 @@ namespace mortise
                   new_segments.push_back(segment);
                 else
                   {
-                    snap_to_sides(breakpoints[middle].xi);
+                    snap_to_sides(shape, breakpoints[middle].xi);
                     new_segments.push_back(
                       {segment.first, middle, false, false, 0., {0., 0.}});
                     new_segments.push_back(
@@ -207,8 +208,10 @@ namespace mortise
     segment.checked = segment.deviation <= small;
     // Not well described, but outside by more than the description may be
     // wrong?
-    for (unsigned int side = 0; side < 4 && !segment.checked; ++side)
+    for (const unsigned int side : sides_of(shape))
       {
+        if (segment.checked)
+          break;
         const double f_0 = inside_by(a.xi, side), f_1 = inside_by(b.xi, side);
         const double nearest = std::max(
           {f_0, f_1, inside_by(expected, side), inside_by(segment.mid, side)});
@@ -227,9 +230,8 @@ namespace mortise
     const Breakpoint &b     = breakpoints[segments[segment].last];
     const double      f_0   = snapped(inside_by(a.xi, side));
     const double      f_1   = snapped(inside_by(b.xi, side));
-    const double      scale = (side % 2 == 0 ? 1. : -1.) * (b.tau - a.tau);
-    const double      d_0   = scale * a.dxi[side / 2];
-    const double      d_1   = scale * b.dxi[side / 2];
+    const double      d_0   = (b.tau - a.tau) * inside_rate(a.dxi, side);
+    const double      d_1   = (b.tau - a.tau) * inside_rate(b.dxi, side);
     const double      slope = std::abs(d_0) + std::abs(d_1);
     bool              doubtful;
     if (f_0 * f_1 > 0)
@@ -258,64 +260,70 @@ namespace mortise
 
 
   // Look for changes of sign inside of a segment, ever finer around the point
-  // where the curve comes closest to changing its side.
+  // where the curve comes closest to changing its side next to the slave face.
   void
   LoopClipper::sample_segment(const unsigned int segment,
                               const unsigned int side,
                               const unsigned int rounds)
   {
-    const Breakpoint &a    = breakpoints[segments[segment].first];
-    const Breakpoint &b    = breakpoints[segments[segment].last];
-    const double      f_a  = snapped(inside_by(a.xi, side));
-    const double      f_b  = snapped(inside_by(b.xi, side));
-    const double      sign = f_a + f_b >= 0 ? 1. : -1.;
-    double            low = a.tau, high = b.tau;
+    constexpr unsigned int last = n_lanes + 1;
+
+    const Breakpoint &a = breakpoints[segments[segment].first];
+    const Breakpoint &b = breakpoints[segments[segment].last];
+    double            f[last + 1], tau[last + 1], x[last + 1][2];
+    std::copy(a.xi, a.xi + 2, x[0]);
+    std::copy(b.xi, b.xi + 2, x[last]);
+    tau[0]            = a.tau;
+    tau[last]         = b.tau;
+    f[0]              = snapped(inside_by(x[0], side));
+    f[last]           = snapped(inside_by(x[last], side));
+    const double sign = f[0] + f[last] >= 0 ? 1. : -1.;
+    double       low = a.tau, high = b.tau;
     for (unsigned int round = 0; round < rounds; ++round)
       {
-        Lanes tau, xi[2];
+        const double width = (high - low) / last;
+        Lanes        samples, xi[2];
         for (unsigned int l = 0; l < n_lanes; ++l)
-          tau[l] = low + (high - low) * (l + 1.) / (n_lanes + 1.);
-        pull_back_segment(segments[segment], tau, xi);
-        double       previous_tau = a.tau, previous = f_a, least = 1e300;
-        double       previous_xi[2] = {a.xi[0], a.xi[1]};
-        unsigned int n_found = 0, best = 0;
-        for (unsigned int l = 0; l <= n_lanes; ++l)
+          samples[l] = low + width * (l + 1.);
+        pull_back_segment(segments[segment], samples, xi);
+        for (unsigned int l = 0; l < n_lanes; ++l)
           {
-            const bool   last = l == n_lanes;
-            const double x[2] = {last ? b.xi[0] : xi[0][l],
-                                 last ? b.xi[1] : xi[1][l]};
-            const double f    = last ? f_b : snapped(inside_by(x, side));
-            const double here = last ? b.tau : tau[l];
-            if (f * previous < 0)
+            x[l + 1][0] = xi[0][l];
+            x[l + 1][1] = xi[1][l];
+            tau[l + 1]  = samples[l];
+            f[l + 1]    = snapped(inside_by(x[l + 1], side));
+          }
+        unsigned int n_found = 0, best = 0, before = 0;
+        bool         beside = both_beside(shape, x[0], x[1], side);
+        for (unsigned int i = 1; i <= last; ++i)
+          {
+            if (f[i] * f[before] < 0 &&
+                !both_beside(shape, x[before], x[i], side))
               {
                 ++n_found;
-                if (!both_beside(previous_xi, x, side))
-                  crossings.push_back({segment,
-                                       side,
-                                       previous_tau,
-                                       here,
-                                       previous,
-                                       f,
-                                       0.,
-                                       {0., 0.}});
+                crossings.push_back({segment,
+                                     side,
+                                     tau[before],
+                                     tau[i],
+                                     f[before],
+                                     f[i],
+                                     0.,
+                                     {0., 0.}});
               }
-            if (!last && sign * f < least)
-              {
-                least = sign * f;
-                best  = l;
-              }
-            if (f != 0.)
-              {
-                previous     = f;
-                previous_tau = here;
-                std::copy(x, x + 2, previous_xi);
-              }
+            if (f[i] != 0.)
+              before = i;
+            if (i == last)
+              break;
+            const bool was_beside = beside;
+            beside                = both_beside(shape, x[i], x[i + 1], side);
+            if (!(was_beside && beside) &&
+                (best == 0 || sign * f[i] < sign * f[best]))
+              best = i;
           }
-        if (n_found > 0 || (f_a == 0. && f_b == 0.))
+        if (n_found > 0 || best == 0 || (f[0] == 0. && f[last] == 0.))
           return;
-        const double width = (high - low) / (n_lanes + 1.);
-        low                = tau[best] - width;
-        high               = tau[best] + width;
+        low  = tau[best] - width;
+        high = tau[best] + width;
       }
   }
 

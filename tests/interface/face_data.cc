@@ -46,14 +46,14 @@ namespace
     EdgePolynomial edges[4];
     unsigned int   edge[n_lanes];
     for (unsigned int k = 0; k < 4; ++k)
-      edges[k].reinit(polynomial, k);
+      edges[k].reinit(polynomial, face.shape, k);
     for (unsigned int l = 0; l < n_lanes; ++l)
       edge[l] = l % 4;
     evaluate_edges(edges, edge, xi_1, a, b);
     Lanes eta_1, eta_2;
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
-        const auto eta = edge_coordinates(edge[l], at[l]);
+        const auto eta = edge_coordinates(face.shape, edge[l], at[l]);
         eta_1[l]       = eta[0];
         eta_2[l]       = eta[1];
       }
@@ -89,8 +89,8 @@ namespace
                   const double chart =
                     0.5 + face.frame.dual[c] * (x - face.frame.center);
                   chart_error = std::max({chart_error,
-                                          face.frame.chart_lower[c] - chart,
-                                          chart - face.frame.chart_upper[c]});
+                                          face.frame.chart.lower[c] - chart,
+                                          chart - face.frame.chart.upper[c]});
                 }
             }
         for (unsigned int v = 0; v < 4; ++v)
@@ -210,7 +210,7 @@ namespace
       copy.vertex_normals == face.vertex_normals && copy.size == face.size &&
       copy.frame.dual == face.frame.dual &&
       copy.frame.center == face.frame.center &&
-      copy.frame.chart_upper == face.frame.chart_upper &&
+      copy.frame.chart.upper == face.frame.chart.upper &&
       copy.frame.height_upper == face.frame.height_upper;
     verdict("a face survives its journey", same ? 0 : 1, 0);
   }

@@ -45,18 +45,21 @@ namespace
   double
   error_of(const SurfaceFace &face, const Moments &moments)
   {
-    Moments          exact(moments.p);
-    FacePolynomial   polynomial;
-    const GaussRule &rule = gauss_rule(24);
+    Moments              exact(moments.p);
+    FacePolynomial       polynomial;
+    const ReferenceRule &rule = gauss_rule(24).on(face.shape);
     polynomial.reinit(face, face.frame.center);
-    for (unsigned int q = 0; q < rule.s.size(); ++q)
+    for (unsigned int q = 0; q < rule.weight.size(); ++q)
       {
         Vec3<Lanes> x, dx[2];
-        polynomial.evaluate(broadcast(rule.s[q]), broadcast(rule.t[q]), x, dx);
+        polynomial.evaluate(broadcast(rule.xi_1[q]),
+                            broadcast(rule.xi_2[q]),
+                            x,
+                            dx);
         const Vec3<Lanes> area = cross(dx[0], dx[1]);
-        exact.add(rule.s[q],
-                  rule.t[q],
-                  std::sqrt(dot(area, area)[0]) * rule.tensor_weight[q]);
+        exact.add(rule.xi_1[q],
+                  rule.xi_2[q],
+                  std::sqrt(dot(area, area)[0]) * rule.weight[q]);
       }
     double result = 0;
     for (unsigned int i = 0; i < exact.values.size(); ++i)
