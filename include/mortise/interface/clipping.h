@@ -82,6 +82,16 @@ namespace mortise
       double       xi[2];
     };
 
+    /// Points of a segment with their distances from a side. Entry i of
+    /// @p beside: the points i and i+1 lie outside on another side.
+    struct Samples
+    {
+      static constexpr unsigned int last = n_lanes + 1;
+
+      double tau[last + 1], x[last + 1][2], f[last + 1];
+      bool   beside[last + 1];
+    };
+
     void
     subdivide_edge(const unsigned int edge);
     void
@@ -104,6 +114,16 @@ namespace mortise
     check_segment(Segment &segment, const Breakpoint &middle) const;
     void
     find_crossings(const unsigned int segment, const unsigned int side);
+    void
+    take_samples(const Segment     &segment,
+                 const unsigned int side,
+                 const double       low,
+                 const double       high,
+                 Samples           &samples);
+    bool
+    sample_near_part(const Segment     &segment,
+                     const unsigned int side,
+                     Samples           &samples);
     void
     sample_segment(const unsigned int segment,
                    const unsigned int side,
