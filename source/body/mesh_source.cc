@@ -60,6 +60,13 @@ namespace mortise
           GridGenerator::flatten_triangulation(serial, flat);
           std::tie(mesh.vertices, ordered, mesh.faces) =
             GridTools::get_coarse_mesh_description(flat);
+          if (mesh.geometry != nullptr)
+            {
+              auto refined =
+                std::make_shared<CoarseGeometry>(mesh.geometry->refined());
+              refined->place_vertices(ordered, mesh.vertices);
+              mesh.geometry = refined;
+            }
           GridTools::consistently_order_cells(ordered);
           if (!consistently_ordered(ordered))
             throw InputError(
@@ -92,18 +99,16 @@ namespace mortise
           }
     }
     CoarseMesh
-    coarse_mesh(const MeshParameters &parameters, const std::string &where)
+    coarse_mesh(const MeshParameters &parameters,
+                const std::string    &where,
+                const MPI_Comm        comm)
     {
-      CoarseMesh mesh;
-      if (parameters.source == "file")
-        {
-          mesh                     = read_mesh_file(parameters.file, where);
-          const RigidMotion motion = rigid_motion(parameters);
-          for (Point<3> &vertex : mesh.vertices)
-            vertex = motion(vertex);
-        }
-      else
-        mesh = generate(parameters);
+      CoarseMesh mesh = parameters.source == "file" ?
+                          read_mesh_file(parameters, where, comm) :
+                          generate(parameters);
+      if (mesh.cells.front().vertices.size() != 8)
+        throw InputError(where +
+                         ": bodies of tetrahedra are not available yet");
       order_cells(mesh, where);
       check_shapes(mesh, where);
       return mesh;
@@ -155,20 +160,9 @@ namespace mortise
   {
     Assert(triangulation.n_levels() == 0,
            ExcMessage("The triangulation is not empty."));
-    // A file may be missing or damaged on some ranks only.
-    CoarseMesh  mesh;
-    std::string problem;
-    try
-      {
-        validate(parameters, where);
-        mesh = coarse_mesh(parameters, where);
-      }
-    catch (const InputError &error)
-      {
-        problem = error.what();
-      }
-    throw_if_any(problem, triangulation.get_communicator());
-
+    validate(parameters, where);
+    CoarseMesh mesh =
+      coarse_mesh(parameters, where, triangulation.get_communicator());
     triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
     if (mesh.manifold != nullptr)
       {
