@@ -2,11 +2,15 @@
 
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
+#include <deal.II/fe/mapping_q_cache.h>
 
 #include <mortise/base/error.h>
 #include <mortise/body/body.h>
 #include <mortise/body/fe_legendre.h>
+#include <mortise/body/simplex_elements.h>
+#include <mortise/body/simplex_mapping.h>
 
+#include <algorithm>
 #include <set>
 
 namespace mortise
@@ -15,20 +19,19 @@ namespace mortise
 
   Body::Body(const std::string   &name,
              const unsigned int   index,
-             const LinearElastic &material,
-             const MPI_Comm       comm)
+             const LinearElastic &material)
     : name(name)
     , index(index)
     , material(material)
-    , triangulation(comm)
-    , dof_handler(triangulation)
   {}
 
   void
-  Body::create_mesh(const MeshParameters &parameters, const std::string &where)
+  Body::create_mesh(const MeshParameters &parameters,
+                    const MPI_Comm        comm,
+                    const std::string    &where)
   {
-    names  = mortise::create_mesh(parameters, triangulation, where);
-    curved = parameters.source != "box" && parameters.source != "file";
+    mesh = mortise::create_mesh(parameters, comm, where);
+    dof_handler.reinit(*mesh.triangulation);
   }
 
   void
@@ -38,10 +41,10 @@ namespace mortise
     const std::string                            &where)
   {
     for (const auto &region : degree_by_region)
-      if (names.materials.count(region.first) == 0)
+      if (mesh.names.materials.count(region.first) == 0)
         {
           std::vector<std::string> existing;
-          for (const auto &material_id : names.materials)
+          for (const auto &material_id : mesh.names.materials)
             existing.push_back(std::to_string(material_id.first));
           throw InputError(where + ": Degree by region names the material id " +
                            std::to_string(region.first) +
@@ -52,40 +55,58 @@ namespace mortise
     std::set<unsigned int> used = {degree};
     for (const auto &region : degree_by_region)
       used.insert(region.second);
-    std::map<unsigned int, unsigned int> fe_index;
-    for (const unsigned int p : used)
-      {
-        fe_index[p] = fe.size();
+    const std::vector<unsigned int> all(used.begin(), used.end());
+    const SimplexElements           simplices(
+      mesh.tetrahedra ? all : std::vector<unsigned int>(), dim);
+    if (mesh.tetrahedra)
+      for (unsigned int i = 0; i < simplices.collection.size(); ++i)
+        fe.push_back(simplices.collection[i]);
+    else
+      for (const unsigned int p : all)
         fe.push_back(FESystem<dim>(FE_Legendre(p), dim));
-      }
 
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           const auto region = degree_by_region.find(cell->material_id());
-          cell->set_active_fe_index(
-            fe_index[region == degree_by_region.end() ? degree :
-                                                        region->second]);
+          const unsigned int p =
+            region == degree_by_region.end() ? degree : region->second;
+          cell->set_active_fe_index(mesh.tetrahedra ?
+                                      simplices.index(cell, p) :
+                                      std::find(all.begin(), all.end(), p) -
+                                        all.begin());
         }
     dof_handler.distribute_dofs(fe);
-
-    mapping_degree = curved ? *used.rbegin() : 1;
-    mapping        = std::make_unique<MappingQCache<dim>>(mapping_degree);
-    mapping->initialize(MappingQ<dim>(mapping_degree), triangulation);
+    create_mapping();
 
     degrees = std::make_unique<EntityDegrees>(dof_handler);
     make_conformity_constraints(dof_handler, *degrees, conformity);
     relevant_dofs = conformity.get_local_lines();
   }
 
+  void
+  Body::create_mapping()
+  {
+    mapping_degree = mesh.curved ? max_degree() : 1;
+    if (mesh.tetrahedra)
+      {
+        mapping =
+          std::make_unique<SimplexMapping>(mapping_degree, triangulation());
+        return;
+      }
+    auto cache = std::make_unique<MappingQCache<dim>>(mapping_degree);
+    cache->initialize(MappingQ<dim>(mapping_degree), triangulation());
+    mapping = std::move(cache);
+  }
+
   types::boundary_id
   Body::boundary_id(const std::string &boundary, const std::string &where) const
   {
-    const auto found = names.boundaries.find(boundary);
-    if (found != names.boundaries.end())
+    const auto found = mesh.names.boundaries.find(boundary);
+    if (found != mesh.names.boundaries.end())
       return found->second;
     std::vector<std::string> existing;
-    for (const auto &entry : names.boundaries)
+    for (const auto &entry : mesh.names.boundaries)
       existing.push_back(entry.first);
     throw InputError(where + ": body '" + name + "' has no boundary '" +
                      boundary + "'; it has: " + join_names(existing));
@@ -94,15 +115,15 @@ namespace mortise
   Body::Statistics
   Body::statistics() const
   {
-    unsigned int lowest = max_degree + 1, highest = 0;
+    unsigned int lowest = mortise::max_degree + 1, highest = 0;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           lowest  = std::min(lowest, degree(cell));
           highest = std::max(highest, degree(cell));
         }
-    const MPI_Comm comm = triangulation.get_communicator();
-    return {triangulation.n_global_active_cells(),
+    const MPI_Comm comm = triangulation().get_communicator();
+    return {triangulation().n_global_active_cells(),
             Utilities::MPI::min(lowest, comm),
             Utilities::MPI::max(highest, comm)};
   }

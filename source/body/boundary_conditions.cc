@@ -4,9 +4,8 @@
 
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/face_topology.h>
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/legendre_basis.h>
+#include <mortise/body/cell_face.h>
+#include <mortise/body/simplex_quadrature.h>
 
 namespace mortise
 {
@@ -14,169 +13,198 @@ namespace mortise
 
   namespace
   {
-    /// Values of the 1D functions of one degree at Gauss points, and the
-    /// inverse of the L2 mass matrices of the bubbles 2..q for every q.
-    struct LineProjection
+    /// The inverse of the mass matrix of the functions that @p values holds by
+    /// point, of those in @p used.
+    FullMatrix<double>
+    inverse_mass(const std::vector<std::vector<double>> &values,
+                 const std::vector<double>              &weights,
+                 const std::vector<unsigned int>        &used)
     {
-      explicit LineProjection(const unsigned int degree)
-        : degree(degree)
-        , gauss(degree + 2)
-        , value(gauss.size(), std::vector<double>(degree + 1))
-        , inverse_mass(degree + 1)
-      {
-        for (unsigned int q = 0; q < gauss.size(); ++q)
-          evaluate_lobatto(
-            degree, gauss.point(q)[0], value[q].data(), nullptr, nullptr);
-        for (unsigned int top = 2; top <= degree; ++top)
-          {
-            FullMatrix<double> mass(top - 1);
-            for (unsigned int q = 0; q < gauss.size(); ++q)
-              for (unsigned int i = 2; i <= top; ++i)
-                for (unsigned int j = 2; j <= top; ++j)
-                  mass(i - 2, j - 2) +=
-                    gauss.weight(q) * value[q][i] * value[q][j];
-            inverse_mass[top].reinit(top - 1, top - 1);
-            inverse_mass[top].invert(mass);
-          }
-      }
+      FullMatrix<double> mass(used.size());
+      for (unsigned int q = 0; q < weights.size(); ++q)
+        for (unsigned int i = 0; i < used.size(); ++i)
+          for (unsigned int j = 0; j < used.size(); ++j)
+            mass(i, j) += weights[q] * values[q][used[i]] * values[q][used[j]];
+      if (!used.empty())
+        mass.gauss_jordan();
+      return mass;
+    }
 
-      unsigned int                     degree;
-      QGauss<1>                        gauss;
-      std::vector<std::vector<double>> value;        ///< [point][function]
-      std::vector<FullMatrix<double>>  inverse_mass; ///< [q], (q - 1) x (q - 1)
-    };
-
-    /// Interpolates one vector field on one face; coefficients in the tensor
-    /// order of the face.
+    /// Interpolates vector fields on faces of one shape and degree by
+    /// projections: what all of them share.
     class FaceInterpolation
     {
     public:
-      FaceInterpolation(const LineProjection &line)
-        : line(line)
-        , n(line.degree + 1)
-      {}
+      using Field = std::function<Tensor<1, dim>(double xi_1, double xi_2)>;
 
-      using Field = std::function<Tensor<1, dim>(double xi, double eta)>;
+      explicit FaceInterpolation(const TraceBasis &basis);
 
-      /// @p edge_degree[a][side], @p face_degree: highest modes that exist.
+      /// Coefficients in the order of the basis. @p edge_degree, @p face_degree: highest modes
+      /// that exist.
       std::vector<Tensor<1, dim>>
-      operator()(const Field &field,
-                 const unsigned int (&edge_degree)[2][2],
-                 const unsigned int face_degree) const
-      {
-        std::vector<Tensor<1, dim>> c(n * n);
-        for (unsigned int i = 0; i < 2; ++i)
-          for (unsigned int j = 0; j < 2; ++j)
-            c[i + n * j] = field(i, j);
-        for (unsigned int a = 0; a < 2; ++a)
-          for (unsigned int side = 0; side < 2; ++side)
-            project_edge(field, a, side, edge_degree[a][side], c);
-        project_interior(field, face_degree, c);
-        return c;
-      }
+      operator()(const Field                       &field,
+                 const std::array<unsigned int, 4> &edge_degree,
+                 unsigned int                       face_degree) const;
 
     private:
       void
       project_edge(const Field                 &field,
-                   const unsigned int           a,
-                   const unsigned int           side,
-                   const unsigned int           top,
-                   std::vector<Tensor<1, dim>> &c) const
-      {
-        const auto position = [&](const unsigned int k) {
-          return a == 0 ? k + n * side : side + n * k;
-        };
-        std::vector<Tensor<1, dim>> moment(top + 1);
-        for (unsigned int q = 0; q < line.gauss.size(); ++q)
-          {
-            const double         t = line.gauss.point(q)[0];
-            const Tensor<1, dim> rest =
-              (a == 0 ? field(t, side) : field(side, t)) -
-              (1. - t) * c[position(0)] - t * c[position(1)];
-            for (unsigned int k = 2; k <= top; ++k)
-              moment[k] += line.gauss.weight(q) * line.value[q][k] * rest;
-          }
-        for (unsigned int k = 2; k <= top; ++k)
-          for (unsigned int l = 2; l <= top; ++l)
-            c[position(k)] += line.inverse_mass[top](k - 2, l - 2) * moment[l];
-      }
-
+                   unsigned int                 e,
+                   unsigned int                 top,
+                   std::vector<Tensor<1, dim>> &c) const;
       void
       project_interior(const Field                 &field,
-                       const unsigned int           top,
-                       std::vector<Tensor<1, dim>> &c) const
-      {
-        if (top < 2)
-          return;
-        std::vector<Tensor<1, dim>> moment(n * n);
-        const unsigned int          n_points = line.gauss.size();
-        for (unsigned int qy = 0; qy < n_points; ++qy)
-          for (unsigned int qx = 0; qx < n_points; ++qx)
-            {
-              const auto    &vx = line.value[qx], &vy = line.value[qy];
-              Tensor<1, dim> rest =
-                field(line.gauss.point(qx)[0], line.gauss.point(qy)[0]);
-              for (unsigned int j = 0; j < n; ++j)
-                for (unsigned int i = 0; i < n; ++i)
-                  if (i < 2 || j < 2)
-                    rest -= vx[i] * vy[j] * c[i + n * j];
-              rest *= line.gauss.weight(qx) * line.gauss.weight(qy);
-              for (unsigned int j = 2; j <= top; ++j)
-                for (unsigned int i = 2; i <= top; ++i)
-                  moment[i + n * j] += vx[i] * vy[j] * rest;
-            }
-        // the inverse of the mass matrix is the product of those of its two
-        // directions
-        std::vector<Tensor<1, dim>> half(n * n);
-        const auto                 &inverse = line.inverse_mass[top];
-        for (unsigned int j = 2; j <= top; ++j)
-          for (unsigned int i = 2; i <= top; ++i)
-            for (unsigned int k = 2; k <= top; ++k)
-              half[i + n * j] += inverse(i - 2, k - 2) * moment[k + n * j];
-        for (unsigned int j = 2; j <= top; ++j)
-          for (unsigned int i = 2; i <= top; ++i)
-            for (unsigned int k = 2; k <= top; ++k)
-              c[i + n * j] += inverse(j - 2, k - 2) * half[i + n * k];
-      }
+                       unsigned int                 top,
+                       std::vector<Tensor<1, dim>> &c) const;
 
-      const LineProjection &line;
-      const unsigned int    n;
+      const TraceBasis                &basis;
+      QGauss<1>                        line_rule;
+      std::vector<std::vector<double>> line_values;  ///< [point][function]
+      std::vector<FullMatrix<double>>  line_inverse; ///< [degree]
+      Quadrature<2>                    face_rule;
+      std::vector<std::vector<double>> face_values; ///< [point][function]
+      /// By degree: functions inside and the inverse of their mass matrix.
+      std::vector<std::vector<unsigned int>> inside;
+      std::vector<FullMatrix<double>>        face_inverse;
     };
+
+    FaceInterpolation::FaceInterpolation(const TraceBasis &basis)
+      : basis(basis)
+      , line_rule(basis.degree + 2)
+      , face_rule(basis.shape == FaceShape::triangle ?
+                    simplex_quadrature<2>(2 * basis.degree + 2) :
+                    Quadrature<2>(QGauss<2>(basis.degree + 2)))
+      , inside(basis.degree + 1)
+    {
+      for (const Point<1> &point : line_rule.get_points())
+        {
+          line_values.emplace_back(basis.degree + 1);
+          evaluate_lobatto(basis.degree, point[0], line_values.back().data());
+        }
+      for (const Point<2> &point : face_rule.get_points())
+        {
+          face_values.emplace_back(basis.size());
+          basis.evaluate(point[0], point[1], face_values.back().data());
+        }
+      std::vector<unsigned int> bubbles;
+      for (unsigned int top = 0; top <= basis.degree; ++top)
+        {
+          for (unsigned int k = 0; k < basis.size(); ++k)
+            if (basis.functions[k].dimension == 2 &&
+                basis.functions[k].degree <= top)
+              inside[top].push_back(k);
+          if (top >= 2)
+            bubbles.push_back(top);
+          line_inverse.push_back(
+            inverse_mass(line_values, line_rule.get_weights(), bubbles));
+          face_inverse.push_back(
+            inverse_mass(face_values, face_rule.get_weights(), inside[top]));
+        }
+    }
+
+    std::vector<Tensor<1, dim>>
+    FaceInterpolation::operator()(
+      const Field                       &field,
+      const std::array<unsigned int, 4> &edge_degree,
+      const unsigned int                 face_degree) const
+    {
+      std::vector<Tensor<1, dim>> c(basis.size());
+      for (unsigned int e = 0; e < basis.n_edges(); ++e)
+        for (unsigned int end = 0; end < 2; ++end)
+          {
+            const auto [xi_1, xi_2] = basis.edge_point(e, end);
+            c[basis.vertex_function(basis.edge_vertices(e)[end])] =
+              field(xi_1, xi_2);
+          }
+      for (unsigned int e = 0; e < basis.n_edges(); ++e)
+        project_edge(field, e, edge_degree[e], c);
+      project_interior(field, face_degree, c);
+      return c;
+    }
+
+    void
+    FaceInterpolation::project_edge(const Field                 &field,
+                                    const unsigned int           e,
+                                    const unsigned int           top,
+                                    std::vector<Tensor<1, dim>> &c) const
+    {
+      const auto                  ends = basis.edge_vertices(e);
+      std::vector<Tensor<1, dim>> moment(top + 1);
+      for (unsigned int q = 0; q < line_rule.size(); ++q)
+        {
+          const double t          = line_rule.point(q)[0];
+          const auto [xi_1, xi_2] = basis.edge_point(e, t);
+          const Tensor<1, dim> rest =
+            field(xi_1, xi_2) - (1. - t) * c[basis.vertex_function(ends[0])] -
+            t * c[basis.vertex_function(ends[1])];
+          for (unsigned int k = 2; k <= top; ++k)
+            moment[k] += line_rule.weight(q) * line_values[q][k] * rest;
+        }
+      for (unsigned int k = 0; k < basis.size(); ++k)
+        {
+          const TraceBasis::Function &f = basis.functions[k];
+          if (f.dimension == 1 && f.entity == e && f.degree <= top)
+            for (unsigned int l = 2; l <= top; ++l)
+              c[k] += line_inverse[top](f.degree - 2, l - 2) * moment[l];
+        }
+    }
+
+    void
+    FaceInterpolation::project_interior(const Field                 &field,
+                                        const unsigned int           top,
+                                        std::vector<Tensor<1, dim>> &c) const
+    {
+      const std::vector<unsigned int> &used = inside[top];
+      if (used.empty())
+        return;
+      std::vector<Tensor<1, dim>> moment(used.size());
+      for (unsigned int q = 0; q < face_rule.size(); ++q)
+        {
+          Tensor<1, dim> rest =
+            field(face_rule.point(q)[0], face_rule.point(q)[1]);
+          for (unsigned int k = 0; k < basis.size(); ++k)
+            if (basis.functions[k].dimension < 2)
+              rest -= face_values[q][k] * c[k];
+          for (unsigned int i = 0; i < used.size(); ++i)
+            moment[i] += face_rule.weight(q) * face_values[q][used[i]] * rest;
+        }
+      for (unsigned int i = 0; i < used.size(); ++i)
+        for (unsigned int j = 0; j < used.size(); ++j)
+          c[used[i]] += face_inverse[top](i, j) * moment[j];
+    }
 
     void
     constrain_face(const Body                &body,
-                   const Body::CellIterator  &cell,
-                   const unsigned int         f,
+                   const BoundaryFace        &at,
                    const DirichletCondition  &condition,
-                   const LineProjection      &line,
+                   const FaceInterpolation   &interpolation,
                    AffineConstraints<double> &constraints)
     {
-      const unsigned int p = body.degree(cell), n = p + 1;
-      unsigned int       edge_degree[2][2];
-      for (unsigned int a = 0; a < 2; ++a)
-        for (unsigned int side = 0; side < 2; ++side)
-          edge_degree[a][side] =
-            body.degrees->line_degree(cell, face_topology::line(f, a, side));
+      const auto &[cell, f] = at;
+      const CellFace              face(cell, f);
+      std::array<unsigned int, 4> edge_degree{};
+      for (unsigned int e = 0; e < face.basis->n_edges(); ++e)
+        edge_degree[e] = body.degrees->line_degree(cell, face.lines[e]);
 
-      const auto field = [&](const double xi, const double eta) {
+      const auto field = [&](const double xi_1, const double xi_2) {
         return !condition.value ?
                  Tensor<1, dim>() :
                  condition.value(body.mapping->transform_unit_to_real_cell(
-                   cell, face_topology::unit_point(f, xi, eta)));
+                   cell, face.unit_point(xi_1, xi_2)));
       };
-      const std::vector<Tensor<1, dim>> coefficients = FaceInterpolation(
-        line)(field, edge_degree, body.degrees->quad_degree(cell, f));
+      const std::vector<Tensor<1, dim>> coefficients =
+        interpolation(field, edge_degree, body.degrees->quad_degree(cell, f));
 
       // where degrees meet, the dof that carries a mode may belong to a cell
       // off the boundary
       std::vector<types::global_dof_index> dofs;
       body.degrees->get_master_dofs(cell, dofs);
-      const std::vector<unsigned int> on_face = face_dof_indices(p, f);
-      for (unsigned int k = 0; k < n * n; ++k)
+      for (unsigned int k = 0; k < face.indices.size(); ++k)
         for (unsigned int c = 0; c < dim; ++c)
           {
             const auto dof =
-              dofs[cell->get_fe().component_to_system_index(c, on_face[k])];
+              dofs[cell->get_fe().component_to_system_index(c,
+                                                            face.indices[k])];
             if (condition.fixed[c] && dof != numbers::invalid_dof_index &&
                 !constraints.is_constrained(dof))
               {
@@ -194,13 +222,18 @@ namespace mortise
   {
     if (conditions.empty())
       return;
-    std::map<unsigned int, LineProjection> lines;
+    std::map<const TraceBasis *, FaceInterpolation> interpolations;
     for (const DirichletCondition &condition : conditions)
-      for (const auto &[cell, f] : boundary_faces(body, condition.boundary))
+      for (const BoundaryFace &face : boundary_faces(body, condition.boundary))
         {
-          const unsigned int p    = body.degree(cell);
-          const auto         line = lines.try_emplace(p, p).first;
-          constrain_face(body, cell, f, condition, line->second, constraints);
+          const TraceBasis &basis =
+            trace_basis(body.mesh.tetrahedra ? FaceShape::triangle :
+                                               FaceShape::quadrilateral,
+                        body.degree(face.cell));
+          const auto interpolation =
+            interpolations.try_emplace(&basis, basis).first;
+          constrain_face(
+            body, face, condition, interpolation->second, constraints);
         }
     complete_constraints(body.dof_handler, constraints);
   }

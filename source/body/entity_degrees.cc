@@ -6,6 +6,7 @@
 
 #include <mortise/body/entity_degrees.h>
 #include <mortise/body/fe_legendre.h>
+#include <mortise/body/fe_simplex_legendre.h>
 
 #include <algorithm>
 #include <array>
@@ -25,13 +26,17 @@ namespace mortise
     AssertThrow(dof_handler.get_fe_collection().size() < no_element,
                 ExcMessage("at most 254 elements in a collection"));
     for (unsigned int i = 0; i < dof_handler.get_fe_collection().size(); ++i)
-      AssertThrow(dof_handler.get_fe(i).n_base_elements() == 1 &&
-                    dynamic_cast<const FE_Legendre *>(
-                      &dof_handler.get_fe(i).base_element(0)),
-                  ExcMessage(
-                    "EntityDegrees: the elements must be FE_Legendre or "
-                    "FESystem(FE_Legendre(p), n); got " +
-                    dof_handler.get_fe(i).get_name()));
+      {
+        const FiniteElement<3> &fe   = dof_handler.get_fe(i);
+        const FiniteElement<3> &base = fe.base_element(0);
+        AssertThrow(fe.n_base_elements() == 1 &&
+                      (dynamic_cast<const FE_Legendre *>(&base) ||
+                       dynamic_cast<const FE_SimplexLegendre *>(&base)),
+                    ExcMessage(
+                      "EntityDegrees: the elements must be FE_Legendre, "
+                      "FE_SimplexLegendre or a system of one of them; got " +
+                      fe.get_name()));
+      }
     unsigned int smallest = no_element, largest = 0;
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -40,8 +45,13 @@ namespace mortise
           largest  = std::max<unsigned int>(largest, cell->active_fe_index());
         }
     const MPI_Comm comm = dof_handler.get_communicator();
-    uniform =
-      Utilities::MPI::min(smallest, comm) >= Utilities::MPI::max(largest, comm);
+    smallest            = Utilities::MPI::min(smallest, comm);
+    largest             = Utilities::MPI::max(largest, comm);
+    // Of the elements of one degree for tetrahedra, deal.II gives equal modes
+    // of two one index, but not of more.
+    uniform = smallest >= largest ||
+              (largest == smallest + 1 && dof_handler.get_fe(smallest).degree ==
+                                            dof_handler.get_fe(largest).degree);
     if (uniform)
       return;
 
@@ -157,19 +167,19 @@ namespace mortise
     const auto pack =
       [&](const CellIterator &cell) -> std_cxx17::optional<Degrees> {
       Degrees degrees;
-      for (unsigned int l = 0; l < 12; ++l)
+      for (const unsigned int l : cell->line_indices())
         degrees[l] = line_degrees[cell->line_index(l)];
-      for (unsigned int f = 0; f < 6; ++f)
+      for (const unsigned int f : cell->face_indices())
         degrees[12 + f] = quad_degrees[cell->face_index(f)];
       return degrees;
     };
     const auto unpack = [&](const CellIterator &cell, const Degrees &degrees) {
-      for (unsigned int l = 0; l < 12; ++l)
+      for (const unsigned int l : cell->line_indices())
         {
           unsigned char &degree = line_degrees[cell->line_index(l)];
           degree                = std::min(degree, degrees[l]);
         }
-      for (unsigned int f = 0; f < 6; ++f)
+      for (const unsigned int f : cell->face_indices())
         {
           unsigned char &degree = quad_degrees[cell->face_index(f)];
           degree                = std::min(degree, degrees[12 + f]);
@@ -211,12 +221,12 @@ namespace mortise
     const unsigned int      n          = fe.degree - 1;
     constexpr auto          zero       = numbers::invalid_dof_index;
 
-    for (unsigned int v = 0; v < 8; ++v)
+    for (const unsigned int v : cell->vertex_indices())
       for (unsigned int c = 0; c < components; ++c)
         masters[v * components + c] =
           cell->vertex_dof_index(v, c, vertex_element[cell->vertex_index(v)]);
 
-    for (unsigned int l = 0; l < 12; ++l)
+    for (const unsigned int l : cell->line_indices())
       {
         const unsigned int element = line_element[cell->line_index(l)];
         const unsigned int degree  = line_degrees[cell->line_index(l)];
@@ -228,21 +238,52 @@ namespace mortise
                                cell->line(l)->dof_index(c * m + i, element);
       }
 
-    for (unsigned int f = 0; f < 6; ++f)
-      {
-        const unsigned int element  = quad_element[cell->face_index(f)];
-        const unsigned int degree   = quad_degrees[cell->face_index(f)];
-        const unsigned int m        = fes[element].degree - 1;
-        const bool         standard = cell->face_orientation(f);
-        for (unsigned int c = 0; c < components; ++c)
-          for (unsigned int j = 0; j < n; ++j)
-            for (unsigned int i = 0; i < n; ++i)
-              masters[fe.get_first_quad_index(f) + (c * n + j) * n + i] =
-                std::max(i, j) + 2 > degree ?
-                  zero :
-                  cell->quad(f)->dof_index((c * m + (standard ? j : i)) * m +
-                                             (standard ? i : j),
-                                           element);
-      }
+    for (const unsigned int f : cell->face_indices())
+      if (cell->reference_cell() == ReferenceCells::Hexahedron)
+        get_quadrilateral_masters(cell, f, masters);
+      else
+        get_triangle_masters(cell, f, masters);
+  }
+
+  void
+  EntityDegrees::get_quadrilateral_masters(
+    const CellIterator                   &cell,
+    const unsigned int                    f,
+    std::vector<types::global_dof_index> &masters) const
+  {
+    const FiniteElement<3> &fe       = cell->get_fe();
+    const unsigned int      n        = fe.degree - 1;
+    const unsigned int      element  = quad_element[cell->face_index(f)];
+    const unsigned int      degree   = quad_degrees[cell->face_index(f)];
+    const unsigned int      m        = dof_handler.get_fe(element).degree - 1;
+    const bool              standard = cell->face_orientation(f);
+    auto master = masters.begin() + fe.get_first_quad_index(f);
+    for (unsigned int c = 0; c < fe.n_components(); ++c)
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          *master++ =
+            std::max(i, j) + 2 > degree ?
+              numbers::invalid_dof_index :
+              cell->quad(f)->dof_index((c * m + (standard ? j : i)) * m +
+                                         (standard ? i : j),
+                                       element);
+  }
+
+  void
+  EntityDegrees::get_triangle_masters(
+    const CellIterator                   &cell,
+    const unsigned int                    f,
+    std::vector<types::global_dof_index> &masters) const
+  {
+    // modes of low degree come first, whatever the element
+    const FiniteElement<3> &fe      = cell->get_fe();
+    const unsigned int      element = quad_element[cell->face_index(f)];
+    const unsigned int      n = n_face_modes(quad_degrees[cell->face_index(f)]);
+    const unsigned int m = n_face_modes(dof_handler.get_fe(element).degree);
+    auto               master = masters.begin() + fe.get_first_quad_index(f);
+    for (unsigned int c = 0; c < fe.n_components(); ++c)
+      for (unsigned int i = 0; i < n_face_modes(fe.degree); ++i)
+        *master++ = i < n ? cell->quad(f)->dof_index(c * m + i, element) :
+                            numbers::invalid_dof_index;
   }
 } // namespace mortise

@@ -27,7 +27,7 @@ namespace mortise
       std::vector<std::pair<types::global_dof_index, double>> entries;
     };
 
-    /// Local degrees of freedom of one component of elements
+    /// Hexahedra: local degrees of freedom of one component of elements
     /// FESystem(FE_Legendre(p), n): tensor functions of lines and faces, in the
     /// order of evaluate_lobatto().
     class LocalNumbering
@@ -95,7 +95,7 @@ namespace mortise
 
       const DoFHandler<3>        &dof_handler;
       const EntityDegrees        &degrees;
-      std::vector<LocalNumbering> numbering; ///< by element
+      std::vector<LocalNumbering> numbering; ///< by element; hexahedra
       IndexSet                    owned;     ///< of this rank
       std::vector<bool> owned_done;          ///< constrained, by place in owned
       std::unordered_map<types::global_dof_index, bool> other_done;
@@ -115,8 +115,9 @@ namespace mortise
     {
       const auto &fes = dof_handler.get_fe_collection();
       numbering.reserve(fes.size());
-      for (unsigned int i = 0; i < fes.size(); ++i)
-        numbering.emplace_back(fes[i]);
+      if (fes[0].reference_cell() == ReferenceCells::Hexahedron)
+        for (unsigned int i = 0; i < fes.size(); ++i)
+          numbering.emplace_back(fes[i]);
     }
 
     void
@@ -299,7 +300,8 @@ namespace mortise
                               AffineConstraints<double> &constraints)
   {
     AssertThrow(
-      is_consistently_ordered(dof_handler.get_triangulation()),
+      !dof_handler.get_triangulation().all_reference_cells_are_hyper_cube() ||
+        is_consistently_ordered(dof_handler.get_triangulation()),
       ExcMessage(
         "make_conformity_constraints: the cells are not ordered consistently; "
         "try GridTools::consistently_order_cells on the coarse cells"));

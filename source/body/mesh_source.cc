@@ -5,6 +5,7 @@
 #include <mortise/base/error.h>
 #include <mortise/body/mesh_file.h>
 #include <mortise/body/mesh_source.h>
+#include <mortise/body/tetrahedra.h>
 
 #include <algorithm>
 #include <sstream>
@@ -77,27 +78,59 @@ namespace mortise
       mesh.cells = ordered;
     }
 
+    /// Vertices at the ends of the three edges at vertex @p v, such that their
+    /// directions are right-handed in a cell of positive volume.
+    std::array<unsigned int, 3>
+    edge_ends(const unsigned int v, const bool tetrahedron)
+    {
+      if (!tetrahedron)
+        {
+          std::array<unsigned int, 3> ends = {{v ^ 1, v ^ 2, v ^ 4}};
+          if ((v % 2 + v / 2 % 2 + v / 4) % 2 == 1)
+            std::swap(ends[0], ends[1]);
+          return ends;
+        }
+      constexpr unsigned int others[4][3] = {{1, 2, 3},
+                                             {0, 3, 2},
+                                             {0, 1, 3},
+                                             {0, 2, 1}};
+      return {{others[v][0], others[v][1], others[v][2]}};
+    }
+
     /// The Jacobian determinant is positive in all corners of all cells.
     void
     check_shapes(const CoarseMesh &mesh, const std::string &where)
     {
       for (std::size_t c = 0; c < mesh.cells.size(); ++c)
-        for (unsigned int v = 0; v < 8; ++v)
-          {
-            const auto  &vertices = mesh.cells[c].vertices;
-            Tensor<2, 3> edges;
-            for (unsigned int d = 0; d < 3; ++d)
-              edges[d] = mesh.vertices[vertices[v | (1 << d)]] -
-                         mesh.vertices[vertices[v & ~(1 << d)]];
-            if (determinant(edges) > 0.)
-              continue;
-            std::ostringstream message;
-            message << where << ": cell " << c << " near ("
-                    << mesh.vertices[vertices[v]]
-                    << ") is turned inside out; allowed: convex hexahedra";
-            throw InputError(message.str());
-          }
+        {
+          const auto &vertices    = mesh.cells[c].vertices;
+          const bool  tetrahedron = vertices.size() == 4;
+          for (unsigned int v = 0; v < vertices.size(); ++v)
+            {
+              Tensor<2, 3> edges;
+              const auto   ends = edge_ends(v, tetrahedron);
+              for (unsigned int d = 0; d < 3; ++d)
+                edges[d] =
+                  mesh.vertices[vertices[ends[d]]] - mesh.vertices[vertices[v]];
+              if (determinant(edges) > 0.)
+                continue;
+              std::ostringstream message;
+              message << where << ": cell " << c << " near ("
+                      << mesh.vertices[vertices[v]]
+                      << ") is turned inside out; allowed: "
+                      << (tetrahedron ? "tetrahedra of positive volume" :
+                                        "convex hexahedra");
+              throw InputError(message.str());
+            }
+        }
     }
+
+    bool
+    is_tetrahedral(const CoarseMesh &mesh)
+    {
+      return mesh.cells.front().vertices.size() == 4;
+    }
+
     CoarseMesh
     coarse_mesh(const MeshParameters &parameters,
                 const std::string    &where,
@@ -106,10 +139,11 @@ namespace mortise
       CoarseMesh mesh = parameters.source == "file" ?
                           read_mesh_file(parameters, where, comm) :
                           generate(parameters);
-      if (mesh.cells.front().vertices.size() != 8)
-        throw InputError(where +
-                         ": bodies of tetrahedra are not available yet");
-      order_cells(mesh, where);
+      if (parameters.source != "file" && parameters.cells == "tetrahedra")
+        mesh = cut_into_tetrahedra(
+          refine_uniformly(std::move(mesh), parameters.refinements));
+      if (!is_tetrahedral(mesh))
+        order_cells(mesh, where);
       check_shapes(mesh, where);
       return mesh;
     }
@@ -153,26 +187,48 @@ namespace mortise
     }
   } // namespace
 
-  MeshNames
+  namespace
+  {
+    std::unique_ptr<HexTriangulation>
+    distribute_hexahedra(const CoarseMesh     &mesh,
+                         const MeshParameters &parameters,
+                         const MPI_Comm        comm,
+                         const std::string    &where)
+    {
+      auto triangulation = std::make_unique<HexTriangulation>(comm);
+      triangulation->create_triangulation(mesh.vertices,
+                                          mesh.cells,
+                                          mesh.faces);
+      if (mesh.manifold != nullptr)
+        {
+          triangulation->set_all_manifold_ids(0);
+          triangulation->set_manifold(0, *mesh.manifold);
+        }
+      triangulation->refine_global(parameters.refinements);
+      for (const RefinementBall &ball :
+           parse_refine_near(parameters.refine_near, where))
+        refine_near(ball, *triangulation, where);
+      return triangulation;
+    }
+  } // namespace
+
+  Mesh
   create_mesh(const MeshParameters &parameters,
-              HexTriangulation     &triangulation,
+              const MPI_Comm        comm,
               const std::string    &where)
   {
-    Assert(triangulation.n_levels() == 0,
-           ExcMessage("The triangulation is not empty."));
     validate(parameters, where);
-    CoarseMesh mesh =
-      coarse_mesh(parameters, where, triangulation.get_communicator());
-    triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
-    if (mesh.manifold != nullptr)
-      {
-        triangulation.set_all_manifold_ids(0);
-        triangulation.set_manifold(0, *mesh.manifold);
-      }
-    triangulation.refine_global(parameters.refinements);
-    for (const RefinementBall &ball :
-         parse_refine_near(parameters.refine_near, where))
-      refine_near(ball, triangulation, where);
-    return mesh.names;
+    const CoarseMesh coarse = coarse_mesh(parameters, where, comm);
+
+    Mesh mesh;
+    mesh.names      = coarse.names;
+    mesh.tetrahedra = is_tetrahedral(coarse);
+    mesh.curved     = coarse.manifold != nullptr;
+    if (mesh.tetrahedra)
+      mesh.triangulation = distribute_tetrahedra(coarse, comm);
+    else
+      mesh.triangulation =
+        distribute_hexahedra(coarse, parameters, comm, where);
+    return mesh;
   }
 } // namespace mortise

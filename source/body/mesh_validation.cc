@@ -266,9 +266,6 @@ namespace mortise
     check.choice("Cells",
                  parameters.cells,
                  {"auto", "hexahedra", "tetrahedra"});
-    check.require(
-      parameters.source == "file" || parameters.cells != "tetrahedra",
-      "Cells = tetrahedra is not available yet; allowed: hexahedra");
     if (parameters.source == "curved block")
       check.choice("Half", parameters.half, {"lower", "upper", "both"});
     validate_file(parameters, check);
@@ -282,6 +279,12 @@ namespace mortise
     check.require(levels <= 14,
                   "Refinements and the times of Refine near make " +
                     std::to_string(levels) + " levels; allowed: 14 in all");
+    check.require(
+      parameters.cells != "tetrahedra" || balls.empty(),
+      "Refine near = '" + parameters.refine_near +
+        "' belongs to hexahedra, since tetrahedra cannot be refined "
+        "locally; try Degree by region, Refinements, or a gmsh file "
+        "whose Mesh size varies");
     check.require(all_finite(parameters.rotate) &&
                     all_finite(parameters.translate),
                   "Rotate or Translate is not finite");

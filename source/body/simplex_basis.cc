@@ -235,34 +235,19 @@ namespace mortise
   void
   SimplexLegendrePolynomials::evaluate_trace(
     const std::array<double, 3> &lambda,
-    std::vector<double>         &values,
-    std::vector<Tensor<1, 2>>   &derivatives) const
+    double                      *values) const
   {
     const unsigned int p = this->degree();
-    Jet                a(lambda[0]), b(lambda[1]), c(lambda[2]);
-    a.gradient[0] = a.gradient[1] = -1.;
-    b.gradient[0]                 = 1.;
-    c.gradient[1]                 = 1.;
-    std::vector<Jet> jets(3 + 3 * n_line_modes(p) + n_face_modes(p));
-    jets[0] = a;
-    jets[1] = b;
-    jets[2] = c;
+    for (const double l : lambda)
+      *values++ = l;
     if (p >= 2)
-      {
-        evaluate_line(p, a, b, &jets[3]);
-        evaluate_line(p, a, c, &jets[3 + n_line_modes(p)]);
-        evaluate_line(p, b, c, &jets[3 + 2 * n_line_modes(p)]);
-      }
+      for (const auto &[v, w] : {std::make_pair(0, 1), {0, 2}, {1, 2}})
+        {
+          evaluate_line(p, lambda[v], lambda[w], values);
+          values += n_line_modes(p);
+        }
     if (p >= 3)
-      evaluate_face(a, b, c, &jets[3 + 3 * n_line_modes(p)]);
-    values.resize(jets.size());
-    derivatives.resize(jets.size());
-    for (unsigned int i = 0; i < jets.size(); ++i)
-      {
-        values[i]         = jets[i].value;
-        derivatives[i][0] = jets[i].gradient[0];
-        derivatives[i][1] = jets[i].gradient[1];
-      }
+      evaluate_face(lambda[0], lambda[1], lambda[2], values);
   }
 
   void

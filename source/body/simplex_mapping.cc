@@ -248,6 +248,7 @@ namespace mortise
   SimplexMapping::SimplexMapping(const unsigned int      degree,
                                  const Triangulation<3> &triangulation)
     : MappingFE<3>(FE_Positions(degree))
+    , nodal(std::make_shared<NodalPolynomials>(degree))
   {
     const auto nodes = simplex_interpolation_points(degree);
     auto       all   = std::make_shared<Points>(triangulation.n_active_cells());
@@ -270,5 +271,59 @@ namespace mortise
     Assert(index < points->size() && !(*points)[index].empty(),
            ExcMessage("SimplexMapping: the mesh has changed"));
     return (*points)[index];
+  }
+
+  Point<3>
+  SimplexMapping::transform_unit_to_real_cell(const CellIterator &cell,
+                                              const Point<3>     &point) const
+  {
+    std::vector<double>       values(nodal->n());
+    std::vector<Tensor<1, 3>> no_1;
+    std::vector<Tensor<2, 3>> no_2;
+    std::vector<Tensor<3, 3>> no_3;
+    std::vector<Tensor<4, 3>> no_4;
+    nodal->evaluate(point, values, no_1, no_2, no_3, no_4);
+    const auto &nodes = (*points)[cell->active_cell_index()];
+    Point<3>    x;
+    for (unsigned int i = 0; i < values.size(); ++i)
+      x += values[i] * nodes[i];
+    return x;
+  }
+
+  Point<3>
+  SimplexMapping::transform_real_to_unit_cell(const CellIterator &cell,
+                                              const Point<3>     &point) const
+  {
+    constexpr unsigned int max_iterations = 30;
+
+    const auto               &nodes = (*points)[cell->active_cell_index()];
+    std::vector<double>       values(nodal->n());
+    std::vector<Tensor<1, 3>> gradients(nodal->n());
+    std::vector<Tensor<2, 3>> no_2;
+    std::vector<Tensor<3, 3>> no_3;
+    std::vector<Tensor<4, 3>> no_4;
+    Point<3>                  unit(0.25, 0.25, 0.25);
+    for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
+      {
+        nodal->evaluate(unit, values, gradients, no_2, no_3, no_4);
+        Tensor<1, 3> rest = point;
+        Tensor<2, 3> jacobian;
+        for (unsigned int i = 0; i < values.size(); ++i)
+          {
+            rest -= values[i] * nodes[i];
+            jacobian += outer_product(nodes[i], gradients[i]);
+          }
+        if (!(std::abs(determinant(jacobian)) > 0.))
+          break;
+        const Tensor<1, 3> step = invert(jacobian) * rest;
+        unit += step;
+        // far away the polynomial means nothing
+        if (!(unit.norm() < 10.))
+          break;
+        if (step.norm() < 1e-8)
+          return unit;
+      }
+    AssertThrow(false, ExcTransformationFailed());
+    return unit;
   }
 } // namespace mortise

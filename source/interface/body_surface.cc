@@ -2,8 +2,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/face_topology.h>
-#include <mortise/body/fe_legendre.h>
+#include <mortise/body/cell_face.h>
 #include <mortise/interface/body_surface.h>
 
 namespace mortise
@@ -13,24 +12,21 @@ namespace mortise
   namespace
   {
     SurfaceFace
-    face_geometry(const Body               &body,
-                  const Body::CellIterator &cell,
-                  const unsigned int        f)
+    face_geometry(const Body &body, const BoundaryFace &at)
     {
-      SurfaceFace face;
-      face.degree      = body.mapping_degree;
-      face.orientation = face_topology::outward_sign(f);
-      face.id          = cell->global_active_cell_index() * 6 + f;
-      face.owner       = cell->subdomain_id();
-      const QGaussLobatto<1> nodes(face.degree + 1);
-      for (unsigned int j = 0; j <= face.degree; ++j)
-        for (unsigned int i = 0; i <= face.degree; ++i)
-          face.points.push_back(body.mapping->transform_unit_to_real_cell(
-            cell,
-            face_topology::unit_point(f,
-                                      nodes.point(i)[0],
-                                      nodes.point(j)[0])));
-      return face;
+      const CellFace face(at.cell, at.number);
+      SurfaceFace    result;
+      result.shape       = face.basis->shape;
+      result.degree      = body.mapping_degree;
+      result.orientation = face.orientation;
+      result.id          = at.cell->global_active_cell_index() * 6 + at.number;
+      result.owner       = at.cell->subdomain_id();
+      const QGaussLobatto<1> nodes(result.degree + 1);
+      for (unsigned int j = 0; j <= result.degree; ++j)
+        for (unsigned int i = 0; i <= result.degree; ++i)
+          result.points.push_back(body.mapping->transform_unit_to_real_cell(
+            at.cell, face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
+      return result;
     }
 
     FaceTrace
@@ -41,9 +37,11 @@ namespace mortise
                const AffineConstraints<double> &constraints)
     {
       FaceTrace trace;
+      trace.shape =
+        body.mesh.tetrahedra ? FaceShape::triangle : FaceShape::quadrilateral;
       trace.degree    = body.degree(cell);
       trace.modulus   = body.material.young_modulus;
-      const auto dofs = face_dofs(body, cell, f);
+      const auto dofs = face_dofs(cell, f);
       trace.begin     = {0};
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int k = 0; k < trace.n_functions(); ++k)
@@ -68,19 +66,16 @@ namespace mortise
   } // namespace
 
   std::array<std::vector<types::global_dof_index>, dim>
-  face_dofs(const Body               &body,
-            const Body::CellIterator &cell,
-            const unsigned int        face_number)
+  face_dofs(const Body::CellIterator &cell, const unsigned int face_number)
   {
     const auto                          &fe = cell->get_fe();
     std::vector<types::global_dof_index> cell_dofs(fe.n_dofs_per_cell());
     cell->get_dof_indices(cell_dofs);
-    const std::vector<unsigned int> on_face =
-      face_dof_indices(body.degree(cell), face_number);
+    const CellFace face(cell, face_number);
 
     std::array<std::vector<types::global_dof_index>, dim> dofs;
     for (unsigned int c = 0; c < dim; ++c)
-      for (const unsigned int i : on_face)
+      for (const unsigned int i : face.indices)
         dofs[c].push_back(cell_dofs[fe.component_to_system_index(c, i)]);
     return dofs;
   }
@@ -96,13 +91,14 @@ namespace mortise
     std::vector<SurfaceFace>                  faces;
     std::vector<std::array<std::uint64_t, 4>> vertices;
     std::vector<bool>                         owned;
-    for (const auto &[cell, f] : boundary_faces(body, boundary))
+    for (const BoundaryFace &at : boundary_faces(body, boundary))
       {
-        faces.push_back(face_geometry(body, cell, f));
-        std::array<std::uint64_t, 4> corners;
-        for (unsigned int v = 0; v < 4; ++v)
-          corners[v] =
-            cell->vertex_index(face_topology::vertex(f, v % 2, v / 2));
+        const auto &[cell, f] = at;
+        faces.push_back(face_geometry(body, at));
+        const CellFace               face(cell, f);
+        std::array<std::uint64_t, 4> corners{};
+        for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
+          corners[v] = cell->vertex_index(face.vertices[v]);
         vertices.push_back(corners);
         owned.push_back(cell->is_locally_owned());
         if (owned.back())

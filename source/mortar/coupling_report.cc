@@ -18,10 +18,12 @@ namespace mortise
     double
     on_constants(const FullMatrix<double> &local,
                  const unsigned int        i,
-                 const unsigned int        degree)
+                 const TraceBasis         &basis)
     {
-      const unsigned int n = degree + 1;
-      return local(i, 0) + local(i, 1) + local(i, n) + local(i, n + 1);
+      double sum = 0.;
+      for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+        sum += local(i, basis.vertex_function(v));
+      return sum;
     }
 
     /// Calls visit(slave face, function, component, entry, local coupling).
@@ -51,12 +53,12 @@ namespace mortise
       const LocalCoupling &local = coupling.local[s];
       double               sum   = on_constants(local.mass,
                                 i,
-                                coupling.interface->slave().traces[s].degree);
+                                coupling.interface->slave().traces[s].basis());
       for (const auto &partner : local.partners)
         sum -= on_constants(
           partner.mixed,
           i,
-          coupling.interface->master_traces()[partner.master].degree);
+          coupling.interface->master_traces()[partner.master].basis());
       return sum;
     }
   } // namespace
@@ -96,7 +98,7 @@ namespace mortise
         const double         row =
           on_constants(local.mass,
                        i,
-                       coupling.interface->slave().traces[s].degree);
+                       coupling.interface->slave().traces[s].basis());
         sums[difference](index) += w * row_difference(coupling, s, i);
         sums[weight](index) += w * row;
         for (unsigned int c = 0; c < dim; ++c)

@@ -1,4 +1,3 @@
-#include <mortise/body/legendre_basis.h>
 #include <mortise/mortar/local_coupling.h>
 
 #include <algorithm>
@@ -11,23 +10,14 @@ namespace mortise
   {
     /// N_i(x_q), one row per point.
     void
-    evaluate(const unsigned int                        degree,
+    evaluate(const TraceBasis                         &basis,
              const std::array<std::vector<double>, 2> &coordinates,
              const unsigned int                        n_points,
              FullMatrix<double>                       &values)
     {
-      const unsigned int n = degree + 1;
-      values.reinit(n_points, n * n, true);
-      double x[max_degree + 1], y[max_degree + 1];
+      values.reinit(n_points, basis.size(), true);
       for (unsigned int q = 0; q < n_points; ++q)
-        {
-          evaluate_lobatto(degree, coordinates[0][q], x);
-          evaluate_lobatto(degree, coordinates[1][q], y);
-          double *row = &values(q, 0);
-          for (unsigned int j = 0; j < n; ++j)
-            for (unsigned int i = 0; i < n; ++i)
-              row[i + n * j] = x[i] * y[j];
-        }
+        basis.evaluate(coordinates[0][q], coordinates[1][q], &values(q, 0));
     }
 
     /// w_q N_i(x_q). Weights of signed sectors may be negative, so there is no
@@ -77,8 +67,8 @@ namespace mortise
         }
       local.penalty = std::min(local.penalty, pair_penalty);
 
-      evaluate(slave.degree, points.slave_xi, points.size(), slave_values);
-      evaluate(master.degree, points.master_eta, points.size(), master_values);
+      evaluate(slave.basis(), points.slave_xi, points.size(), slave_values);
+      evaluate(master.basis(), points.master_eta, points.size(), master_values);
       scale_rows(slave_values, points.weight, weighted);
       weighted.Tmmult(local.mass, slave_values, true);
 

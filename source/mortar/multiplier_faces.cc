@@ -5,8 +5,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/face_topology.h>
-#include <mortise/body/fe_legendre.h>
+#include <mortise/body/cell_face.h>
 #include <mortise/mortar/multiplier_faces.h>
 
 #include <cstdint>
@@ -31,7 +30,7 @@ namespace mortise
         : body(body)
         , flags(body.dof_handler.locally_owned_dofs(),
                 body.relevant_dofs,
-                body.triangulation.get_communicator())
+                body.triangulation().get_communicator())
       {
         for (unsigned int i = 0; i < owned.size(); ++i)
           flags.local_element(i) = owned[i] ? 1. : 0.;
@@ -55,11 +54,10 @@ namespace mortise
       LinearAlgebra::distributed::Vector<double> flags;
     };
 
-    /// Bit of rim [c][a][side].
     unsigned int
-    rim_bit(const unsigned int c, const unsigned int a, const unsigned int side)
+    rim_bit(const unsigned int c, const unsigned int edge)
     {
-      return 4 * c + 2 * a + side;
+      return 4 * c + edge;
     }
 
     std::uint32_t
@@ -67,20 +65,22 @@ namespace mortise
                const PartnerState   &partner,
                const BlockedDofs    &blocked)
     {
-      const unsigned int n    = face.degree + 1;
-      std::uint32_t      bits = 0;
+      const TraceBasis &basis = *face.basis;
+      std::uint32_t     bits  = 0;
       for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int a = 0; a < 2; ++a)
-          for (unsigned int side = 0; side < 2; ++side)
-            {
-              bool               rim = true;
-              const unsigned int top = face.edge_degree[1 - a][side];
-              for (unsigned int k = 0; k <= top && rim; ++k)
-                rim =
-                  blocked(face.dofs[c][a == 0 ? side + n * k : k + n * side]);
-              if (rim)
-                bits |= 1u << rim_bit(c, a, side);
-            }
+        for (unsigned int e = 0; e < basis.n_edges(); ++e)
+          {
+            bool rim = true;
+            for (const unsigned int v : basis.edge_vertices(e))
+              rim = rim && blocked(face.dofs[c][basis.vertex_function(v)]);
+            for (unsigned int k = 0; k < basis.size() && rim; ++k)
+              if (const auto &f = basis.functions[k];
+                  f.dimension == 1 && f.entity == e &&
+                  f.degree <= face.edge_degree[e])
+                rim = blocked(face.dofs[c][k]);
+            if (rim)
+              bits |= 1u << rim_bit(c, e);
+          }
       const auto status =
         partner.coverage < none_below ? MultiplierFace::Status::none :
         partner.coverage < full_above ? MultiplierFace::Status::partial :
@@ -96,26 +96,25 @@ namespace mortise
              const Body::CellIterator &cell,
              const unsigned int        f)
     {
+      const CellFace on_cell(cell, f);
       MultiplierFace face;
-      face.degree = body.degree(cell);
-      face.dofs   = face_dofs(body, cell, f);
+      face.basis = on_cell.basis;
+      face.dofs  = face_dofs(cell, f);
       // where degrees meet, one dof carries a mode for all cells around it
       std::vector<types::global_dof_index> masters;
       body.degrees->get_master_dofs(cell, masters);
-      const auto on_face = face_dof_indices(face.degree, f);
       for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int k = 0; k < on_face.size(); ++k)
+        for (unsigned int k = 0; k < on_cell.indices.size(); ++k)
           {
             const auto master =
-              masters[cell->get_fe().component_to_system_index(c, on_face[k])];
+              masters[cell->get_fe().component_to_system_index(
+                c, on_cell.indices[k])];
             if (master != numbers::invalid_dof_index)
               face.dofs[c][k] = master;
           }
-      face.quad_degree = body.degrees->quad_degree(cell, f);
-      for (unsigned int a = 0; a < 2; ++a)
-        for (unsigned int side = 0; side < 2; ++side)
-          face.edge_degree[a][side] =
-            body.degrees->line_degree(cell, face_topology::line(f, a, side));
+      face.face_degree = body.degrees->quad_degree(cell, f);
+      for (unsigned int e = 0; e < face.basis->n_edges(); ++e)
+        face.edge_degree[e] = body.degrees->line_degree(cell, on_cell.lines[e]);
       return face;
     }
 
@@ -125,17 +124,15 @@ namespace mortise
                const BlockedDofs  &blocked,
                MultiplierFace     &face)
     {
-      const unsigned int n = face.degree + 1;
       face.status = static_cast<MultiplierFace::Status>((bits >> 12) & 3u);
       for (unsigned int c = 0; c < dim; ++c)
         {
           face.can_follow[c] = bits & (1u << (14 + c));
-          for (unsigned int a = 0; a < 2; ++a)
-            for (unsigned int side = 0; side < 2; ++side)
-              face.rim[c][a][side] = bits & (1u << rim_bit(c, a, side));
-          for (unsigned int v = 0; v < 4; ++v)
+          for (unsigned int e = 0; e < face.basis->n_edges(); ++e)
+            face.rim[c][e] = bits & (1u << rim_bit(c, e));
+          for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
             {
-              const auto dof = face.dofs[c][v % 2 + n * (v / 2)];
+              const auto dof = face.dofs[c][face.basis->vertex_function(v)];
               face.blocked_vertex[c][v] =
                 body.conformity.is_constrained(dof) || blocked(dof);
             }

@@ -19,7 +19,7 @@ namespace mortise
                                      const std::map<Index, bool> &may_follow)
     : owned(body.dof_handler.locally_owned_dofs())
   {
-    const MPI_Comm comm = body.triangulation.get_communicator();
+    const MPI_Comm comm = body.triangulation().get_communicator();
     if (Utilities::MPI::max(may_follow.size(), comm) == 0)
       return;
     smallest.reinit(owned, body.relevant_dofs, comm);
@@ -81,9 +81,10 @@ namespace mortise
               std::pair<double, double> best(
                 std::numeric_limits<double>::infinity(), 0.);
               const auto visit = [&](const auto &action) {
-                for (const unsigned int k :
-                     {0U, 1U, face.degree + 1, face.degree + 2})
-                  if (auto &s = state(face.dofs[c][k]); s.first != not_stranded)
+                for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
+                  if (auto &s =
+                        state(face.dofs[c][face.basis->vertex_function(v)]);
+                      s.first != not_stranded)
                     action(s);
               };
               visit([&](const auto &s) {

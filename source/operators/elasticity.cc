@@ -5,7 +5,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <mortise/base/error.h>
-#include <mortise/body/fe_legendre.h>
+#include <mortise/body/simplex_quadrature.h>
 #include <mortise/operators/elasticity.h>
 
 #include <array>
@@ -38,23 +38,40 @@ namespace mortise
       return dofs;
     }
 
-    /// What the cells of one degree share. One scalar element serves the three
+    Quadrature<dim>
+    cell_quadrature(const FiniteElement<dim> &element,
+                    const unsigned int        mapping_degree)
+    {
+      if (element.reference_cell() == ReferenceCells::Hexahedron)
+        return QGauss<dim>(element.degree + 1);
+      return simplex_quadrature<dim>(2 * element.degree + mapping_degree - 1);
+    }
+
+    Quadrature<dim - 1>
+    face_quadrature(const FiniteElement<dim> &element)
+    {
+      if (element.reference_cell() == ReferenceCells::Hexahedron)
+        return QGauss<dim - 1>(element.degree + 2);
+      return simplex_quadrature<dim - 1>(2 * element.degree + 3);
+    }
+
+    /// What the cells of one element share. One scalar element serves the three
     /// components.
     struct Kernel
     {
       Kernel(const Mapping<dim>       &mapping,
              const FiniteElement<dim> &system,
-             const unsigned int        degree)
-        : element(degree)
-        , n(element.n_dofs_per_cell())
+             const unsigned int        mapping_degree)
+        : element(system.base_element(0).clone())
+        , n(element->n_dofs_per_cell())
         , cell_values(mapping,
-                      element,
-                      QGauss<dim>(degree + 1),
+                      *element,
+                      cell_quadrature(*element, mapping_degree),
                       update_values | update_gradients | update_JxW_values |
                         update_quadrature_points)
         , face_values(mapping,
-                      element,
-                      QGauss<dim - 1>(degree + 2),
+                      *element,
+                      face_quadrature(*element),
                       update_values | update_JxW_values |
                         update_normal_vectors | update_quadrature_points)
         , matrix(dim * n)
@@ -71,7 +88,7 @@ namespace mortise
             product.reinit(n, n);
       }
 
-      FE_Legendre                                element;
+      std::unique_ptr<FiniteElement<dim>>        element; ///< scalar
       unsigned int                               n;
       FEValues<dim>                              cell_values;
       FEFaceValues<dim>                          face_values;
@@ -248,7 +265,7 @@ namespace mortise
           if (!kernel)
             kernel = std::make_unique<Kernel>(*body.mapping,
                                               cell->get_fe(),
-                                              body.degree(cell));
+                                              body.mapping_degree);
 
           kernel->cell_values.reinit(
             typename Triangulation<dim>::cell_iterator(cell));
@@ -275,7 +292,7 @@ namespace mortise
                         stiffness,
                         load);
         }
-    throw_if_any(tangled, body.triangulation.get_communicator());
+    throw_if_any(tangled, body.triangulation().get_communicator());
     return interiors;
   }
 } // namespace mortise

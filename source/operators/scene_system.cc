@@ -101,7 +101,7 @@ namespace mortise
                      const Vector                          &displacement)
   {
     const IndexSet &owned = displacement.locally_owned_elements();
-    const MPI_Comm  comm  = bodies.front()->triangulation.get_communicator();
+    const MPI_Comm  comm  = bodies.front()->triangulation().get_communicator();
     Vector          all(displacement), ghosted;
     constraints.distribute(all);
     ghosted.reinit(owned, constraints.get_local_lines(), comm);

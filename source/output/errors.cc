@@ -6,7 +6,8 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/fe_legendre.h>
+#include <mortise/body/cell_face.h>
+#include <mortise/body/simplex_quadrature.h>
 #include <mortise/output/errors.h>
 
 #include <cmath>
@@ -64,31 +65,44 @@ namespace mortise
       return result;
     }
 
-    /// FEValues objects of scalar elements, made when a degree first appears.
+    /// A rule for integrands of @p degree and more, on cells or faces.
+    template <int n>
+    Quadrature<n>
+    quadrature(const FiniteElement<dim> &element,
+               const unsigned int        extra_points)
+    {
+      if (element.reference_cell() == ReferenceCells::Hexahedron)
+        return QGauss<n>(element.degree + extra_points);
+      return simplex_quadrature<n>(2 * (element.degree + extra_points) - 1);
+    }
+
+    /// FEValues objects of scalar elements, made when an element first appears.
     template <typename Values>
-    class ValuesByDegree
+    class ValuesByElement
     {
     public:
-      ValuesByDegree(const Body        &body,
-                     const unsigned int extra_points,
-                     const UpdateFlags  flags)
+      ValuesByElement(const Body        &body,
+                      const unsigned int extra_points,
+                      const UpdateFlags  flags)
         : body(body)
         , extra_points(extra_points)
         , flags(flags)
       {}
 
       Values &
-      operator()(const unsigned int degree)
+      operator()(const Body::CellIterator &cell)
       {
-        auto &values = all[degree];
+        auto &values = all[cell->active_fe_index()];
         if (!values)
-          values = std::make_unique<Values>(
-            *body.mapping,
-            *elements.emplace(degree, std::make_unique<FE_Legendre>(degree))
-               .first->second,
-            Quadrature<Values::integral_dimension>(
-              QGauss<Values::integral_dimension>(degree + extra_points)),
-            flags);
+          {
+            auto &element = elements[cell->active_fe_index()];
+            element       = cell->get_fe().base_element(0).clone();
+            values        = std::make_unique<Values>(
+              *body.mapping,
+              *element,
+              quadrature<Values::integral_dimension>(*element, extra_points),
+              flags);
+          }
         return *values;
       }
 
@@ -96,7 +110,7 @@ namespace mortise
       const Body        &body;
       const unsigned int extra_points;
       const UpdateFlags  flags;
-      std::map<unsigned int, std::unique_ptr<FE_Legendre>>
+      std::map<unsigned int, std::unique_ptr<FiniteElement<dim>>>
         elements; ///< outlive the values
       std::map<unsigned int, std::unique_ptr<Values>> all;
     };
@@ -113,16 +127,16 @@ namespace mortise
       sums{}; // squares: L2 error, L2 norm, energy error, energy norm
     for (const auto &body : bodies)
       {
-        ValuesByDegree<FEValues<dim>> by_degree(*body,
-                                                3,
-                                                update_values |
-                                                  update_gradients |
-                                                  update_quadrature_points |
-                                                  update_JxW_values);
+        ValuesByElement<FEValues<dim>> by_element(*body,
+                                                  3,
+                                                  update_values |
+                                                    update_gradients |
+                                                    update_quadrature_points |
+                                                    update_JxW_values);
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
-              auto &values = by_degree(body->degree(cell));
+              auto &values = by_element(cell);
               values.reinit(TriaCell(cell));
               const auto coefficients =
                 cell_coefficients(cell, displacements[body->index]);
@@ -144,7 +158,7 @@ namespace mortise
                 }
             }
       }
-    const MPI_Comm comm = bodies.front()->triangulation.get_communicator();
+    const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     for (double &sum : sums)
       sum = Utilities::MPI::sum(sum, comm);
     // an exact solution that is zero has absolute errors
@@ -165,22 +179,20 @@ namespace mortise
     double error = 0., norm = 0., stress_norm = 0.;
     for (unsigned int n = 0; n < couplings.size(); ++n)
       {
-        const Body                       &body = *bodies[slave_bodies[n]];
-        ValuesByDegree<FEFaceValues<dim>> by_degree(body,
-                                                    3,
-                                                    update_values |
-                                                      update_normal_vectors |
-                                                      update_quadrature_points |
-                                                      update_JxW_values);
+        const Body                        &body = *bodies[slave_bodies[n]];
+        ValuesByElement<FEFaceValues<dim>> by_element(
+          body,
+          3,
+          update_values | update_normal_vectors | update_quadrature_points |
+            update_JxW_values);
         const BodySurface &slave = couplings[n].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
           if (!couplings[n].local[s].partners.empty())
             {
-              const unsigned int degree = slave.traces[s].degree;
-              auto              &values = by_degree(degree);
+              auto &values = by_element(slave.cells[s]);
               values.reinit(TriaCell(slave.cells[s]), slave.face_numbers[s]);
               const auto on_face =
-                face_dof_indices(degree, slave.face_numbers[s]);
+                CellFace(slave.cells[s], slave.face_numbers[s]).indices;
               for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
                 {
                   // lambda acts on the master: it is minus the traction on the
@@ -201,7 +213,7 @@ namespace mortise
                 }
             }
       }
-    const MPI_Comm comm = bodies.front()->triangulation.get_communicator();
+    const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     error               = Utilities::MPI::sum(error, comm);
     norm                = Utilities::MPI::sum(norm, comm);
     stress_norm         = Utilities::MPI::sum(stress_norm, comm);
@@ -218,7 +230,7 @@ namespace mortise
               const Point<dim> &point)
   {
     // the owner of the lowest rank that has the point answers
-    const MPI_Comm     comm    = body.triangulation.get_communicator();
+    const MPI_Comm     comm    = body.triangulation().get_communicator();
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
     const unsigned int me      = Utilities::MPI::this_mpi_process(comm);
     Tensor<1, dim>     result;
@@ -237,10 +249,10 @@ namespace mortise
           {
             continue;
           }
-        if (!GeometryInfo<dim>::is_inside_unit_cell(unit, 1e-8))
+        if (!cell->reference_cell().contains_point(unit, 1e-8))
           continue;
-        const FE_Legendre element(body.degree(cell));
-        const auto        coefficients = cell_coefficients(cell, displacement);
+        const FiniteElement<dim> &element = cell->get_fe().base_element(0);
+        const auto coefficients = cell_coefficients(cell, displacement);
         for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
           for (unsigned int c = 0; c < dim; ++c)
             result[c] += coefficients[c][i] * element.shape_value(i, unit);
@@ -258,13 +270,13 @@ namespace mortise
             const BodyVector        &displacement,
             const types::boundary_id boundary)
   {
-    Tensor<1, dim>                    force;
-    ValuesByDegree<FEFaceValues<dim>> by_degree(
+    Tensor<1, dim>                     force;
+    ValuesByElement<FEFaceValues<dim>> by_element(
       body, 2, update_gradients | update_normal_vectors | update_JxW_values);
     for (const auto &[cell, f] : boundary_faces(body, boundary))
       if (cell->is_locally_owned())
         {
-          auto &values = by_degree(body.degree(cell));
+          auto &values = by_element(cell);
           values.reinit(TriaCell(cell), f);
           const auto coefficients = cell_coefficients(cell, displacement);
           for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
@@ -272,6 +284,6 @@ namespace mortise
                                         gradient(values, coefficients, q))) *
                                       values.normal_vector(q));
         }
-    return Utilities::MPI::sum(force, body.triangulation.get_communicator());
+    return Utilities::MPI::sum(force, body.triangulation().get_communicator());
   }
 } // namespace mortise

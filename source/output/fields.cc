@@ -5,6 +5,7 @@
 #include <deal.II/numerics/data_postprocessor.h>
 
 #include <mortise/output/fields.h>
+#include <mortise/output/simplex_fields.h>
 
 #include <cmath>
 
@@ -129,14 +130,14 @@ namespace mortise
     {
       BodyVector vector(body.dof_handler.locally_owned_dofs(),
                         body.relevant_dofs,
-                        body.triangulation.get_communicator());
+                        body.triangulation().get_communicator());
       BodyVector count(vector);
       for (unsigned int s = 0; s < surface.faces.size(); ++s)
         {
           if (coefficients[s].empty())
             continue;
           const auto dofs =
-            face_dofs(body, surface.cells[s], surface.face_numbers[s]);
+            face_dofs(surface.cells[s], surface.face_numbers[s]);
           for (unsigned int c = 0; c < dim; ++c)
             for (unsigned int k = 0; k < dofs[c].size(); ++k)
               {
@@ -184,7 +185,9 @@ namespace mortise
                     const FieldSelection &selection,
                     const std::string    &directory)
   {
-    const unsigned int        degree = body.fe[body.fe.size() - 1].degree;
+    if (body.mesh.tetrahedra)
+      return write_tetrahedra(body, displacement, selection, directory);
+    const unsigned int        degree = body.max_degree();
     const StressPostprocessor stress(body.material);
     DataOut<dim>              output;
     output.set_flags(flags(degree));
@@ -198,10 +201,10 @@ namespace mortise
       output.add_data_vector(displacement, stress);
     output.build_patches(*body.mapping,
                          degree,
-                         body.curved ? DataOut<dim>::curved_inner_cells :
-                                       DataOut<dim>::no_curved_cells);
+                         body.mesh.curved ? DataOut<dim>::curved_inner_cells :
+                                            DataOut<dim>::no_curved_cells);
     output.write_vtu_in_parallel(directory + "/" + body.name + ".vtu",
-                                 body.triangulation.get_communicator());
+                                 body.triangulation().get_communicator());
   }
 
   void
@@ -212,7 +215,15 @@ namespace mortise
                          const std::string                      &directory)
   {
     const BodySurface &surface = coupling.interface->slave();
-    const unsigned int degree  = slave_body.fe[slave_body.fe.size() - 1].degree;
+    if (slave_body.mesh.tetrahedra)
+      return write_triangles({coupling.interface->name(),
+                              directory,
+                              slave_body.triangulation().get_communicator()},
+                             surface,
+                             coefficients,
+                             gap_coefficients(coupling),
+                             displacement);
+    const unsigned int degree = slave_body.max_degree();
     const BodyVector   traction =
       from_faces(slave_body, surface, coefficients, -1.);
     const BodyVector gap =
@@ -233,6 +244,6 @@ namespace mortise
     output.build_patches(*slave_body.mapping, degree);
     output.write_vtu_in_parallel(directory + "/" + coupling.interface->name() +
                                    ".vtu",
-                                 slave_body.triangulation.get_communicator());
+                                 slave_body.triangulation().get_communicator());
   }
 } // namespace mortise

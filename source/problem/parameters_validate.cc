@@ -168,11 +168,6 @@ namespace mortise
       check_degree(parameters, section + "/Degree", body.degree);
       for (const auto &[region, degree] : body.degree_by_region)
         check_degree(parameters, section + "/Degree by region", degree);
-      if (body.mesh.cells == "tetrahedra")
-        fail(parameters,
-             section + "/Mesh/Cells",
-             "tetrahedra, which are not available yet",
-             "hexahedra");
       validate(body.mesh, parameters.where(section + "/Mesh"));
       check_material(parameters, section + "/Material", body.material);
       if (body.body_force)

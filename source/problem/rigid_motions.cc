@@ -57,7 +57,7 @@ namespace mortise
                     lower[c] = std::min(lower[c], cell->vertex(v)[c]);
                     upper[c] = std::max(upper[c], cell->vertex(v)[c]);
                   }
-      const MPI_Comm comm = bodies.front()->triangulation.get_communicator();
+      const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
       Extent         result;
       for (unsigned int c = 0; c < dim; ++c)
         {
@@ -95,14 +95,14 @@ namespace mortise
             for (const auto &[cell, f] :
                  boundary_faces(*body, condition.boundary))
               if (cell->is_locally_owned())
-                for (unsigned int v = 0; v < 4; ++v)
+                for (const unsigned int v : cell->face(f)->vertex_indices())
                   for (unsigned int c = 0; c < dim; ++c)
                     if (condition.fixed[c])
                       add(c,
                           (cell->face(f)->vertex(v) - where.centre) /
                             where.size);
       Utilities::MPI::sum(sums,
-                          bodies.front()->triangulation.get_communicator(),
+                          bodies.front()->triangulation().get_communicator(),
                           sums);
       LAPACKFullMatrix<double> matrix(6, 6);
       for (unsigned int i = 0; i < 6; ++i)

@@ -37,11 +37,11 @@ namespace mortise
       {
         const BodyParameters &body = parameters.bodies[b];
         bodies.push_back(
-          std::make_unique<Body>(body.name, b, materials(parameters)[b], comm));
-        bodies[b]->create_mesh(body.mesh, "Body " + body.name + ", Mesh");
-        n_cells += bodies[b]->triangulation.n_global_active_cells();
+          std::make_unique<Body>(body.name, b, materials(parameters)[b]));
+        bodies[b]->create_mesh(body.mesh, comm, "Body " + body.name + ", Mesh");
+        n_cells += bodies[b]->triangulation().n_global_active_cells();
         boundary_names.emplace_back();
-        for (const auto &name : bodies[b]->names.boundaries)
+        for (const auto &name : bodies[b]->mesh.names.boundaries)
           boundary_names.back().push_back(name.first);
       }
     check_boundary_names(parameters, boundary_names);
@@ -87,12 +87,13 @@ namespace mortise
     for (const auto &body : bodies)
       {
         const auto statistics = body->statistics();
-        step.bodies.push_back({body->name,
-                               parameters.bodies[body->index].mesh.cells,
-                               statistics.cells,
-                               statistics.degree_min,
-                               statistics.degree_max,
-                               body->dof_handler.n_dofs()});
+        step.bodies.push_back(
+          {body->name,
+           body->mesh.tetrahedra ? "tetrahedra" : "hexahedra",
+           statistics.cells,
+           statistics.degree_min,
+           statistics.degree_max,
+           body->dof_handler.n_dofs()});
       }
     unsigned int max_degree = 1;
     for (const BodySummary &body : step.bodies)
@@ -215,7 +216,7 @@ namespace mortise
     const Body &body = *bodies[master.body];
     for (const auto &[cell, f] :
          boundary_faces(body, body.boundary_id(master.boundary, "")))
-      for (const auto &component : face_dofs(body, cell, f))
+      for (const auto &component : face_dofs(cell, f))
         for (const auto dof : component)
           mark(master.body, dof);
   }

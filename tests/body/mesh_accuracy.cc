@@ -39,7 +39,7 @@ namespace
   };
 
   Errors
-  errors(const HexTriangulation &tria,
+  errors(const Triangulation<3> &tria,
          const MeshNames        &names,
          const Body             &body,
          const unsigned int      p,
@@ -196,10 +196,11 @@ namespace
       volume[max_degree + 1];
     for (unsigned int refinements = 1; refinements < 4; ++refinements)
       {
-        MeshParameters q = body.parameters;
-        q.refinements    = refinements;
-        HexTriangulation tria(MPI_COMM_WORLD);
-        const MeshNames  names = create_mesh(q, tria);
+        MeshParameters q  = body.parameters;
+        q.refinements     = refinements;
+        const Mesh  mesh  = create_mesh(q, MPI_COMM_WORLD);
+        const auto &tria  = *mesh.triangulation;
+        const auto &names = mesh.names;
         for (unsigned int p = 1; p <= max_degree; p += step)
           {
             const Errors e = errors(tria, names, body, p);
@@ -241,9 +242,10 @@ namespace
     const unsigned int p       = 4;
     MeshParameters     uniform = body.parameters, local = body.parameters;
     uniform.refinements = 3;
-    HexTriangulation tria(MPI_COMM_WORLD);
-    MeshNames        names = create_mesh(uniform, tria);
-    const double     fine  = errors(tria, names, body, p).distance;
+    const Mesh   mesh   = create_mesh(uniform, MPI_COMM_WORLD);
+    const auto  &tria   = *mesh.triangulation;
+    const auto  &names  = mesh.names;
+    const double fine   = errors(tria, names, body, p).distance;
 
     // A vertex of the curved boundary after one refinement, where the body
     // stands.
@@ -256,10 +258,10 @@ namespace
     std::ostringstream text;
     text.precision(17);
     text << corner[0] << ", " << corner[1] << ", " << corner[2] << ", 0.1, 2";
-    local.refinements = 1;
-    local.refine_near = text.str();
-    HexTriangulation refined(MPI_COMM_WORLD);
-    names = create_mesh(local, refined);
+    local.refinements      = 1;
+    local.refine_near      = text.str();
+    const Mesh  local_mesh = create_mesh(local, MPI_COMM_WORLD);
+    const auto &refined    = *local_mesh.triangulation;
     verdict(
       refined.n_global_levels() == 4 && refined.has_hanging_nodes() &&
         errors(refined, names, body, p, 3).distance < 1.000001 * fine,

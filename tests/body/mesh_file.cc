@@ -187,7 +187,7 @@ $EndElements
   }
 
   bool
-  consistently_ordered(const HexTriangulation &tria)
+  consistently_ordered(const Triangulation<3> &tria)
   {
     for (const auto &cell : tria.active_cell_iterators())
       for (const unsigned int l : cell->line_indices())
@@ -204,8 +204,9 @@ $EndElements
     MeshParameters q = file("two_cells_" + version + ".msh", content);
     q.refinements    = 1;
     validate(q, "Mesh");
-    HexTriangulation tria(MPI_COMM_WORLD);
-    const MeshNames  names = create_mesh(q, tria);
+    const Mesh  mesh  = create_mesh(q, MPI_COMM_WORLD);
+    const auto &tria  = *mesh.triangulation;
+    const auto &names = mesh.names;
     report(names.boundaries ==
                std::map<std::string, types::boundary_id>(
                  {{"12", 12}, {"bottom", 7}, {"glued face", 1}}) &&
@@ -248,8 +249,9 @@ $EndElements
   void
   check_ring(Report &report)
   {
-    HexTriangulation tria(MPI_COMM_WORLD);
-    create_mesh(file("twisted_ring.msh", twisted_ring()), tria);
+    const Mesh mesh =
+      create_mesh(file("twisted_ring.msh", twisted_ring()), MPI_COMM_WORLD);
+    const auto &tria = *mesh.triangulation;
     report(tria.n_global_active_cells() == 96 && consistently_ordered(tria),
            "a twisted ring is refined once and then consistently ordered");
   }
@@ -263,8 +265,7 @@ $EndElements
     std::string message = "(no error)";
     try
       {
-        HexTriangulation tria(MPI_COMM_WORLD);
-        create_mesh(q, tria, "Body inner, Mesh");
+        create_mesh(q, MPI_COMM_WORLD, "Body inner, Mesh");
       }
     catch (const InputError &error)
       {
@@ -339,8 +340,7 @@ main(int argc, char **argv)
   const auto message_of = [](const MeshParameters &q) {
     try
       {
-        HexTriangulation tria(MPI_COMM_WORLD);
-        create_mesh(q, tria, "Mesh");
+        create_mesh(q, MPI_COMM_WORLD, "Mesh");
       }
     catch (const InputError &error)
       {

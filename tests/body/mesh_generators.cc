@@ -47,7 +47,7 @@ namespace
   };
 
   Measures
-  measure(const HexTriangulation &tria)
+  measure(const Triangulation<3> &tria)
   {
     const MappingQ<3>   mapping(8);
     const FE_Nothing<3> fe;
@@ -93,7 +93,7 @@ namespace
   /// A face between two cells is in standard orientation or transposed, never
   /// flipped or rotated.
   bool
-  consistently_ordered(const HexTriangulation &tria)
+  consistently_ordered(const Triangulation<3> &tria)
   {
     for (const auto &cell : tria.active_cell_iterators())
       {
@@ -118,11 +118,12 @@ namespace
         const std::map<std::string, double> &areas,
         const unsigned int                   materials)
   {
-    HexTriangulation tria(MPI_COMM_WORLD);
-    const MeshNames  names = create_mesh(parameters, tria, name);
-    const Measures   m     = measure(tria);
-    double           error = 0.;
-    bool             named =
+    const Mesh     mesh  = create_mesh(parameters, MPI_COMM_WORLD, name);
+    const auto    &tria  = *mesh.triangulation;
+    const auto    &names = mesh.names;
+    const Measures m     = measure(tria);
+    double         error = 0.;
+    bool           named =
       names.boundaries.size() == areas.size() && m.areas.size() == areas.size();
     for (const auto &[boundary, area] : areas)
       {
@@ -347,8 +348,8 @@ namespace
     text << p[0] << ", " << p[1] << ", " << p[2] << ", 0.3, 2";
     q.refine_near = text.str() + "; " +
                     text.str().substr(0, text.str().find(", 0.3")) + ",1e-3,1";
-    HexTriangulation tria(MPI_COMM_WORLD);
-    create_mesh(q, tria);
+    const Mesh  mesh = create_mesh(q, MPI_COMM_WORLD);
+    const auto &tria = *mesh.triangulation;
     report.out << "cells: " << tria.n_global_active_cells() << ", levels "
                << tria.n_global_levels() << std::endl;
     double finest = 0.;
@@ -368,8 +369,7 @@ namespace
     bool refused  = false;
     try
       {
-        HexTriangulation other(MPI_COMM_WORLD);
-        create_mesh(q, other, "Body inner, Mesh");
+        create_mesh(q, MPI_COMM_WORLD, "Body inner, Mesh");
       }
     catch (const InputError &)
       {

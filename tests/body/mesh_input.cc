@@ -40,8 +40,7 @@ namespace
       }
     try
       {
-        HexTriangulation tria(MPI_COMM_WORLD);
-        create_mesh(q, tria, "Body inner, Mesh");
+        create_mesh(q, MPI_COMM_WORLD, "Body inner, Mesh");
       }
     catch (const InputError &error)
       {
@@ -98,8 +97,11 @@ main(int argc, char **argv)
   refused(make("file", {1.}, {}), {"Extent = 1; allowed: nothing"});
 
   refused_with(box,
-               [](auto &q) { q.cells = "tetrahedra"; },
-               {"not available yet"});
+               [](auto &q) {
+                 q.cells       = "tetrahedra";
+                 q.refine_near = "0, 0, 0, 1, 1";
+               },
+               {"cannot be refined locally", "Degree by region"});
   refused_with(box,
                [](auto &q) { q.cells = "hexahedron"; },
                {"did you mean 'hexahedra'"});

@@ -18,7 +18,7 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
-#include <mortise/body/simplex_constraints.h>
+#include <mortise/body/hp_constraints.h>
 #include <mortise/body/simplex_elements.h>
 
 #include <iostream>
@@ -200,7 +200,7 @@ check(const Triangulation<3> &triangulation,
   dof_handler.distribute_dofs(elements.collection);
 
   AffineConstraints<double> constraints;
-  mortise::make_simplex_constraints(dof_handler, constraints);
+  mortise::make_conformity_constraints(dof_handler, constraints);
   const MPI_Comm comm = dof_handler.get_communicator();
   IndexSet       relevant, active;
   DoFTools::extract_locally_relevant_dofs(dof_handler, relevant);

@@ -12,7 +12,7 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/sparse_matrix.h>
 
-#include <mortise/body/simplex_constraints.h>
+#include <mortise/body/hp_constraints.h>
 #include <mortise/body/simplex_elements.h>
 #include <mortise/body/simplex_mapping.h>
 #include <mortise/body/simplex_quadrature.h>
@@ -66,7 +66,7 @@ projection_errors(const unsigned int p, const unsigned int n, const bool curved)
     cell->set_active_fe_index(elements.index(cell, p));
   dof_handler.distribute_dofs(elements.collection);
   AffineConstraints<double> constraints;
-  mortise::make_simplex_constraints(dof_handler, constraints);
+  mortise::make_conformity_constraints(dof_handler, constraints);
   constraints.close();
   DynamicSparsityPattern pattern(dof_handler.n_dofs());
   DoFTools::make_sparsity_pattern(dof_handler, pattern, constraints);

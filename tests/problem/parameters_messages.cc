@@ -353,9 +353,9 @@ namespace
     check_setting("negative refinements",
                   "Body inner/Mesh/Refinements=-1",
                   {"Refinements", "got \"-1\"", "0 or more"});
-    check_setting("tetrahedra",
-                  "Body inner/Mesh/Cells=tetrahedra",
-                  {"Body inner/Mesh/Cells", "not available yet", "hexahedra"});
+    check_setting("cells that do not exist",
+                  "Body inner/Mesh/Cells=tetrahedrons",
+                  {"Body inner/Mesh/Cells", "tetrahedrons", "hexahedra"});
     check_setting("radii in the wrong order",
                   "Body inner/Mesh/Extent=2, 1",
                   {"Body inner/Mesh", "Extent", "r_in < r_out"});

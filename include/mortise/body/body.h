@@ -7,7 +7,7 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
-#include <deal.II/fe/mapping_q_cache.h>
+#include <deal.II/fe/mapping.h>
 
 #include <deal.II/hp/fe_collection.h>
 
@@ -33,13 +33,14 @@ namespace mortise
     /// @p index is the position of the body in the scene.
     Body(const std::string   &name,
          unsigned int         index,
-         const LinearElastic &material,
-         MPI_Comm             comm);
+         const LinearElastic &material);
 
-    /// Mesh of the body. Collective; throws InputError (@p where starts the
+    /// Mesh of the body, spread over @p comm. Collective; throws InputError (@p where starts the
     /// message).
     void
-    create_mesh(const MeshParameters &parameters, const std::string &where);
+    create_mesh(const MeshParameters &parameters,
+                MPI_Comm              comm,
+                const std::string    &where);
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
     /// of a cell; mapping of the largest degree on curved meshes; conformity
@@ -50,6 +51,12 @@ namespace mortise
       unsigned int                                          degree,
       const std::map<dealii::types::material_id, unsigned> &degree_by_region,
       const std::string                                    &where);
+
+    const dealii::parallel::DistributedTriangulationBase<dim> &
+    triangulation() const
+    {
+      return *mesh.triangulation;
+    }
 
     /// Degree of the displacement on @p cell.
     unsigned int
@@ -72,18 +79,25 @@ namespace mortise
     Statistics
     statistics() const;
 
+    /// Largest degree of the space.
+    unsigned int
+    max_degree() const
+    {
+      return fe[fe.size() - 1].degree;
+    }
+
     const std::string   name;
     const unsigned int  index;
     const LinearElastic material;
 
-    HexTriangulation triangulation;
-    MeshNames        names;
-    bool             curved = false;  ///< not meshed by trilinear cells
-    dealii::hp::FECollection<dim> fe; ///< FESystem(FE_Legendre(p), 3), rising p
+    Mesh mesh; ///< first among what refers to it
+    /// Systems of three FE_Legendre or FE_SimplexLegendre (two orders of
+    /// vertices each), rising degree.
+    dealii::hp::FECollection<dim> fe;
     dealii::DoFHandler<dim>       dof_handler;
 
-    std::unique_ptr<dealii::MappingQCache<dim>> mapping;
-    unsigned int                                mapping_degree = 1;
+    std::unique_ptr<dealii::Mapping<dim>> mapping;
+    unsigned int                          mapping_degree = 1;
 
     dealii::IndexSet
       relevant_dofs; ///< of owned and ghost cells, and their masters
@@ -91,5 +105,9 @@ namespace mortise
       conformity; ///< hanging nodes and mixed degrees; left open
     std::unique_ptr<EntityDegrees>
       degrees; ///< of edges and faces, by the minimum rule
+
+  private:
+    void
+    create_mapping();
   };
 } // namespace mortise

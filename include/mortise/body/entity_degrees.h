@@ -11,7 +11,8 @@
 namespace mortise
 {
   /// Degrees of edges and faces by the minimum rule, for a DoFHandler whose
-  /// elements are FE_Legendre or FESystem(FE_Legendre(p), n). The space is
+  /// elements are FE_Legendre, FE_SimplexLegendre (as in SimplexElements; one
+  /// level, no hanging nodes) or systems of one of them. The space is
   ///
   /// - cell interiors: all modes of the cell's degree;
   /// - faces, edges: modes up to the least degree of all cells that touch them
@@ -39,9 +40,9 @@ namespace mortise
     unsigned int
     quad_degree(const CellIterator &cell, unsigned int f) const;
 
-    /// Whether all cells of all ranks have one element: degrees are then those
-    /// of the cells and get_master_dofs() gives the cell's own degrees of
-    /// freedom.
+    /// Whether all cells of all ranks have one degree, and not more than two
+    /// orders of vertices: get_master_dofs() then gives the cell's own degrees
+    /// of freedom.
     bool
     one_degree() const
     {
@@ -74,6 +75,16 @@ namespace mortise
     exchange_degrees();
     void
     lower(unsigned char &element, unsigned int candidate) const;
+    void
+    get_quadrilateral_masters(
+      const CellIterator                           &cell,
+      unsigned int                                  f,
+      std::vector<dealii::types::global_dof_index> &masters) const;
+    void
+    get_triangle_masters(
+      const CellIterator                           &cell,
+      unsigned int                                  f,
+      std::vector<dealii::types::global_dof_index> &masters) const;
 
     const dealii::DoFHandler<3> &dof_handler;
     bool                         uniform;

@@ -1,7 +1,7 @@
 // The hierarchical finite element of degree 1..8 on tetrahedra, for FEValues,
 // FEFaceValues, FESystem and hp::FECollection. Its degrees of freedom are
 // modes, not values at points. It never builds constraints of a mesh (see
-// simplex_constraints.h) and knows no refinement.
+// hp_constraints.h) and knows no refinement.
 #pragma once
 
 #include <deal.II/fe/fe_poly.h>

@@ -1,6 +1,7 @@
-// Constraints that make hp spaces of FE_Legendre conforming on meshes with
-// hanging nodes and mixed degrees, by the minimum rule, on any number of ranks.
-// It never applies boundary conditions and never changes a mesh.
+// Constraints that make hp spaces of FE_Legendre (hexahedra, with hanging
+// nodes) and FE_SimplexLegendre (tetrahedra) conforming where degrees are
+// mixed, by the minimum rule, on any number of ranks. It never applies boundary
+// conditions and never changes a mesh.
 #pragma once
 
 #include <deal.II/grid/tria.h>
@@ -13,9 +14,15 @@
 
 namespace mortise
 {
-  /// Conforming hp and hanging-node constraints of @p dof_handler, whose elements are FE_Legendre
-  /// or FESystem(FE_Legendre(p), n), on serial and parallel::distributed
-  /// triangulations whose cells are consistently ordered. Collective.
+  /// Conforming hp and hanging-node constraints of @p dof_handler, whose elements are as for
+  /// EntityDegrees: hexahedra that are consistently ordered, on serial or
+  /// parallel::distributed triangulations; tetrahedra on serial or distributed
+  /// ones with a layer of ghost cells. Collective.
+  ///
+  /// Most of the equalities between modes of tetrahedra deal.II makes itself
+  /// by giving equal modes one index (all of them where the cells have one
+  /// degree and two orders of vertices); where more than two elements meet,
+  /// some remain to be made here.
   ///
   /// @p constraints is initialised here, so this comes first; its set of lines holds the locally
   /// relevant degrees of freedom and every one that the constraints of this

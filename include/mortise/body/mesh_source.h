@@ -3,11 +3,14 @@
 // parameter file itself.
 #pragma once
 
+#include <deal.II/distributed/tria_base.h>
+
 #include <mortise/base/rigid_motion.h>
 #include <mortise/base/types.h>
 
 #include <array>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -113,13 +116,25 @@ namespace mortise
   std::vector<std::string>
   boundary_names(const MeshParameters &parameters);
 
-  /// Fill the empty @p triangulation: coarse mesh, manifolds on all entities, motion, global and
-  /// local refinement. Cells are consistently ordered; coarse mesh the same on
-  /// every rank. The manifolds live in the triangulation. Collective; throws
-  /// InputError on all ranks alike.
-  MeshNames
+  /// A distributed mesh and what belongs to it. The manifolds live in the
+  /// triangulation.
+  struct Mesh
+  {
+    std::unique_ptr<dealii::parallel::DistributedTriangulationBase<dim>>
+              triangulation;
+    MeshNames names;
+    bool      tetrahedra = false;
+    bool      curved     = false; ///< not all faces are straight
+  };
+
+  /// Make the mesh: coarse mesh, manifolds on all entities, motion, global and
+  /// local refinement. Hexahedra are consistently ordered and spread by p4est,
+  /// tetrahedra have the orders of order_vertices() and are spread by METIS;
+  /// the coarse mesh is the same on every rank. Collective; throws InputError
+  /// on all ranks alike.
+  Mesh
   create_mesh(const MeshParameters &parameters,
-              HexTriangulation     &triangulation,
+              MPI_Comm              comm,
               const std::string    &where = "Mesh");
 
   /// The motion "Rotate" then "Translate".

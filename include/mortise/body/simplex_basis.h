@@ -75,12 +75,10 @@ namespace mortise
     /// Functions on a face: those of its vertices in ascending order, of the
     /// lines between the first and second, first and third, second and third,
     /// of the face; the same for all orders of vertices and all faces.
-    /// @p lambda: barycentric coordinates of the ascending vertices;
-    /// @p derivatives: with respect to the second and third of them.
+    /// @p lambda: barycentric coordinates of the ascending vertices; @p values
+    /// has room for them. No allocation.
     void
-    evaluate_trace(const std::array<double, 3>       &lambda,
-                   std::vector<double>               &values,
-                   std::vector<dealii::Tensor<1, 2>> &derivatives) const;
+    evaluate_trace(const std::array<double, 3> &lambda, double *values) const;
 
     double
     compute_value(unsigned int i, const dealii::Point<3> &point) const override;

@@ -3,6 +3,8 @@
 // hexahedra. It never moves a vertex and never changes a manifold.
 #pragma once
 
+#include <deal.II/base/scalar_polynomials_base.h>
+
 #include <deal.II/fe/mapping_fe.h>
 
 #include <memory>
@@ -30,6 +32,17 @@ namespace mortise
     std::unique_ptr<dealii::Mapping<3>>
     clone() const override;
 
+    /// The same as the base class, but quick, and without the second
+    /// derivatives that it wants. Also outside of the cell.
+    dealii::Point<3>
+    transform_unit_to_real_cell(const CellIterator     &cell,
+                                const dealii::Point<3> &point) const override;
+
+    /// By Newton's method. Throws ExcTransformationFailed.
+    dealii::Point<3>
+    transform_real_to_unit_cell(const CellIterator     &cell,
+                                const dealii::Point<3> &point) const override;
+
   protected:
     std::vector<dealii::Point<3>>
     compute_mapping_support_points(const CellIterator &cell) const override;
@@ -38,6 +51,7 @@ namespace mortise
     using Points = std::vector<std::vector<dealii::Point<3>>>;
 
     /// By active cell index; shared by all clones.
-    std::shared_ptr<const Points> points;
+    std::shared_ptr<const Points>                           points;
+    std::shared_ptr<const dealii::ScalarPolynomialsBase<3>> nodal;
   };
 } // namespace mortise

@@ -7,6 +7,7 @@
 
 #include <mortise/body/body.h>
 #include <mortise/body/numbering.h>
+#include <mortise/body/trace_basis.h>
 #include <mortise/interface/surface_face.h>
 
 #include <vector>
@@ -14,11 +15,11 @@
 namespace mortise
 {
   /// Displacement on one face: u_c(xi) = sum_k N_k(xi) (sum_j weight_j
-  /// d_column_j + constant), with N_k, k = i + (degree + 1) j, the tensor
-  /// products of the 1D functions of legendre_basis.h and row = c (degree +
-  /// 1)^2 + k. Constraints of the body are resolved.
+  /// d_column_j + constant), with N_k the functions of basis() and row = c
+  /// n_functions() + k. Constraints of the body are resolved.
   struct FaceTrace
   {
+    FaceShape                 shape   = FaceShape::quadrilateral;
     unsigned int              degree  = 1;
     double                    modulus = 1.; ///< Young's modulus behind the face
     std::vector<unsigned int> begin; ///< by row, one past the end included
@@ -27,17 +28,25 @@ namespace mortise
     std::vector<double> weight;
     std::vector<double> constant; ///< by row: prescribed displacements
 
+    const TraceBasis &
+    basis() const
+    {
+      return trace_basis(shape, degree);
+    }
+
     unsigned int
     n_functions() const
     {
-      return (degree + 1) * (degree + 1);
+      return basis().size();
     }
 
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)
     {
-      archive &degree &modulus &begin &column &weight &constant;
+      int shape_number = static_cast<int>(shape);
+      archive &shape_number &degree &modulus &begin &column &weight &constant;
+      shape = static_cast<FaceShape>(shape_number);
     }
   };
 
@@ -64,7 +73,5 @@ namespace mortise
   /// Dofs (numbering of the body's DoFHandler) of the face functions of
   /// component c: entry [c][k], k as in FaceTrace.
   std::array<std::vector<dealii::types::global_dof_index>, dim>
-  face_dofs(const Body               &body,
-            const Body::CellIterator &cell,
-            unsigned int              face_number);
+  face_dofs(const Body::CellIterator &cell, unsigned int face_number);
 } // namespace mortise

@@ -18,9 +18,8 @@ namespace mortise
       can_follow{}; ///< by component: some displacement there is free
   };
 
-  /// A slave face of an owned or ghost cell. Edges are named by [a][side]: for
-  /// degrees, the edge
-  /// along face coordinate a at @p side of the other one; for rims, the edge at a = side.
+  /// A slave face of an owned or ghost cell. Vertices and edges are numbered as
+  /// in the basis.
   struct MultiplierFace
   {
     enum class Status : unsigned char
@@ -30,16 +29,17 @@ namespace mortise
       full
     };
 
-    unsigned int degree = 1;
-    Status       status = Status::full;
-    bool         can_follow[dim]; ///< as in PartnerState
+    const TraceBasis *basis;
+    Status            status = Status::full;
+    bool              can_follow[dim]; ///< as in PartnerState
     std::array<std::vector<dealii::types::global_dof_index>, dim>
                  dofs; ///< [c][k] as in FaceTrace
-    unsigned int edge_degree[2][2];
-    unsigned int quad_degree = 1;
-    bool         rim[dim][2]
-            [2]; ///< [c][a][side]: all displacements of the edge are prescribed
-    bool blocked_vertex[dim][4]; ///< [c][i + 2 j]: prescribed, or hanging
+    unsigned int edge_degree[4];
+    unsigned int face_degree = 1;
+    /// [c][edge]: all displacements of the edge are prescribed.
+    bool rim[dim][4] = {};
+    /// [c][vertex]: prescribed, or hanging.
+    bool blocked_vertex[dim][4] = {};
   };
 
   /// The faces with id @p boundary of owned and ghost cells. Parameters as for MultiplierSpace.

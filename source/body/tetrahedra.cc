@@ -1,0 +1,139 @@
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/grid_tools.h>
+#include <deal.II/grid/tria_description.h>
+
+#include <mortise/body/tetrahedra.h>
+#include <mortise/body/vertex_order.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Triangle = std::array<unsigned int, 3>;
+
+    /// @p quad: vertices in deal.II's order.
+    std::array<Triangle, 2>
+    cut_quadrilateral(const std::array<unsigned int, 4> &quad)
+    {
+      std::array<unsigned int, 4> around = {
+        {quad[0], quad[1], quad[3], quad[2]}};
+      std::rotate(around.begin(),
+                  std::min_element(around.begin(), around.end()),
+                  around.end());
+      return {{{{around[0], around[1], around[2]}},
+               {{around[0], around[2], around[3]}}}};
+    }
+
+    void
+    cut_hexahedron(const CellData<3>        &hexahedron,
+                   std::vector<CellData<3>> &cells)
+    {
+      const auto        &vertices = hexahedron.vertices;
+      const unsigned int lowest =
+        *std::min_element(vertices.begin(), vertices.end());
+      for (const unsigned int f : GeometryInfo<3>::face_indices())
+        {
+          std::array<unsigned int, 4> face;
+          for (unsigned int v = 0; v < 4; ++v)
+            face[v] = vertices[GeometryInfo<3>::face_to_cell_vertices(f, v)];
+          if (std::find(face.begin(), face.end(), lowest) == face.end())
+            for (const Triangle &base : cut_quadrilateral(face))
+              {
+                CellData<3> cell(4);
+                cell.vertices    = {lowest, base[0], base[1], base[2]};
+                cell.material_id = hexahedron.material_id;
+                cells.push_back(cell);
+              }
+        }
+    }
+  } // namespace
+
+  CoarseMesh
+  cut_into_tetrahedra(CoarseMesh mesh)
+  {
+    std::vector<CellData<3>> cells;
+    for (const CellData<3> &cell : mesh.cells)
+      cut_hexahedron(cell, cells);
+    mesh.cells.swap(cells);
+
+    std::vector<CellData<2>> triangles;
+    for (const CellData<2> &quad : mesh.faces.boundary_quads)
+      for (const Triangle &part : cut_quadrilateral({{quad.vertices[0],
+                                                      quad.vertices[1],
+                                                      quad.vertices[2],
+                                                      quad.vertices[3]}}))
+        {
+          CellData<2> triangle(3);
+          std::copy(part.begin(), part.end(), triangle.vertices.begin());
+          triangle.boundary_id = quad.boundary_id;
+          triangles.push_back(triangle);
+        }
+    mesh.faces.boundary_quads.swap(triangles);
+    mesh.faces.boundary_lines.clear();
+    return mesh;
+  }
+
+  namespace
+  {
+    void
+    create_serial(const CoarseMesh &mesh, Triangulation<3> &triangulation)
+    {
+      triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
+      if (mesh.manifold != nullptr)
+        {
+          triangulation.set_all_manifold_ids(0);
+          triangulation.set_manifold(0, *mesh.manifold);
+        }
+    }
+  } // namespace
+
+  CoarseMesh
+  refine_uniformly(CoarseMesh mesh, const unsigned int times)
+  {
+    if (times == 0)
+      return mesh;
+    Triangulation<3> serial, flat;
+    create_serial(mesh, serial);
+    serial.refine_global(times);
+    GridGenerator::flatten_triangulation(serial, flat);
+    std::tie(mesh.vertices, mesh.cells, mesh.faces) =
+      GridTools::get_coarse_mesh_description(flat);
+    return mesh;
+  }
+
+  std::unique_ptr<parallel::DistributedTriangulationBase<3>>
+  distribute_tetrahedra(const CoarseMesh &mesh, const MPI_Comm comm)
+  {
+    CoarseMesh ordered;
+    ordered.vertices = mesh.vertices;
+    ordered.cells    = mesh.cells;
+    ordered.faces    = mesh.faces;
+    if (mesh.manifold != nullptr)
+      ordered.manifold = mesh.manifold->clone();
+    order_vertices(ordered.vertices, ordered.cells);
+    Triangulation<3> serial;
+    create_serial(ordered, serial);
+
+    // METIS does not take more parts than cells
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    GridTools::partition_triangulation(
+      std::min<unsigned int>(n_ranks, serial.n_active_cells()), serial);
+
+    auto triangulation =
+      std::make_unique<parallel::fullydistributed::Triangulation<3>>(comm);
+    if (ordered.manifold != nullptr)
+      triangulation->set_manifold(0, *ordered.manifold);
+    triangulation->create_triangulation(
+      TriangulationDescription::Utilities::
+        create_description_from_triangulation(serial, comm));
+    return triangulation;
+  }
+} // namespace mortise

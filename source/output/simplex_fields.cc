@@ -1,0 +1,160 @@
+#include <deal.II/fe/fe_values.h>
+
+#include <mortise/output/patches.h>
+#include <mortise/output/simplex_fields.h>
+
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Displacement and stress at the points of @p values, as the fields are announced.
+    std::vector<std::vector<double>>
+    evaluate_cell(const Body::CellIterator &cell,
+                  const FEValues<dim>      &values,
+                  const BodyVector         &displacement,
+                  const LinearElastic      &material,
+                  const FieldSelection     &selection)
+    {
+      const auto                          &fe = cell->get_fe();
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      std::vector<std::vector<double>> data(values.n_quadrature_points);
+      for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+        {
+          Tensor<1, dim> u;
+          Tensor<2, dim> gradient;
+          for (unsigned int i = 0; i < values.dofs_per_cell; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                const double coefficient =
+                  displacement(dofs[fe.component_to_system_index(c, i)]);
+                u[c] += coefficient * values.shape_value(i, q);
+                gradient[c] += coefficient * values.shape_grad(i, q);
+              }
+          if (selection.displacement)
+            data[q].insert(data[q].end(), u.begin_raw(), u.end_raw());
+          if (selection.stress)
+            {
+              const auto stress = material.stress(symmetrize(gradient));
+              for (unsigned int i = 0; i < dim; ++i)
+                for (unsigned int j = 0; j < dim; ++j)
+                  data[q].push_back(stress[i][j]);
+              data[q].push_back(std::sqrt(1.5) * deviator(stress).norm());
+            }
+        }
+      return data;
+    }
+  } // namespace
+
+  void
+  write_tetrahedra(const Body           &body,
+                   const BodyVector     &displacement,
+                   const FieldSelection &selection,
+                   const std::string    &directory)
+  {
+    SimplexPatches<dim> output(body.max_degree());
+    if (selection.displacement)
+      output.add_field("displacement", dim);
+    if (selection.stress)
+      {
+        output.add_field("stress", dim * dim);
+        output.add_field("von_mises", 1);
+      }
+    const Quadrature<dim> points(output.lattice.points);
+
+    std::map<unsigned int, std::unique_ptr<FiniteElement<dim>>> elements;
+    std::map<unsigned int, std::unique_ptr<FEValues<dim>>>      all_values;
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          auto &values = all_values[cell->active_fe_index()];
+          if (!values)
+            {
+              auto &element = elements[cell->active_fe_index()];
+              element       = cell->get_fe().base_element(0).clone();
+              values =
+                std::make_unique<FEValues<dim>>(*body.mapping,
+                                                *element,
+                                                points,
+                                                update_values |
+                                                  update_gradients |
+                                                  update_quadrature_points);
+            }
+          values->reinit(Triangulation<dim>::cell_iterator(cell));
+          output.add_simplex(values->get_quadrature_points(),
+                             evaluate_cell(cell,
+                                           *values,
+                                           displacement,
+                                           body.material,
+                                           selection));
+        }
+    output.write_vtu_in_parallel(directory + "/" + body.name + ".vtu",
+                                 body.triangulation().get_communicator());
+  }
+
+  namespace
+  {
+    /// Append @p factor times the field with @p coefficients at the point where the functions have
+    /// @p values.
+    void
+    append_field(const std::vector<double> &values,
+                 const std::vector<double> &coefficients,
+                 const double               factor,
+                 std::vector<double>       &data)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          double sum = 0.;
+          if (!coefficients.empty())
+            for (unsigned int k = 0; k < values.size(); ++k)
+              sum += values[k] * coefficients[c * values.size() + k];
+          data.push_back(factor * sum);
+        }
+    }
+  } // namespace
+
+  void
+  write_triangles(const FieldFile                        &file,
+                  const BodySurface                      &surface,
+                  const std::vector<std::vector<double>> &multiplier,
+                  const std::vector<std::vector<double>> &gap,
+                  const BodyVector                       &displacement)
+  {
+    unsigned int degree = 1;
+    for (const FaceTrace &trace : surface.traces)
+      degree = std::max(degree, trace.degree);
+    SimplexPatches<2> output(Utilities::MPI::max(degree, file.comm));
+    for (const char *name : {"traction", "gap", "displacement"})
+      output.add_field(name, dim);
+
+    for (unsigned int s = 0; s < surface.faces.size(); ++s)
+      {
+        std::vector<double> on_face;
+        for (const auto &component :
+             face_dofs(surface.cells[s], surface.face_numbers[s]))
+          for (const auto dof : component)
+            on_face.push_back(displacement(dof));
+
+        const TraceBasis                &basis = surface.traces[s].basis();
+        std::vector<double>              values(basis.size());
+        std::vector<Point<dim>>          positions;
+        std::vector<std::vector<double>> data;
+        for (const Point<2> &xi : output.lattice.points)
+          {
+            basis.evaluate(xi[0], xi[1], values.data());
+            positions.push_back(face_point(surface.faces[s], xi));
+            data.emplace_back();
+            append_field(values, multiplier[s], -1., data.back());
+            append_field(values, gap[s], 1., data.back());
+            append_field(values, on_face, 1., data.back());
+          }
+        output.add_simplex(positions, data);
+      }
+    output.write_vtu_in_parallel(file.directory + "/" + file.name + ".vtu",
+                                 file.comm);
+  }
+} // namespace mortise
