@@ -1,14 +1,20 @@
-#include <deal.II/grid/grid_in.h>
-#include <deal.II/grid/grid_tools.h>
-#include <deal.II/grid/tria.h>
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
 
 #include <mortise/base/error.h>
 #include <mortise/body/mesh_file.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
-#include <tuple>
+
+#include "mesh_file_parts.h"
 
 namespace mortise
 {
@@ -16,195 +22,220 @@ namespace mortise
 
   namespace
   {
-    [[noreturn]] void
-    fail(const std::string &where,
-         const std::string &file_name,
-         const std::string &what)
+    std::string
+    file_problem(const std::string &where,
+                 const std::string &file_name,
+                 const std::string &what)
     {
-      throw InputError(where + ": the mesh file '" + file_name + "' " + what);
+      return where + ": the mesh file '" + file_name + "' " + what;
     }
 
-    /// Read $PhysicalNames: a count, then lines: dimension tag "name".
-    void
-    read_names(std::istream &in, MeshFileSections &sections)
+    bool
+    is_mesh_file(const std::string &file_name)
     {
-      std::size_t n = 0;
-      in >> n;
-      for (std::size_t i = 0; i < n && in; ++i)
-        {
-          int         dimension = 0, tag = 0;
-          std::string line;
-          in >> dimension >> tag;
-          std::getline(in, line);
-          const std::size_t begin = line.find('"'), end = line.rfind('"');
-          if (!in || begin == std::string::npos || end <= begin)
-            continue;
-          const std::string name = line.substr(begin + 1, end - begin - 1);
-          if (dimension == 2)
-            sections.surface_names[tag] = name;
-          else if (dimension == 3)
-            sections.volume_names[tag] = name;
-        }
+      return std::filesystem::path(file_name).extension() == ".msh";
     }
 
-    /// Count the elements by type. Version 2: a count, then a line per element:
-    /// index type ...; version 4.1: blocks, each headed by: dimension tag type
-    /// count.
+    /// What a whole .msh file has, so that a damaged one is not left to the
+    /// library, which says less.
     void
-    read_elements(std::istream     &in,
-                  const double      version,
-                  MeshFileSections &sections)
+    check_sections(const std::string &content, const FileError &fail)
     {
-      std::string line;
-      std::size_t n = 0;
-      std::getline(in, line);
-      std::istringstream(line) >> n;
-      for (std::size_t i = 0; i < n && std::getline(in, line); ++i)
-        {
-          std::istringstream numbers(line);
-          int                first = 0, second = 0, type = 0;
-          std::size_t        count = 1;
-          if (version < 4.)
-            numbers >> first >> type;
-          else
-            {
-              numbers >> first >> second >> type >> count;
-              for (std::size_t skipped = 0; skipped < count; ++skipped)
-                std::getline(in, line);
-            }
-          sections.elements[type] += count;
-        }
-    }
-
-    /// gmsh's element types that a mesh of hexahedra may hold, and names for
-    /// some others.
-    void
-    check_elements(const MeshFileSections &sections,
-                   const std::string      &file_name,
-                   const std::string      &where)
-    {
-      static const std::map<int, std::string> others = {
-        {2, "triangles"},
-        {4, "tetrahedra"},
-        {6, "prisms"},
-        {7, "pyramids"},
-        {10, "9-node quadrilaterals"},
-        {11, "10-node tetrahedra"},
-        {12, "27-node hexahedra"},
-        {16, "8-node quadrilaterals"},
-        {17, "20-node hexahedra"}};
-      for (const auto &[type, count] : sections.elements)
-        if (type != 1 && type != 3 && type != 5 && type != 15)
-          {
-            const auto name = others.find(type);
-            fail(
-              where,
-              file_name,
-              "holds " + std::to_string(count) + " " +
-                (name != others.end() ?
-                   name->second :
-                   "elements of gmsh's type " + std::to_string(type)) +
-                "; allowed: 8-node hexahedra with 4-node quadrilaterals on the boundary "
-                "(in gmsh: recombine, transfinite or extruded volumes, first order)");
-          }
-      if (sections.elements.count(5) == 0)
+      if (content.compare(0, 11, "$MeshFormat") != 0)
         fail(
-          where,
-          file_name,
-          "holds no volume elements; allowed: a mesh of 8-node hexahedra (were all elements "
-          "saved, or a physical volume defined?)");
+          "does not begin with $MeshFormat; allowed: gmsh's .msh format, version 2.2 or 4.1");
+      std::istringstream header(content.substr(11, 100));
+      std::string        version, binary;
+      header >> version >> binary;
+      if ((version != "2.2" && version != "4.1") ||
+          (binary != "0" && binary != "1"))
+        fail("has format version " + version +
+             "; allowed: 2.2 or 4.1, ASCII or binary (gmsh -format msh41)");
+      for (const std::string section : {"Nodes", "Elements"})
+        if (content.find("$End" + section) == std::string::npos)
+          fail("ends before $End" + section + "; allowed: a complete file");
+    }
+
+    GmshModel
+    read_model(const MeshParameters &parameters, const std::string &where)
+    {
+      const std::string file =
+        located_file(parameters.file, parameters.directory);
+      const FileError fail = [&](const std::string &what) {
+        throw InputError(file_problem(where, file, what));
+      };
+      std::ifstream     in(file, std::ios::binary);
+      const std::string content((std::istreambuf_iterator<char>(in)),
+                                std::istreambuf_iterator<char>());
+      if (!std::filesystem::is_regular_file(file) || !in.is_open() || in.bad())
+        fail("cannot be read; does it exist, and is it readable?");
+      if (content.empty())
+        fail("is empty");
+      if (is_mesh_file(file))
+        check_sections(content, fail);
+      try
+        {
+          return read_gmsh_model(file, parameters.mesh_size);
+        }
+      catch (const std::runtime_error &error)
+        {
+          fail((is_mesh_file(file) ? "is not a complete mesh; gmsh says: " :
+                                     "cannot be meshed; gmsh says: ") +
+               std::string(error.what()));
+        }
+      return {};
+    }
+
+    CoarseMesh
+    read_part(const MeshParameters &parameters, const std::string &where)
+    {
+      const FileError fail = [&](const std::string &what) {
+        throw InputError(file_problem(where, parameters.file, what));
+      };
+      CoarseMesh mesh =
+        select_part(read_model(parameters, where), parameters, fail);
+      check_volumes(mesh, fail);
+      check_coinciding_nodes(mesh, fail);
+      return mesh;
+    }
+
+    /// A coarse mesh on its way to other ranks.
+    struct Package
+    {
+      std::vector<double>      vertices, nodes;
+      std::vector<CellData<3>> cells;
+      std::vector<CellData<2>> faces;
+      MeshNames                names;
+      unsigned int             nodes_per_cell = 0;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &vertices &nodes &cells &faces &names.boundaries &names
+          .materials &nodes_per_cell;
+      }
+    };
+
+    std::vector<double>
+    coordinates(const std::vector<Point<3>> &points)
+    {
+      std::vector<double> result;
+      for (const Point<3> &x : points)
+        result.insert(result.end(), x.begin_raw(), x.end_raw());
+      return result;
+    }
+
+    std::vector<Point<3>>
+    points(const std::vector<double> &coordinates)
+    {
+      std::vector<Point<3>> result;
+      for (std::size_t i = 0; i < coordinates.size(); i += 3)
+        result.emplace_back(coordinates[i],
+                            coordinates[i + 1],
+                            coordinates[i + 2]);
+      return result;
+    }
+
+    CoarseMesh
+    broadcast(const CoarseMesh &mesh, const MPI_Comm comm)
+    {
+      Package package;
+      package.vertices = coordinates(mesh.vertices);
+      package.cells    = mesh.cells;
+      package.faces    = mesh.faces.boundary_quads;
+      package.names    = mesh.names;
+      if (mesh.geometry != nullptr)
+        {
+          package.nodes_per_cell = mesh.geometry->nodes_per_cell;
+          package.nodes          = coordinates(mesh.geometry->nodes);
+        }
+      package = Utilities::MPI::broadcast(comm, package);
+      CoarseMesh result;
+      result.vertices             = points(package.vertices);
+      result.cells                = package.cells;
+      result.faces.boundary_quads = package.faces;
+      result.names                = package.names;
+      if (package.nodes_per_cell > 0)
+        result.geometry =
+          std::make_shared<CoarseGeometry>(package.nodes_per_cell,
+                                           points(package.nodes));
+      return result;
+    }
+
+    void
+    move(CoarseMesh &mesh, const RigidMotion &motion)
+    {
+      for (Point<3> &vertex : mesh.vertices)
+        vertex = motion(vertex);
+      if (mesh.geometry != nullptr)
+        {
+          auto moved = std::make_shared<CoarseGeometry>(*mesh.geometry);
+          moved->move(motion);
+          mesh.geometry = moved;
+        }
     }
   } // namespace
 
-  MeshFileSections
-  scan_mesh_file(const std::string &file_name, const std::string &where)
+  std::string
+  located_file(const std::string &file_name, const std::string &directory)
   {
-    if (file_name.empty())
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::path  beside = fs::path(directory) / file_name;
+    return !fs::exists(file_name, none) && fs::exists(beside, none) ?
+             beside.string() :
+             file_name;
+  }
+
+  void
+  check_file_parameters(const MeshParameters &parameters,
+                        const std::string    &where)
+  {
+    const std::string &file = parameters.file;
+    if (file.empty())
       throw InputError(
-        where + ": Source = file needs File = the name of a gmsh file (.msh)");
-    std::ifstream in(file_name);
-    std::string   line;
-    if (!in || (std::getline(in, line), in.bad()))
-      fail(where,
-           file_name,
-           "cannot be read; does it exist, and is it readable?");
-    if (line.substr(0, 11) != "$MeshFormat")
-      fail(
+        where +
+        ": Source = file needs File = the name of a gmsh file (.msh, .geo) or of a CAD file "
+        "(.step, .stp, .brep)");
+    if (!is_mesh_file(file) && !is_geometry_file(file))
+      throw InputError(file_problem(
         where,
-        file_name,
-        "does not begin with $MeshFormat; allowed: gmsh's .msh format, version 2.2 or 4.1, "
-        "ASCII");
-    double version = 0.;
-    int    binary  = 1;
-    in >> version >> binary;
-    if ((version != 2.2 && version != 4.1) || binary != 0)
-      fail(
-        where,
-        file_name,
-        "has format version " + std::to_string(version).substr(0, 3) +
-          (binary != 0 ? ", binary" : ", ASCII") +
-          "; allowed: version 2.2 or 4.1, ASCII (gmsh -format msh41 -bin 0)");
-    MeshFileSections sections;
-    bool             nodes = false, elements = false;
-    while (std::getline(in, line))
-      if (line.substr(0, 9) == "$EndNodes")
-        nodes = true;
-      else if (line.substr(0, 12) == "$EndElements")
-        elements = true;
-      else if (line.substr(0, 14) == "$PhysicalNames")
-        read_names(in, sections);
-      else if (line.substr(0, 9) == "$Elements")
-        read_elements(in, version, sections);
-    if (!nodes || !elements)
-      fail(where,
-           file_name,
-           std::string("ends before ") +
-             (nodes ? "$EndElements" : "$EndNodes") +
-             "; allowed: a complete file");
-    check_elements(sections, file_name, where);
-    return sections;
+        file,
+        "has a name of no known format; allowed: .msh, .geo, .step, .stp, .brep"));
+    const double size = parameters.mesh_size;
+    if (!(size >= 0.) || !std::isfinite(size) ||
+        (size > 0. && is_mesh_file(file)))
+      {
+        std::ostringstream message;
+        message << where << ": Mesh size = " << size << "; allowed: "
+                << (is_mesh_file(file) ?
+                      "nothing for a .msh file, which is meshed already" :
+                      "a positive length, or 0 for what the geometry says");
+        throw InputError(message.str());
+      }
   }
 
   CoarseMesh
-  read_mesh_file(const std::string &file_name, const std::string &where)
+  read_mesh_file(const MeshParameters &parameters,
+                 const std::string    &where,
+                 const MPI_Comm        comm)
   {
-    const MeshFileSections sections = scan_mesh_file(file_name, where);
-    Triangulation<3>       serial;
-    try
-      {
-        GridIn<3> grid_in(serial);
-        grid_in.read(file_name, GridIn<3>::msh);
-      }
-    catch (const std::exception &error)
-      {
-        std::string       what = error.what();
-        const std::size_t info = what.find("Additional information:");
-        what = info == std::string::npos ? "" : what.substr(info + 23);
-        what = what.substr(0, what.find("Stacktrace"));
-        std::replace(what.begin(), what.end(), '\n', ' ');
-        fail(where, file_name, "is not a complete mesh: " + what);
-      }
-    CoarseMesh mesh;
-    std::tie(mesh.vertices, mesh.cells, mesh.faces) =
-      GridTools::get_coarse_mesh_description(serial);
-    for (const auto &face : mesh.faces.boundary_quads)
-      {
-        const auto name = sections.surface_names.find(face.boundary_id);
-        if (name != sections.surface_names.end())
-          mesh.names.boundaries[name->second] = face.boundary_id;
-        else if (face.boundary_id !=
-                 0) // 0: faces that belong to no physical surface
-          mesh.names.boundaries[std::to_string(face.boundary_id)] =
-            face.boundary_id;
-      }
-    for (const auto &cell : mesh.cells)
-      {
-        const auto name = sections.volume_names.find(cell.material_id);
-        mesh.names.materials[cell.material_id] =
-          name != sections.volume_names.end() ?
-            name->second :
-            std::to_string(cell.material_id);
-      }
+    check_file_parameters(parameters, where);
+    CoarseMesh  mesh;
+    std::string problem;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      try
+        {
+          mesh = read_part(parameters, where);
+        }
+      catch (const InputError &error)
+        {
+          problem = error.what();
+        }
+    throw_if_any(problem, comm);
+    mesh = broadcast(mesh, comm);
+    move(mesh, rigid_motion(parameters));
     return mesh;
   }
 } // namespace mortise

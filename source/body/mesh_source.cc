@@ -61,6 +61,13 @@ namespace mortise
           GridGenerator::flatten_triangulation(serial, flat);
           std::tie(mesh.vertices, ordered, mesh.faces) =
             GridTools::get_coarse_mesh_description(flat);
+          if (mesh.geometry != nullptr)
+            {
+              auto refined =
+                std::make_shared<CoarseGeometry>(mesh.geometry->refined());
+              refined->place_vertices(ordered, mesh.vertices);
+              mesh.geometry = refined;
+            }
           GridTools::consistently_order_cells(ordered);
           if (!consistently_ordered(ordered))
             throw InputError(
@@ -125,18 +132,13 @@ namespace mortise
     }
 
     CoarseMesh
-    coarse_mesh(const MeshParameters &parameters, const std::string &where)
+    coarse_mesh(const MeshParameters &parameters,
+                const std::string    &where,
+                const MPI_Comm        comm)
     {
-      CoarseMesh mesh;
-      if (parameters.source == "file")
-        {
-          mesh                     = read_mesh_file(parameters.file, where);
-          const RigidMotion motion = rigid_motion(parameters);
-          for (Point<3> &vertex : mesh.vertices)
-            vertex = motion(vertex);
-        }
-      else
-        mesh = generate(parameters);
+      CoarseMesh mesh = parameters.source == "file" ?
+                          read_mesh_file(parameters, where, comm) :
+                          generate(parameters);
       if (parameters.source != "file" && parameters.cells == "tetrahedra")
         mesh = cut_into_tetrahedra(
           refine_uniformly(std::move(mesh), parameters.refinements));
@@ -215,19 +217,8 @@ namespace mortise
               const MPI_Comm        comm,
               const std::string    &where)
   {
-    // A file may be missing or damaged on some ranks only.
-    CoarseMesh  coarse;
-    std::string problem;
-    try
-      {
-        validate(parameters, where);
-        coarse = coarse_mesh(parameters, where);
-      }
-    catch (const InputError &error)
-      {
-        problem = error.what();
-      }
-    throw_if_any(problem, comm);
+    validate(parameters, where);
+    const CoarseMesh coarse = coarse_mesh(parameters, where, comm);
 
     Mesh mesh;
     mesh.names      = coarse.names;

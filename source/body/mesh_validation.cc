@@ -146,6 +146,23 @@ namespace mortise
                         "; allowed: x0 < x1, y0 < y1, z0 < z1");
     }
 
+    /// What belongs to files only.
+    void
+    validate_file(const MeshParameters &q, const Checker &check)
+    {
+      if (q.source == "file")
+        return;
+      const std::pair<std::string, std::string> given[] = {
+        {"File", q.file},
+        {"Part", q.part},
+        {"Curved boundaries", q.curved_boundaries},
+        {"Mesh size", q.mesh_size == 0. ? "" : list<double>({q.mesh_size})}};
+      for (const auto &[name, value] : given)
+        check.require(value.empty(),
+                      name + " = '" + value +
+                        "' belongs to Source = file; got Source = " + q.source);
+    }
+
     void
     validate_box(const MeshParameters &q, const Checker &check)
     {
@@ -246,13 +263,12 @@ namespace mortise
   {
     const Checker check(where);
     check.choice("Source", parameters.source, mesh_source_names());
-    check.choice("Cells", parameters.cells, {"hexahedra", "tetrahedra"});
+    check.choice("Cells",
+                 parameters.cells,
+                 {"auto", "hexahedra", "tetrahedra"});
     if (parameters.source == "curved block")
       check.choice("Half", parameters.half, {"lower", "upper", "both"});
-    check.require(parameters.source == "file" || parameters.file.empty(),
-                  "File = '" + parameters.file +
-                    "' belongs to Source = file; got Source = " +
-                    parameters.source);
+    validate_file(parameters, check);
     validate_numbers(parameters, check);
     validate_box(parameters, check);
     validate_curved_block(parameters, check);
@@ -264,7 +280,7 @@ namespace mortise
                   "Refinements and the times of Refine near make " +
                     std::to_string(levels) + " levels; allowed: 14 in all");
     check.require(
-      parameters.cells == "hexahedra" || balls.empty(),
+      parameters.cells != "tetrahedra" || balls.empty(),
       "Refine near = '" + parameters.refine_near +
         "' belongs to hexahedra, since tetrahedra cannot be refined "
         "locally; try Degree by region, Refinements, or a gmsh file "
@@ -273,7 +289,7 @@ namespace mortise
                     all_finite(parameters.translate),
                   "Rotate or Translate is not finite");
     if (parameters.source == "file")
-      scan_mesh_file(parameters.file, where);
+      check_file_parameters(parameters, where);
   }
 
   std::vector<std::string>
@@ -288,7 +304,7 @@ namespace mortise
       }
     std::vector<std::string> names;
     for (const auto &[name, id] :
-         read_mesh_file(parameters.file, "Mesh").names.boundaries)
+         read_mesh_file(parameters, "Mesh", MPI_COMM_SELF).names.boundaries)
       names.push_back(name);
     return names;
   }

@@ -61,18 +61,21 @@ namespace mortise
       mesh.extent = reader.numbers("Extent");
       for (const double n : reader.numbers("Subdivisions"))
         mesh.subdivisions.push_back(static_cast<unsigned int>(n));
-      mesh.refinements  = reader.integer("Refinements");
-      mesh.refine_near  = reader.text("Refine near");
-      mesh.file         = reader.text("File");
-      mesh.rotate       = reader.array<3>("Rotate");
-      mesh.translate    = reader.array<3>("Translate");
-      mesh.bottom_slope = reader.array<2>("Bottom slope");
-      mesh.top_slope    = reader.array<2>("Top slope");
-      mesh.distort      = reader.number("Distort");
-      mesh.half         = reader.text("Half");
-      mesh.surface      = reader.text("Surface");
-      mesh.amplitude    = reader.number("Amplitude");
-      mesh.middle       = reader.number("Middle");
+      mesh.refinements       = reader.integer("Refinements");
+      mesh.refine_near       = reader.text("Refine near");
+      mesh.file              = reader.text("File");
+      mesh.part              = reader.text("Part");
+      mesh.mesh_size         = reader.number("Mesh size");
+      mesh.curved_boundaries = reader.text("Curved boundaries");
+      mesh.rotate            = reader.array<3>("Rotate");
+      mesh.translate         = reader.array<3>("Translate");
+      mesh.bottom_slope      = reader.array<2>("Bottom slope");
+      mesh.top_slope         = reader.array<2>("Top slope");
+      mesh.distort           = reader.number("Distort");
+      mesh.half              = reader.text("Half");
+      mesh.surface           = reader.text("Surface");
+      mesh.amplitude         = reader.number("Amplitude");
+      mesh.middle            = reader.number("Middle");
       return mesh;
     }
 
@@ -133,6 +136,8 @@ namespace mortise
                             "three expressions \"bx; by; bz\", exact, or auto");
       body.mesh =
         read_mesh(ParameterReader(schema, parameters, {section, "Mesh"}));
+      body.mesh.directory =
+        std::filesystem::path(parameters.file).parent_path().string();
       body.material.law           = material.text("Law");
       body.material.young_modulus = material.number("Young modulus");
       body.material.poisson_ratio = material.number("Poisson ratio");

@@ -109,6 +109,15 @@ main(int argc, char **argv)
                [](auto &q) { q.file = "a.msh"; },
                {"belongs to Source = file"});
   refused_with(box,
+               [](auto &q) { q.part = "core"; },
+               {"Part = 'core' belongs to Source = file"});
+  refused_with(box,
+               [](auto &q) { q.mesh_size = 0.25; },
+               {"Mesh size = '0.25' belongs to Source = file"});
+  refused_with(box,
+               [](auto &q) { q.curved_boundaries = "zmin: sphere"; },
+               {"Curved boundaries", "belongs to Source = file"});
+  refused_with(box,
                [](auto &q) { q.distort = 0.4; },
                {"Distort = 0.4", "0 to 0.3"});
   refused_with(box,

@@ -6,6 +6,7 @@
 #include <deal.II/grid/manifold.h>
 #include <deal.II/grid/tria_description.h>
 
+#include <mortise/body/coarse_geometry.h>
 #include <mortise/body/mesh_source.h>
 
 #include <memory>
@@ -24,6 +25,10 @@ namespace mortise
 
     /// Geometry of all entities, moved like the vertices; none: flat.
     std::unique_ptr<dealii::Manifold<3>> manifold;
+
+    /// Curved geometry of second-order cells, moved like the vertices; none:
+    /// the cells are of first order.
+    std::shared_ptr<const CoarseGeometry> geometry;
   };
 
   /// The body described by @p parameters (any source but file), vertices already moved.

@@ -1,33 +1,40 @@
-// Meshes from gmsh files (.msh 2.2 and 4.1, ASCII): hexahedra with flat or
-// bilinear faces. It never moves, refines or curves the mesh.
+// Meshes from gmsh files: .msh of versions 2.2 and 4.1, ASCII and binary, of
+// first and second order, and geometries (.geo, .step, .brep) that are meshed
+// on the fly. It never refines a mesh.
 #pragma once
 
 #include <mortise/body/generators.h>
+#include <mpi.h>
 
 #include <string>
 
 namespace mortise
 {
-  /// What a file says about itself, found without building a mesh.
-  struct MeshFileSections
-  {
-    std::map<int, std::string>
-      surface_names; ///< $PhysicalNames of dimension 2, by tag
-    std::map<int, std::string> volume_names; ///< of dimension 3
-    std::map<int, std::size_t>
-      elements; ///< number of elements by gmsh's element type
-  };
+  /// Name of the file that File means: itself, or within the directory of the
+  /// parameter file if it is relative and exists only there.
+  std::string
+  located_file(const std::string &file_name, const std::string &directory);
 
-  /// Scan @p file_name. Throws InputError (starting with @p where) if it cannot be read, is not an
-  /// ASCII .msh file of a known version, or holds other volume elements than
-  /// 8-node hexahedra.
-  MeshFileSections
-  scan_mesh_file(const std::string &file_name, const std::string &where);
+  /// What can be said of Source = file without reading the file: is there one
+  /// whose name tells a known format, does Mesh size fit it? Throws InputError
+  /// (starting with @p where). Not collective; does not look at the disk.
+  void
+  check_file_parameters(const MeshParameters &parameters,
+                        const std::string    &where);
 
-  /// Read the hexahedra, with boundary ids and material ids from the physical
-  /// tags. Boundaries without a name get their tag as name. Throws InputError
-  /// as scan_mesh_file() does, and for a mesh without hexahedra or with a
-  /// boundary name that two surfaces share.
+  /// The body that @p parameters choose from their file, vertices already
+  /// moved. Cells are either hexahedra, numbered as in deal.II, or tetrahedra
+  /// of positive volume. Boundary ids and material ids are the tags of physical
+  /// surfaces and volumes; boundaries without a name have their tag as name,
+  /// and faces in no physical surface the id 0. Faces between this part and
+  /// another one of the file are boundary faces.
+  ///
+  /// Rank 0 reads or meshes, the others get the same data. Collective; throws
+  /// the same InputError on all ranks: for a file that is missing, damaged, or
+  /// without names for its boundaries; for cells of unsuitable shape, order or
+  /// volume; for nodes that coincide but are not joined.
   CoarseMesh
-  read_mesh_file(const std::string &file_name, const std::string &where);
+  read_mesh_file(const MeshParameters &parameters,
+                 const std::string    &where,
+                 MPI_Comm              comm);
 } // namespace mortise

@@ -36,15 +36,24 @@ namespace mortise
   /// sector 0; curved block 0 lower, 1 upper half; file: the physical volumes.
   struct MeshParameters
   {
-    std::string               source = "box";
-    std::string               cells  = "hexahedra";
+    std::string source = "box";
+    /// hexahedra, tetrahedra, or auto: what a file has, hexahedra from
+    /// generators
+    std::string               cells = "auto";
     std::vector<double>       extent;
     std::vector<unsigned int> subdivisions;
     unsigned int              refinements = 0;
     std::string
       refine_near; ///< "x, y, z, radius, times; ...", moved coordinates
+    /// file, .msh or a geometry that gmsh meshes; "Part": the physical volume
+    /// to take, empty for all; "Mesh size": longest edge where gmsh meshes, 0
+    /// for what the geometry says; "Curved boundaries": see boundary_shapes.h.
     std::string           file;
-    std::array<double, 3> rotate{}; ///< degrees about x, then y, then z; then
+    std::string           part;
+    double                mesh_size = 0.;
+    std::string           curved_boundaries;
+    std::string           directory; ///< where a relative File may be, too
+    std::array<double, 3> rotate{};  ///< degrees about x, then y, then z; then
     std::array<double, 3> translate{};
 
     /// box, "Bottom slope" and "Top slope" = sx, sy: the faces zmin and zmax
@@ -97,7 +106,7 @@ namespace mortise
   std::vector<std::string>
   mesh_source_names();
 
-  /// Check @p parameters without building the mesh (a file is opened and its sections scanned).
+  /// Check @p parameters without building the mesh or opening a file.
   /// @p where (e.g. "Body inner, Mesh") starts the messages. Throws InputError. Not collective.
   void
   validate(const MeshParameters &parameters, const std::string &where);

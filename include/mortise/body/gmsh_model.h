@@ -1,0 +1,59 @@
+// What the gmsh library knows of a file, as plain data: nodes, elements, names
+// of physical groups. The only room of the gmsh library, which prints nothing
+// and stays open only while a file is read. It never judges a mesh.
+#pragma once
+
+#include <deal.II/base/point.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// Elements of one type in one surface or volume of the model.
+  struct GmshElements
+  {
+    int              entity = 0; ///< tag of the surface or volume
+    std::vector<int> groups;     ///< tags of its physical groups
+
+    unsigned int dimension  = 0; ///< 2 or 3
+    unsigned int n_vertices = 0;
+    unsigned int order      = 0;
+    std::string  type; ///< gmsh's name of the type, e.g. "Hexahedron 27"
+
+    /// Places of the nodes of an element, in [-1,1]^d for quadrilaterals and
+    /// hexahedra, in the unit simplex for triangles and tetrahedra.
+    std::vector<dealii::Point<3>> reference;
+
+    /// Indices into GmshModel::nodes, reference.size() for each element.
+    std::vector<unsigned int> nodes;
+
+    std::size_t
+    size() const
+    {
+      return nodes.size() / reference.size();
+    }
+  };
+
+  struct GmshModel
+  {
+    std::vector<dealii::Point<3>> nodes;
+    std::vector<GmshElements>     elements;      ///< surfaces, then volumes
+    std::map<int, std::string>    surface_names; ///< of physical groups by tag;
+    std::map<int, std::string>    volume_names;  ///< unnamed: the tag as text
+  };
+
+  /// Does @p file_name end like a geometry that gmsh can mesh (.geo, .step,
+  /// .stp, .brep)?
+  bool
+  is_geometry_file(const std::string &file_name);
+
+  /// Read the mesh of @p file_name, or make one if it is a geometry: with
+  /// edges of at most @p mesh_size if that is positive, and that number for the
+  /// constant mesh_size of a .geo file. Surfaces and volumes of a .step or
+  /// .brep file are physical groups of their own. Throws std::runtime_error
+  /// with what gmsh says.
+  GmshModel
+  read_gmsh_model(const std::string &file_name, double mesh_size);
+} // namespace mortise

@@ -1,0 +1,37 @@
+// From what gmsh knows to the coarse mesh of one body, in the coordinates of
+// the file. It never opens a file.
+#pragma once
+
+#include <mortise/body/generators.h>
+#include <mortise/body/gmsh_model.h>
+
+#include <functional>
+#include <string>
+
+namespace mortise
+{
+  /// Throws InputError with the file's name before @p what.
+  using FileError = std::function<void(const std::string &what)>;
+
+  /// The cells of @p parameters.part (all, if that is empty) with their
+  /// vertices, boundary faces, names and curved geometry.
+  CoarseMesh
+  select_part(const GmshModel      &model,
+              const MeshParameters &parameters,
+              const FileError      &fail);
+
+  /// Give the faces of only one cell that are in a physical surface its id, and
+  /// the mesh the names of these. Vertices of cells are still nodes of @p model.
+  void
+  name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail);
+
+  /// Turn the cells of a mesh that is numbered inside out as a whole, and
+  /// refuse cells of negative or no volume otherwise.
+  void
+  check_volumes(CoarseMesh &mesh, const FileError &fail);
+
+  /// Refuse nodes at one place, unless named boundaries say that they are the
+  /// two sides of a surface: of two volumes, or of two names.
+  void
+  check_coinciding_nodes(const CoarseMesh &mesh, const FileError &fail);
+} // namespace mortise

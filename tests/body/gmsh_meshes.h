@@ -1,0 +1,136 @@
+// Files for the tests of meshes, written by gmsh itself in any format. It never
+// checks anything.
+#pragma once
+
+#include <deal.II/base/conditional_ostream.h>
+#include <deal.II/base/mpi.h>
+
+#include <gmsh.h>
+#include <mortise/base/error.h>
+#include <mortise/body/mesh_file.h>
+
+#include <fstream>
+#include <iostream>
+#include <string>
+
+namespace gmsh_test
+{
+  class Report
+  {
+  public:
+    void
+    operator()(const bool         good,
+               const std::string &what,
+               const std::string &got = "")
+    {
+      out << (good ? "OK  " : "FAILED ") << what << (good ? "" : ": got " + got)
+          << std::endl;
+    }
+
+    dealii::ConditionalOStream out{std::cout,
+                                   dealii::Utilities::MPI::this_mpi_process(
+                                     MPI_COMM_WORLD) == 0};
+  };
+
+  /// A name for each number of ranks: tests of several run side by side.
+  inline std::string
+  own_name(const std::string &name)
+  {
+    return std::to_string(
+             dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) +
+           "_ranks_" + name;
+  }
+
+  /// Rank 0 writes @p content; returns the name of the file.
+  inline std::string
+  write_file(const std::string &name, const std::string &content)
+  {
+    MPI_Barrier(MPI_COMM_WORLD); // the file may have been in use
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::ofstream(own_name(name), std::ios::binary) << content;
+    MPI_Barrier(MPI_COMM_WORLD);
+    return own_name(name);
+  }
+
+  inline std::string
+  read_file(const std::string &name)
+  {
+    std::ifstream in(name, std::ios::binary);
+    return std::string((std::istreambuf_iterator<char>(in)),
+                       std::istreambuf_iterator<char>());
+  }
+
+  struct Format
+  {
+    double version     = 4.1;
+    bool   binary      = false;
+    int    order       = 1;
+    bool   serendipity = false;
+    bool   save_all    = false;
+  };
+
+  /// Rank 0 meshes the text @p geometry and saves it.
+  inline std::string
+  write_mesh(const std::string &name,
+             const std::string &geometry,
+             const Format      &format)
+  {
+    const std::string geo = write_file(name + ".geo", geometry);
+    const std::string msh = own_name(name + ".msh");
+    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        gmsh::initialize(0, nullptr, false);
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::open(geo);
+        gmsh::option::setNumber("Mesh.ElementOrder", format.order);
+        gmsh::option::setNumber("Mesh.SecondOrderIncomplete",
+                                format.serendipity);
+        gmsh::option::setNumber("Mesh.MshFileVersion", format.version);
+        gmsh::option::setNumber("Mesh.Binary", format.binary);
+        gmsh::option::setNumber("Mesh.SaveAll", format.save_all);
+        gmsh::model::mesh::generate(3);
+        gmsh::write(msh);
+        gmsh::finalize();
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
+    return msh;
+  }
+
+  inline mortise::MeshParameters
+  file_parameters(const std::string &name, const std::string &part = "")
+  {
+    mortise::MeshParameters q;
+    q.source = "file";
+    q.file   = name;
+    q.part   = part;
+    return q;
+  }
+
+  /// Message of the error that reading gives.
+  inline std::string
+  message_of(const mortise::MeshParameters &q)
+  {
+    try
+      {
+        mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
+      }
+    catch (const mortise::InputError &error)
+      {
+        return error.what();
+      }
+    return "(no error)";
+  }
+
+  inline void
+  refused(Report                        &report,
+          const std::string             &what,
+          const mortise::MeshParameters &q,
+          const std::string             &fragment)
+  {
+    const std::string message = message_of(q);
+    report(message.find("Mesh: ") == 0 &&
+             message.find(fragment) != std::string::npos,
+           "refused: " + what,
+           message);
+  }
+} // namespace gmsh_test

@@ -1,0 +1,261 @@
+// Every kind of broken mesh file is refused with a message that says what is
+// wrong and where, the same on all ranks, and nothing hangs or crashes.
+
+#include <cmath>
+#include <random>
+
+#include "gmsh_meshes.h"
+
+using namespace dealii;
+using namespace gmsh_test;
+
+namespace
+{
+  const std::string cube = R"(
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+MeshSize{:} = 0.5;
+Physical Volume("cube") = {1};
+Physical Surface("low") = {5};
+)";
+
+  mortise::MeshParameters
+  broken(const std::string &content)
+  {
+    return file_parameters(write_file("broken.msh", content));
+  }
+
+  /// @p nodes "x y z" and @p elements (without their numbers) as a file.
+  std::string
+  mesh_text(const std::vector<std::string> &nodes,
+            const std::vector<std::string> &elements)
+  {
+    std::ostringstream text;
+    text << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n"
+         << nodes.size() << "\n";
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      text << i + 1 << " " << nodes[i] << "\n";
+    text << "$EndNodes\n$Elements\n" << elements.size() << "\n";
+    for (unsigned int i = 0; i < elements.size(); ++i)
+      text << i + 1 << " " << elements[i] << "\n";
+    return text.str() + "$EndElements\n";
+  }
+
+  /// A file cut anywhere is refused, or still has all that counts.
+  void
+  check_cut_files(Report &report, const Format &format)
+  {
+    const std::string whole = read_file(write_mesh("broken_cut", cube, format));
+    unsigned int      bad   = 0;
+    std::string       message;
+    for (unsigned int i = 0; i < 20; ++i)
+      {
+        message = message_of(broken(whole.substr(0, whole.size() * i / 20)));
+        bad += message.find("Mesh: the mesh file '") != 0;
+      }
+    report(bad == 0,
+           "refused: a file that ends early, version " +
+             std::to_string(format.version).substr(0, 3) +
+             (format.binary ? ", binary" : ", ASCII"),
+           std::to_string(bad) + " accepted; " + message);
+  }
+
+  /// Bytes overwritten at random are an error or a mesh, never a crash.
+  void
+  check_garbage(Report &report, const Format &format)
+  {
+    const std::string whole = read_file(write_mesh("broken_cut", cube, format));
+    std::mt19937      random(7);
+    for (unsigned int i = 0; i < 20; ++i)
+      {
+        std::string damaged = whole;
+        for (unsigned int k = 0; k < 5; ++k)
+          damaged[60 + random() % (whole.size() - 60)] =
+            static_cast<char>(random() % 256);
+        message_of(broken(damaged));
+      }
+    std::string noise = "$MeshFormat\n4.1 1 8\n";
+    while (noise.size() < 5000)
+      noise += static_cast<char>(random() % 256);
+    refused(report, "binary garbage", broken(noise), "ends before $EndNodes");
+    noise += "$EndNodes$EndElements";
+    refused(report, "garbage with the right words", broken(noise), "mesh file");
+  }
+
+  void
+  check_cells(Report &report)
+  {
+    const std::vector<std::string> corners = {
+      "0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
+    const std::string face = "2 2 7 1 1 2 3", first = "4 2 1 1 1 2 3 4",
+                      second = "4 2 1 1 2 4 3 5"; // on the face 2 3 4
+    report(message_of(
+             broken(mesh_text(corners, {face, first, "4 2 1 1 2 3 4 5"}))) ==
+             "(no error)",
+           "two good tetrahedra");
+    refused(report,
+            "a tetrahedron of negative volume",
+            broken(mesh_text(corners, {face, first, second})),
+            "turned inside out (negative volume), at (0.5, 0.5, 0.5)");
+    report(message_of(
+             broken(mesh_text(corners, {face, "4 2 1 1 2 1 3 4", second}))) ==
+             "(no error)",
+           "a mesh that is numbered inside out as a whole");
+    refused(report,
+            "a tetrahedron without volume",
+            broken(
+              mesh_text({"0 0 0", "1 0 0", "0 1 0", "1 1 0"}, {face, first})),
+            "without volume");
+    refused(report,
+            "cells that overlap",
+            broken(
+              mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 2", "0 0 3"},
+                        {face, first, "4 2 1 1 1 2 3 5", "4 2 1 1 1 2 3 6"})),
+            "3 cells at one face, near (0, 0, 0)");
+    refused(report,
+            "prisms",
+            broken(
+              mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1"},
+                        {face, "6 2 1 1 1 2 3 4 5 6"})),
+            "1 prisms");
+    refused(report,
+            "surfaces only",
+            broken(mesh_text(corners, {face})),
+            "no volume elements");
+    refused(report,
+            "no physical surface",
+            broken(mesh_text(corners, {first})),
+            "names no boundary; allowed: a mesh with physical surfaces");
+    refused(report,
+            "a physical surface elsewhere",
+            broken(mesh_text(corners, {"2 2 7 1 2 3 5", first})),
+            "names no boundary of this part");
+    refused(report,
+            "a surface in two physical ones",
+            broken(mesh_text(corners, {face, "2 2 8 1 1 2 3", first})),
+            "in 2 physical surfaces, 7, 8");
+    refused(report,
+            "a file of third order",
+            file_parameters(
+              write_mesh("broken_third", cube, {4.1, false, 3, false, false})),
+            "cells of order 3");
+  }
+
+  void
+  check_folded_cell(Report &report)
+  {
+    std::vector<std::string>       nodes    = {"0 0 0",
+                                               "1 0 0",
+                                               "0 1 0",
+                                               "0 0 1",
+                                               ".5 0 0",
+                                               ".5 .5 0",
+                                               "0 .5 0",
+                                               "0 0 .5",
+                                               "0 .5 .5",
+                                               ".5 0 .5"};
+    const std::vector<std::string> elements = {"9 2 7 1 1 2 3 5 6 7",
+                                               "11 2 1 1 1 2 3 4 5 6 7 8 9 10"};
+    report(message_of(broken(mesh_text(nodes, elements))) == "(no error)",
+           "a good cell of second order");
+    nodes[4] = ".9 0 0"; // the map doubles back before vertex 2
+    refused(report,
+            "a folded cell of second order",
+            broken(mesh_text(nodes, elements)),
+            "its curved sides fold, near (");
+  }
+
+  /// Two cubes that share no nodes at x = 1, of volumes @p left and @p right,
+  /// with the physical surfaces @p a and @p b there (0: none).
+  std::string
+  two_cubes(const int left, const int right, const int a, const int b)
+  {
+    std::vector<std::string> nodes;
+    for (const char *const x : {"0 ", "1 ", "1 ", "2 "})
+      for (const char *const yz : {"0 0", "1 0", "1 1", "0 1"})
+        nodes.push_back(std::string(x) + yz);
+    const auto tags = [](const int group, const int entity) {
+      return " 2 " + std::to_string(group) + " " + std::to_string(entity) + " ";
+    };
+    std::vector<std::string> elements = {"3" + tags(9, 9) + "1 2 3 4"};
+    if (a != 0)
+      elements.push_back("3" + tags(a, a) + "5 6 7 8");
+    if (b != 0)
+      elements.push_back("3" + tags(b, b) + "9 10 11 12");
+    elements.push_back("5" + tags(left, left) + "1 2 3 4 5 6 7 8");
+    elements.push_back("5" + tags(right, right) + "9 10 11 12 13 14 15 16");
+    return mesh_text(nodes, elements);
+  }
+
+  void
+  check_coinciding_nodes(Report &report)
+  {
+    const std::string two = "has two nodes at (1, ";
+    refused(report, "a crack", broken(two_cubes(1, 1, 0, 0)), two);
+    refused(report,
+            "a crack named on one side",
+            broken(two_cubes(1, 1, 7, 0)),
+            two);
+    refused(report,
+            "a crack within one volume, with one name",
+            broken(two_cubes(1, 1, 7, 7)),
+            two);
+    refused(report,
+            "volumes that are apart without a name",
+            broken(two_cubes(1, 2, 0, 0)),
+            two);
+    report(message_of(broken(two_cubes(1, 1, 7, 8))) == "(no error)",
+           "a crack with two names is one that was meant");
+    report(message_of(broken(two_cubes(1, 2, 7, 7))) == "(no error)",
+           "so is a named surface between two volumes");
+    mortise::MeshParameters q = broken(two_cubes(1, 2, 0, 0));
+    q.part                    = "1";
+    report(message_of(q) == "(no error)", "each part alone has no crack");
+  }
+
+  void
+  check_geometries(Report &report)
+  {
+    refused(report,
+            "a geometry with an error",
+            file_parameters(write_file("broken.geo", "Point(1) = {0, 0\n")),
+            "cannot be meshed; gmsh says: ");
+    refused(report,
+            "a geometry without a volume",
+            file_parameters(write_file("broken.geo",
+                                       "SetFactory(\"OpenCASCADE\");\n"
+                                       "Rectangle(1) = {0, 0, 0, 1, 1};\n")),
+            "no volume elements");
+    refused(report,
+            "CAD garbage",
+            file_parameters(write_file("broken.brep", "garbage\n")),
+            "gmsh says: ");
+    mortise::MeshParameters q = file_parameters(write_file("broken.geo", cube));
+    q.mesh_size               = -1.;
+    refused(report,
+            "a negative Mesh size",
+            q,
+            "Mesh size = -1; allowed: a positive");
+    q           = broken("");
+    q.mesh_size = 1.;
+    refused(report, "Mesh size for a mesh", q, "allowed: nothing for a .msh");
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  Report                           report;
+  for (const double version : {2.2, 4.1})
+    for (const bool binary : {false, true})
+      {
+        const Format format = {version, binary, 1, false, false};
+        check_cut_files(report, format);
+        check_garbage(report, format);
+      }
+  check_cells(report);
+  check_folded_cell(report);
+  check_coinciding_nodes(report);
+  check_geometries(report);
+}
