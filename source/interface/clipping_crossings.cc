@@ -27,19 +27,46 @@ namespace mortise
              s * t * (s * d_0 - t * d_1);
     }
 
-    // The value nearest to zero of the cubic with these ends and slopes at
-    // seven inner points, with the sign of the ends (both of one sign).
-    double
-    nearest_of_cubic(const double f_0,
-                     const double f_1,
-                     const double d_0,
-                     const double d_1)
+    // Whether a curve may cross zero more often than its ends say, judged by
+    // the cubic through its ends and slopes from which its middle deviates by
+    // @p deviation. What the cubic leaves out vanishes with its slope at the
+    // ends, like 16 deviation t^2 (1-t)^2; three times that is allowed for.
+    bool
+    is_doubtful(const double f_0,
+                const double f_1,
+                const double d_0,
+                const double d_1,
+                const double deviation)
     {
-      const double sign   = f_0 + f_1 >= 0 ? 1. : -1.;
-      double       result = std::min(sign * f_0, sign * f_1);
+      const double rise = f_1 - f_0;
+      if (f_0 == 0. && f_1 == 0.)
+        return std::abs(d_0) + std::abs(d_1) + deviation > on_side;
+      if (f_0 * f_1 < 0)
+        {
+          // Monotone curves cross once: slopes at both ends, at the middle and
+          // where t^2 (1-t)^2 has its largest slope, 0.192.
+          const double quarters[2] = {1.125 * rise + 0.1875 * d_0 -
+                                        0.3125 * d_1,
+                                      1.125 * rise + 0.1875 * d_1 -
+                                        0.3125 * d_0};
+          const double middle      = 1.5 * rise - 0.25 * (d_0 + d_1);
+          const double least       = 10. * deviation * std::abs(rise);
+          return d_0 * rise <= 0 || d_1 * rise <= 0 || middle * rise <= 0 ||
+                 quarters[0] * rise <= least || quarters[1] * rise <= least;
+        }
+      const double sign    = f_0 + f_1 >= 0 ? 1. : -1.;
+      const bool   touches = f_0 == 0. || f_1 == 0.;
+      double       nearest = touches ? 1. : std::min(sign * f_0, sign * f_1);
       for (unsigned int i = 1; i < 8; ++i)
-        result = std::min(result, sign * cubic(f_0, f_1, d_0, d_1, i / 8.));
-      return result;
+        {
+          const double t    = i / 8.;
+          const double here = sign * cubic(f_0, f_1, d_0, d_1, t);
+          if (touches && here <= 48. * deviation * t * t * (1. - t) * (1. - t))
+            return true;
+          nearest = std::min(nearest, here);
+        }
+      return touches ? sign * (f_0 == 0. ? d_0 : -d_1) < 0 :
+                       nearest < 3. * deviation;
     }
   } // namespace
 
@@ -68,19 +95,8 @@ namespace mortise
     const double      d_0   = (b.tau - a.tau) * inside_rate(a.dxi, side);
     const double      d_1   = (b.tau - a.tau) * inside_rate(b.dxi, side);
     const double      slope = std::abs(d_0) + std::abs(d_1);
-    bool              doubtful;
-    if (f_0 * f_1 > 0)
-      doubtful =
-        nearest_of_cubic(f_0, f_1, d_0, d_1) < 3. * segments[segment].deviation;
-    else if (f_0 * f_1 < 0)
-      {
-        // The cubic and its slope at the middle: monotone curves cross once.
-        const double rise      = f_1 - f_0,
-                     slope_mid = 1.5 * rise - 0.25 * (d_0 + d_1);
-        doubtful = d_0 * rise <= 0 || d_1 * rise <= 0 || slope_mid * rise <= 0;
-      }
-    else
-      doubtful = (f_0 == 0. && f_1 * d_0 < 0) || (f_1 == 0. && f_0 * d_1 > 0);
+    const bool        doubtful =
+      is_doubtful(f_0, f_1, d_0, d_1, segments[segment].deviation);
     // An edge that runs along the side, as on two polynomial pictures of one
     // smooth surface, may cross it several times.
     const bool along =

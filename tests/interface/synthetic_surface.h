@@ -43,6 +43,23 @@ namespace synthetic
     FaceShape shape = FaceShape::quadrilateral;
   };
 
+  struct Pairing
+  {
+    FaceShape   slave, master;
+    std::string name;
+  };
+
+  inline std::vector<Pairing>
+  pairings()
+  {
+    constexpr FaceShape triangle      = FaceShape::triangle,
+                        quadrilateral = FaceShape::quadrilateral;
+    return {{quadrilateral, quadrilateral, "quad/quad"},
+            {triangle, triangle, "tri/tri"},
+            {triangle, quadrilateral, "tri/quad"},
+            {quadrilateral, triangle, "quad/tri"}};
+  }
+
   /// A number in [-1,1] that depends on i, j and k only.
   inline double
   noise(const unsigned int i, const unsigned int j, const unsigned int k)
