@@ -6,6 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
+#include <mortise/body/partition.h>
 #include <mortise/body/tetrahedra.h>
 #include <mortise/body/vertex_order.h>
 
@@ -110,7 +111,9 @@ namespace mortise
   }
 
   std::unique_ptr<parallel::DistributedTriangulationBase<3>>
-  distribute_tetrahedra(const CoarseMesh &mesh, const MPI_Comm comm)
+  distribute_tetrahedra(const CoarseMesh                   &mesh,
+                        const std::set<types::boundary_id> &balanced,
+                        const MPI_Comm                      comm)
   {
     CoarseMesh ordered;
     ordered.vertices = mesh.vertices;
@@ -122,10 +125,7 @@ namespace mortise
     Triangulation<3> serial;
     create_serial(ordered, serial);
 
-    // METIS does not take more parts than cells
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    GridTools::partition_triangulation(
-      std::min<unsigned int>(n_ranks, serial.n_active_cells()), serial);
+    partition_cells(Utilities::MPI::n_mpi_processes(comm), balanced, serial);
 
     auto triangulation =
       std::make_unique<parallel::fullydistributed::Triangulation<3>>(comm);
