@@ -215,6 +215,12 @@ namespace mortise
     points = all;
   }
 
+  std::vector<Point<3>>
+  SimplexMapping::reference_nodes() const
+  {
+    return simplex_interpolation_points(nodal->degree());
+  }
+
   std::unique_ptr<Mapping<3>>
   SimplexMapping::clone() const
   {

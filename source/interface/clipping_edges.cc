@@ -45,6 +45,10 @@ namespace mortise
     const unsigned int n    = master->edges[edge].degree + 1;
     const unsigned int base = control.size() - 3 * n;
     double             low[3], high[3], bend = 0, length = 0;
+    double             least_sum = control[base] + control[base + n];
+    for (unsigned int i = 1; i < n; ++i)
+      least_sum =
+        std::min(least_sum, control[base + i] + control[base + n + i]);
     for (unsigned int d = 0; d < 3; ++d)
       {
         const double *c = &control[base + d * n];
@@ -63,11 +67,12 @@ namespace mortise
       }
     const double height =
       std::min(std::max(high[2], -low[2]), slave->height_limit);
-    const double widening = slave->twist() * height;
-    const bool   far      = low[0] > slave->near_upper[0] + widening ||
-                     high[0] < slave->near_lower[0] - widening ||
-                     low[1] > slave->near_upper[1] + widening ||
-                     high[1] < slave->near_lower[1] - widening;
+    const double        widening = slave->twist() * height;
+    const ReferenceBox &near     = slave->near;
+    const bool          far =
+      low[0] > near.upper[0] + widening || high[0] < near.lower[0] - widening ||
+      low[1] > near.upper[1] + widening || high[1] < near.lower[1] - widening ||
+      least_sum > near.upper[2] + widening;
     const bool simple =
       bend <= flat_enough && (slave->linear() || length <= short_enough);
     if (far || simple || depth >= max_depth)

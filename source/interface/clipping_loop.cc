@@ -29,20 +29,20 @@ namespace mortise
       {
         if (!(crossing.tau >= crossing.tau_0 && crossing.tau <= crossing.tau_1))
           solve_by_sections(crossing);
-        crossing.xi[crossing.side / 2] = crossing.side % 2;
-        snap_to_sides(crossing.xi);
+        put_on_side(crossing.xi, crossing.side);
+        snap_to_sides(shape, crossing.xi);
       }
   }
 
 
 
-  // Newton's method for x_m(tau) = x_s(xi) + alpha n(xi) with one coordinate of
-  // xi held on its side: unknowns are tau, the other coordinate and alpha. What
+  // Newton's method for x_m(tau) = x_s(xi) + alpha n(xi) with xi held on its
+  // side: unknowns are tau, the way along the side and alpha. What
   // leaves its bracket or does not converge keeps a tau that is not a number.
   void
   LoopClipper::solve_batch(const unsigned int begin, const unsigned int n)
   {
-    Lanes        tau, xi[2], alpha, on_first, low, high;
+    Lanes        tau, xi[2], alpha, along[2], low, high;
     unsigned int edge[n_lanes];
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
@@ -50,16 +50,20 @@ namespace mortise
         const Breakpoint &a = breakpoints[segments[crossing.segment].first];
         const Breakpoint &b = breakpoints[segments[crossing.segment].last];
         const double      weight = crossing.f_0 / (crossing.f_0 - crossing.f_1);
-        const unsigned    fixed  = crossing.side / 2;
         edge[l]                  = a.edge;
         low[l]                   = crossing.tau_0;
         high[l]                  = crossing.tau_1;
         tau[l] = crossing.tau_0 + weight * (crossing.tau_1 - crossing.tau_0);
         const double t = (tau[l] - a.tau) / (b.tau - a.tau);
-        xi[0][l]       = (1 - t) * a.xi[0] + t * b.xi[0];
-        xi[1][l]       = (1 - t) * a.xi[1] + t * b.xi[1];
-        xi[fixed][l]   = crossing.side % 2;
-        on_first[l]    = fixed == 0 ? 1. : 0.;
+        double       guess[2];
+        for (unsigned int i = 0; i < 2; ++i)
+          guess[i] = (1 - t) * a.xi[i] + t * b.xi[i];
+        put_on_side(guess, crossing.side);
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            xi[i][l]    = guess[i];
+            along[i][l] = side_direction(crossing.side, i);
+          }
       }
     Vec3<Lanes> x_m, dx_m;
     evaluate_edges(master->edges, edge, tau, x_m, dx_m);
@@ -71,14 +75,16 @@ namespace mortise
       {
         Vec3<Lanes> x_s, dx[2], normal;
         slave->evaluate_extended(xi, alpha, x_s, dx, normal);
-        const Vec3<Lanes> free = on_first * dx[1] + (1. - on_first) * dx[0];
+        const Vec3<Lanes> free = along[0] * dx[0] + along[1] * dx[1];
         Lanes             step[3];
-        solve_3x3(dx_m, free, normal, x_s - x_m, step);
+        // The residual is small: where the edge runs along the side and the
+        // matrix is nearly singular, the rounding of both steps still agrees.
+        solve_3x3(dx_m, free, normal, x_s + alpha * normal - x_m, step);
         tau += step[0];
-        xi[0] -= (1. - on_first) * step[1];
-        xi[1] -= on_first * step[1];
-        alpha = -step[2];
-        tau   = minimum(maximum(tau, low - 0.5 * (high - low)),
+        xi[0] -= along[0] * step[1];
+        xi[1] -= along[1] * step[1];
+        alpha -= step[2];
+        tau = minimum(maximum(tau, low - 0.5 * (high - low)),
                       high + 0.5 * (high - low));
         const Lanes change =
           maximum(absolute(step[0]) / (high - low), absolute(step[1]));
@@ -132,7 +138,7 @@ namespace mortise
               break;
           }
         if (known[0] && known[1] &&
-            both_beside(ends[0], ends[1], crossing.side))
+            both_beside(shape, ends[0], ends[1], crossing.side))
           break;
       }
     // Of no interest, or a jump of the continuation far away: its place does
@@ -190,7 +196,7 @@ namespace mortise
   void
   LoopClipper::add_piece(const Segment &segment, LoopPiece piece)
   {
-    for (unsigned int side = 0; side < 4; ++side)
+    for (const unsigned int side : sides_of(shape))
       if (segment.far || inside_by(piece.p, side) < 0 ||
           inside_by(piece.q, side) < 0)
         {
@@ -243,7 +249,7 @@ namespace mortise
   void
   LoopClipper::settle(LoopPiece &piece)
   {
-    for (unsigned int side = 0; side < 4; ++side)
+    for (const unsigned int side : sides_of(shape))
       if (inside_by(piece.p, side) == 0. && inside_by(piece.q, side) == 0.)
         {
           const double f = inside_by(piece.mid, side);
@@ -277,7 +283,9 @@ namespace mortise
             double       cut[2];
             for (unsigned int i = 0; i < 2; ++i)
               cut[i] = (1 - t) * piece.p[i] + t * piece.q[i];
-            cut[side / 2] = side % 2;
+            put_on_side(cut, side);
+            if (shape == FaceShape::triangle)
+              snap_to_sides(shape, cut);
             std::copy(cut, cut + 2, f_p > 0 ? part.q : part.p);
             scratch.push_back(part);
           }
@@ -331,17 +339,16 @@ namespace mortise
         }
       else
         add(piece.p, piece.q);
-    const bool inside_box = [&]() {
-      for (unsigned int i = 0; i < 2; ++i)
+    for (unsigned int i = 0; i < 2; ++i)
+      centroid[i] = base[i] + moment[i] / area;
+    for (const unsigned int side : sides_of(shape))
+      if (!(inside_by(centroid, side) >= 0))
         {
-          centroid[i] = base[i] + moment[i] / area;
-          if (!(centroid[i] >= 0 && centroid[i] <= 1))
-            return false;
+          // a loop whose area is rounding only
+          std::copy(base, base + 2, centroid);
+          break;
         }
-      return true;
-    }();
-    if (!inside_box) // a loop whose area is rounding only
-      std::copy(base, base + 2, centroid);
-    whole_slave = straight && std::abs(std::abs(area) - 1.) <= 1e-13;
+    whole_slave =
+      straight && std::abs(std::abs(area) - reference_area(shape)) <= 1e-13;
   }
 } // namespace mortise

@@ -31,30 +31,30 @@ namespace mortise
       scratch.reference_weight.push_back(weight);
     }
 
-    // The slave face is covered: its own tensor rule.
+    // The slave face is covered: its own rule.
     void
-    place_in_square(Scratch &scratch, const GaussRule &rule)
+    place_in_slave(Scratch &scratch, const ReferenceRule &rule)
     {
-      for (unsigned int q = 0; q < rule.s.size(); ++q)
-        add_point(scratch, rule.s[q], rule.t[q], rule.tensor_weight[q]);
+      for (unsigned int q = 0; q < rule.weight.size(); ++q)
+        add_point(scratch, rule.xi_1[q], rule.xi_2[q], rule.weight[q]);
     }
 
-    // The master face lies in the slave face: the master's tensor rule, pulled
-    // back. d xi = (d xi / d eta) d eta.
+    // The master face lies in the slave face: the master's rule, pulled back. d
+    // xi = (d xi / d eta) d eta.
     bool
-    place_in_master(Scratch &scratch, const GaussRule &rule)
+    place_in_master(Scratch &scratch, const ReferenceRule &rule)
     {
-      for (unsigned int begin = 0; begin < rule.s.size(); begin += n_lanes)
+      for (unsigned int begin = 0; begin < rule.weight.size(); begin += n_lanes)
         {
           const unsigned int count =
-            std::min<unsigned int>(n_lanes, rule.s.size() - begin);
+            std::min<unsigned int>(n_lanes, rule.weight.size() - begin);
           Lanes eta[2], weight;
           for (unsigned int l = 0; l < n_lanes; ++l)
             {
               const unsigned int q = begin + std::min(l, count - 1);
-              eta[0][l]            = rule.s[q];
-              eta[1][l]            = rule.t[q];
-              weight[l]            = rule.tensor_weight[q];
+              eta[0][l]            = rule.xi_1[q];
+              eta[1][l]            = rule.xi_2[q];
+              weight[l]            = rule.weight[q];
             }
           Vec3<Lanes> x, dx[2];
           scratch.master.polynomial.evaluate(eta[0], eta[1], x, dx);
@@ -237,8 +237,7 @@ namespace mortise
           Lanes weight = load(&scratch.reference_weight[begin], count);
           Lanes xi[2]  = {load(&scratch.xi[0][begin], count),
                           load(&scratch.xi[1][begin], count)};
-          for (auto &x : xi)
-            x = minimum(maximum(x, broadcast(0.)), broadcast(1.));
+          clamp_into(scratch.slave.shape(), 0., xi);
           Vec3<Lanes> x_s, dx_s[2], x_m;
           scratch.slave.evaluate(xi, x_s, dx_s);
           const Vec3<Lanes> normal = scratch.slave.normal(xi),
@@ -323,13 +322,10 @@ namespace mortise
         {
           xi[i] = broadcast(clipper.centroid[i]);
           for (unsigned int l = 1; l < n_lanes; ++l)
-            {
-              const double x =
-                clipper.loop[(l - 1) * clipper.loop.size() / (n_lanes - 1)]
-                  .p[i];
-              xi[i][l] = std::min(std::max(x, 0.), 1.);
-            }
+            xi[i][l] =
+              clipper.loop[(l - 1) * clipper.loop.size() / (n_lanes - 1)].p[i];
         }
+      clamp_into(scratch.slave.shape(), 0., xi);
       Vec3<Lanes> x_s, dx_s[2], x_m;
       Lanes       eta[2], alpha, slope;
       scratch.slave.evaluate(xi, x_s, dx_s);
@@ -382,9 +378,9 @@ namespace mortise
     bool placed    = true;
     result.n_cells = 1;
     if (scratch.clipper.whole_slave)
-      place_in_square(scratch, rule);
+      place_in_slave(scratch, rule.on(scratch.slave.shape()));
     else if (scratch.clipper.whole_master)
-      placed = place_in_master(scratch, rule);
+      placed = place_in_master(scratch, rule.on(master.shape));
     else
       {
         placed = evaluate_curves(scratch, rule);

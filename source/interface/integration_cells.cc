@@ -13,7 +13,8 @@ namespace mortise
   // Linear maps: cells are bilinear in (s,t), so n points are exact for total
   // degree 2n-2 in the reference coordinates; n = p+2 is exact for products of
   // two Q_1 functions and for all products of total degree 2p+2, which include
-  // a Q_p function times a constant.
+  // a Q_p function times a constant. On two triangles all products are of total
+  // degree 2p, and n = p+1 is exact for them.
   //
   // Else the integrand is rational, with a pole of order m = p+3 or so where a
   // surface element vanishes: at distance 1/d from the middle of an overlap of
@@ -26,11 +27,12 @@ namespace mortise
   unsigned int
   quadrature_points(const unsigned int degree_slave,
                     const unsigned int degree_master,
-                    const double       distortion)
+                    const double       distortion,
+                    const bool         both_triangles)
   {
     const unsigned int degree = std::max(degree_slave, degree_master);
     if (distortion <= 0.)
-      return degree + 2;
+      return degree + (both_triangles ? 1 : 2);
     const double d             = std::min(distortion, 0.95),
                  rho           = (1. + std::sqrt(1. - d * d)) / d;
     constexpr double bound     = 1e-8;
@@ -130,6 +132,7 @@ namespace mortise
   {
     scratch->degree_slave  = degree_slave;
     scratch->degree_master = degree_master;
+    scratch->master_shape  = master.shape;
     scratch->gap_limit =
       scratch->search_fraction * std::max(scratch->slave_size, master.size);
     PairResult result = scratch->slave_linear && master.affine ?
@@ -149,10 +152,11 @@ namespace mortise
   const GaussRule &
   PairIntegrator::Scratch::rule(const double distortion) const
   {
-    return gauss_rule(
-      n_points > 0 ?
-        n_points :
-        quadrature_points(degree_slave, degree_master, distortion));
+    return gauss_rule(n_points > 0 ? n_points :
+                                     quadrature_points(degree_slave,
+                                                       degree_master,
+                                                       distortion,
+                                                       both_triangles()));
   }
 
 
@@ -163,32 +167,40 @@ namespace mortise
     // Not on the boundary: faces that only touch do not meet.
     constexpr unsigned int n_samples = 8;
     constexpr double       rim       = 0.02;
-    const auto             meet =
-      [&](const Lanes(&x)[2], const Lanes &gap, const Lanes &slope) {
-        for (unsigned int l = 0; l < n_lanes; ++l)
-          if (x[0][l] > 0 && x[0][l] < 1 && x[1][l] > 0 && x[1][l] < 1 &&
-              std::abs(gap[l]) <= gap_limit && slope[l] < 0)
-            return true;
-        return false;
+    const auto             meet      = [&](const FaceShape shape,
+                          const Lanes(&x)[2],
+                          const Lanes &gap,
+                          const Lanes &slope) {
+      for (unsigned int l = 0; l < n_lanes; ++l)
+        if (lies_inside(shape, x[0][l], x[1][l]) &&
+            std::abs(gap[l]) <= gap_limit && slope[l] < 0)
+          return true;
+      return false;
+    };
+    const auto place =
+      [](const FaceShape shape, const Lanes &s, const double t, Lanes(&x)[2]) {
+        x[0] = shape == FaceShape::triangle ? s * (1. - t) : s;
+        x[1] = broadcast(t);
       };
     Lanes first;
     for (unsigned int l = 0; l < n_lanes; ++l)
       first[l] = rim + (1. - 2. * rim) * l / (n_lanes - 1.);
     for (unsigned int j = 0; j < n_samples; ++j)
       {
-        const Lanes at[2] = {first,
-                             broadcast(rim +
-                                       (1. - 2. * rim) * j / (n_samples - 1.))};
-        Lanes       other[2], gap, slope;
-        Vec3<Lanes> x, dx[2], x_m;
+        const double second = rim + (1. - 2. * rim) * j / (n_samples - 1.);
+        Lanes        at[2], other[2], gap, slope;
+        Vec3<Lanes>  x, dx[2], x_m;
+        place(slave.shape(), first, second, at);
         slave.evaluate(at, x, dx);
         if (master.project(
               x, slave.normal(at), false, other, gap, x_m, slope) == 0 &&
-            meet(other, gap, slope))
+            meet(master.shape, other, gap, slope))
           return true;
+        place(master.shape, first, second, at);
         master.polynomial.evaluate(at[0], at[1], x, dx);
         if (slave.pull_back(x, false, other, gap) == 0 &&
-            meet(other,
+            meet(slave.shape(),
+                 other,
                  gap,
                  master.orientation *
                    dot(slave.normal(other), cross(dx[0], dx[1]))))

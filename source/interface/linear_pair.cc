@@ -17,39 +17,57 @@ namespace mortise
       double       x[max_corners][2];
     };
 
-    /// Sutherland and Hodgman for straight edges: the part of @p polygon in [0,1]^2.
+    /// One step of Sutherland and Hodgman for straight edges.
+    template <unsigned int side>
     void
-    clip_to_unit_square(ConvexPolygon &polygon)
+    clip_to_side(const ConvexPolygon &polygon, ConvexPolygon &result)
     {
-      ConvexPolygon result;
-      for (unsigned int side = 0; side < 4 && polygon.n > 0; ++side)
+      result.n = 0;
+      for (unsigned int i = 0; i < polygon.n; ++i)
         {
-          result.n = 0;
-          for (unsigned int i = 0; i < polygon.n; ++i)
+          const double(&p)[2] = polygon.x[i];
+          const double(&q)[2] = polygon.x[i + 1 < polygon.n ? i + 1 : 0];
+          const double f_p = inside_by(p, side), f_q = inside_by(q, side);
+          if (f_p >= 0)
             {
-              const double(&p)[2] = polygon.x[i];
-              const double(&q)[2] = polygon.x[i + 1 < polygon.n ? i + 1 : 0];
-              const double f_p = inside_by(p, side), f_q = inside_by(q, side);
-              if (f_p >= 0)
-                {
-                  result.x[result.n][0]   = p[0];
-                  result.x[result.n++][1] = p[1];
-                }
-              if ((f_p > 0 && f_q < 0) || (f_p < 0 && f_q > 0))
-                {
-                  // From the inner to the outer end, whichever way the edge is
-                  // run through.
-                  const double(&in)[2]         = f_p > 0 ? p : q,
-                        (&out)[2]              = f_p > 0 ? q : p;
-                  const double f_in            = std::max(f_p, f_q),
-                               f_out           = std::min(f_p, f_q);
-                  const double       t         = f_in / (f_in - f_out);
-                  const unsigned int o         = 1 - side / 2;
-                  result.x[result.n][side / 2] = side % 2;
-                  result.x[result.n++][o]      = in[o] + t * (out[o] - in[o]);
-                }
+              result.x[result.n][0]   = p[0];
+              result.x[result.n++][1] = p[1];
             }
-          polygon = result;
+          if ((f_p > 0 && f_q < 0) || (f_p < 0 && f_q > 0))
+            {
+              // From the inner to the outer end, whichever way the edge is run
+              // through.
+              const double(&in)[2] = f_p > 0 ? p : q,
+                    (&out)[2]      = f_p > 0 ? q : p;
+              const double f_in    = std::max(f_p, f_q),
+                           f_out   = std::min(f_p, f_q);
+              const double t       = f_in / (f_in - f_out);
+              double(&cut)[2]      = result.x[result.n++];
+              for (unsigned int d = 0; d < 2; ++d)
+                cut[d] = in[d] + t * (out[d] - in[d]);
+              put_on_side(cut, side);
+            }
+        }
+    }
+
+    /// The part of @p polygon in the reference domain of a face.
+    void
+    clip_to_shape(const FaceShape shape, ConvexPolygon &polygon)
+    {
+      ConvexPolygon other;
+      if (shape == FaceShape::triangle)
+        {
+          clip_to_side<0>(polygon, other);
+          clip_to_side<2>(other, polygon);
+          clip_to_side<hypotenuse>(polygon, other);
+          polygon = other;
+        }
+      else
+        {
+          clip_to_side<0>(polygon, other);
+          clip_to_side<1>(other, polygon);
+          clip_to_side<2>(polygon, other);
+          clip_to_side<3>(other, polygon);
         }
     }
 
@@ -97,7 +115,7 @@ namespace mortise
       return n_cells;
     }
 
-    // An affine function of xi: value at (1/2, 1/2) and slopes.
+    // An affine function of xi: value at the slave's centre and slopes.
     struct Affine
     {
       double value, slope[2];
@@ -105,10 +123,11 @@ namespace mortise
 
     struct PointMaps
     {
+      double center_xi; ///< of the slave
       Affine eta[2], slave_x[3], master_x[3], gap;
     };
 
-    // The maps of a pair from xi - 1/2 = shift + A (eta - 1/2).
+    // The maps of a pair from xi - c_s = shift + A (eta - c_m), c the centres.
     PointMaps
     point_maps(const FaceFrame &s_frame,
                const FaceFrame &m_frame,
@@ -118,13 +137,15 @@ namespace mortise
       const Tensor<1, 3> center = m_frame.center - s_frame.center;
       const Tensor<1, 3> s_area =
         cross_product_3d(s_frame.tangent[0], s_frame.tangent[1]);
-      PointMaps    maps;
+      PointMaps maps;
+      maps.center_xi         = s_frame.center_xi;
       const double det       = A[0][0] * A[1][1] - A[0][1] * A[1][0];
       const double B[2][2]   = {{A[1][1] / det, -A[0][1] / det},
                                 {-A[1][0] / det, A[0][0] / det}};
       const double to_height = 1. / (s_area * s_frame.normal);
       for (unsigned int i = 0; i < 2; ++i)
-        maps.eta[i] = {0.5 - B[i][0] * shift[0] - B[i][1] * shift[1],
+        maps.eta[i] = {m_frame.center_xi - B[i][0] * shift[0] -
+                         B[i][1] * shift[1],
                        {B[i][0], B[i][1]}};
       maps.gap = {0., {0., 0.}};
       for (unsigned int d = 0; d < 3; ++d)
@@ -133,8 +154,9 @@ namespace mortise
           const double t_0 = m_frame.tangent[0][d], t_1 = m_frame.tangent[1][d];
           maps.slave_x[d]  = {s_frame.center[d],
                               {s_frame.tangent[0][d], s_frame.tangent[1][d]}};
-          maps.master_x[d] = {center[d] + (maps.eta[0].value - .5) * t_0 +
-                                (maps.eta[1].value - .5) * t_1,
+          maps.master_x[d] = {center[d] +
+                                (maps.eta[0].value - m_frame.center_xi) * t_0 +
+                                (maps.eta[1].value - m_frame.center_xi) * t_1,
                               {e_0[0] * t_0 + e_1[0] * t_1,
                                e_0[1] * t_0 + e_1[1] * t_1}};
           maps.gap.value += s_area[d] * to_height * maps.master_x[d].value;
@@ -154,9 +176,10 @@ namespace mortise
               const unsigned int offset,
               IntegrationPoints &points)
     {
-      const unsigned int n       = rule.tensor_weight.size();
-      const double *__restrict s = rule.s.data(), *__restrict t = rule.t.data();
-      const double *__restrict w = rule.tensor_weight.data();
+      const unsigned int n       = rule.square.weight.size();
+      const double *__restrict s = rule.square.xi_1.data();
+      const double *__restrict t = rule.square.xi_2.data();
+      const double *__restrict w = rule.square.weight.data();
       double *__restrict xi_1    = points.slave_xi[0].data() + offset;
       double *__restrict xi_2    = points.slave_xi[1].data() + offset;
       double *__restrict weight  = points.weight.data() + offset;
@@ -172,11 +195,12 @@ namespace mortise
             (cell.b[1] + t[q] * cell.d[1]) * (cell.c[0] + s[q] * cell.d[0]);
           weight[q] = std::abs(determinant) * w[q] * surface_jacobian;
         }
-      const auto fill = [&](const Affine &map, std::vector<double> &values) {
+      const double c    = maps.center_xi;
+      const auto   fill = [&](const Affine &map, std::vector<double> &values) {
         double *__restrict value = values.data() + offset;
         for (unsigned int q = 0; q < n; ++q)
-          value[q] = map.value + (xi_1[q] - 0.5) * map.slope[0] +
-                     (xi_2[q] - 0.5) * map.slope[1];
+          value[q] = map.value + (xi_1[q] - c) * map.slope[0] +
+                     (xi_2[q] - c) * map.slope[1];
       };
       for (unsigned int i = 0; i < 2; ++i)
         fill(maps.eta[i], points.master_eta[i]);
@@ -204,7 +228,7 @@ namespace mortise
     const Tensor<1, 3> m_area =
       cross_product_3d(m_frame.tangent[0], m_frame.tangent[1]);
 
-    // xi - 1/2 = shift + A (eta - 1/2)
+    // xi - c_s = shift + A (eta - c_m)
     const Tensor<1, 3> center = m_frame.center - s_frame.center;
     double             shift[2], A[2][2];
     for (unsigned int i = 0; i < 2; ++i)
@@ -214,16 +238,17 @@ namespace mortise
           A[i][j] = s_frame.dual[i] * m_frame.tangent[j];
       }
     ConvexPolygon polygon;
-    polygon.n                     = 4;
-    constexpr double corner[4][2] = {{-.5, -.5},
-                                     {.5, -.5},
-                                     {.5, .5},
-                                     {-.5, .5}};
-    for (unsigned int v = 0; v < 4; ++v)
-      for (unsigned int i = 0; i < 2; ++i)
-        polygon.x[v][i] =
-          0.5 + shift[i] + A[i][0] * corner[v][0] + A[i][1] * corner[v][1];
-    clip_to_unit_square(polygon);
+    polygon.n = n_vertices(master.shape);
+    for (unsigned int v = 0; v < polygon.n; ++v)
+      {
+        const auto   eta = edge_coordinates(master.shape, v, 0.);
+        const double a   = eta[0] - m_frame.center_xi,
+                     b   = eta[1] - m_frame.center_xi;
+        for (unsigned int i = 0; i < 2; ++i)
+          polygon.x[v][i] =
+            s_frame.center_xi + shift[i] + A[i][0] * a + A[i][1] * b;
+      }
+    clip_to_shape(scratch.slave.shape(), polygon);
     const double area = polygon.n < 3 ? 0. : area_of(polygon);
     if (area <= empty_area)
       return result;
@@ -237,9 +262,10 @@ namespace mortise
     for (unsigned int v = 0; v < polygon.n; ++v)
       result.max_gap =
         std::max(result.max_gap,
-                 std::abs(maps.gap.value +
-                          (polygon.x[v][0] - .5) * maps.gap.slope[0] +
-                          (polygon.x[v][1] - .5) * maps.gap.slope[1]));
+                 std::abs(
+                   maps.gap.value +
+                   (polygon.x[v][0] - s_frame.center_xi) * maps.gap.slope[0] +
+                   (polygon.x[v][1] - s_frame.center_xi) * maps.gap.slope[1]));
     if (!(result.max_gap <= scratch.gap_limit))
       {
         result.status = PairStatus::too_far;
@@ -249,7 +275,7 @@ namespace mortise
     Cell cells[ConvexPolygon::max_corners];
     result.n_cells          = cut_into_cells(polygon, cells);
     const GaussRule   &rule = scratch.rule(0.);
-    const unsigned int n_q  = rule.tensor_weight.size();
+    const unsigned int n_q  = rule.square.weight.size();
     points.resize(result.n_cells * n_q);
     for (unsigned int c = 0; c < result.n_cells; ++c)
       fill_cell(cells[c], rule, maps, s_area.norm(), c * n_q, points);

@@ -9,7 +9,7 @@
 
 namespace mortise
 {
-  /// Overlaps below this fraction of the slave's reference square are rounding.
+  /// Overlaps with less area in the slave's reference coordinates are rounding.
   constexpr double empty_area = 1e-15;
 
   struct PairIntegrator::Scratch
@@ -17,6 +17,13 @@ namespace mortise
     /// The rule for the present pair.
     const GaussRule &
     rule(const double distortion) const;
+
+    bool
+    both_triangles() const
+    {
+      return slave.shape() == FaceShape::triangle &&
+             master_shape == FaceShape::triangle;
+    }
 
     /// Whether any of some sample points of one face has a partner on the
     /// other: tells a pair that could not be clipped from one that never
@@ -30,6 +37,7 @@ namespace mortise
     double      slave_size = 0, slave_area = 0;
     double      search_fraction = default_search_fraction, gap_limit = 0;
     unsigned    n_points = 0, degree_slave = 1, degree_master = 1;
+    FaceShape   master_shape = FaceShape::quadrilateral;
     MasterMap   master;
     LoopClipper clipper;
 
@@ -37,7 +45,7 @@ namespace mortise
     std::vector<double> gamma[2], gamma_rate[2]; ///< points on curved pieces
   };
 
-  /// Parallelograms with one normal: everything is linear and in closed form.
+  /// Affine faces with one normal: everything is linear and in closed form.
   PairResult
   integrate_linear_pair(PairIntegrator::Scratch &scratch,
                         const SurfaceFace       &master,

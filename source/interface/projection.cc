@@ -15,8 +15,8 @@ namespace mortise
     constexpr double       step_tolerance = 3e-8;
     constexpr unsigned int max_iterations = 25;
 
-    // The face's own polynomial continues it this far beyond the reference
-    // square, so that edges along its sides stay smooth at the corners; farther
+    // The face's own polynomial continues it this far beyond its reference
+    // domain, so that edges along its sides stay smooth at the corners; farther
     // out its tangents do.
     constexpr double margin = 0.125;
   } // namespace
@@ -26,8 +26,9 @@ namespace mortise
   void
   SlaveMap::reinit(const SurfaceFace &slave)
   {
-    frame     = slave.frame;
-    is_linear = slave.linear;
+    reference_shape = slave.shape;
+    frame           = slave.frame;
+    is_linear       = slave.linear;
     polynomial.reinit(slave, frame.center);
 
     const Tensor<1, 3> area =
@@ -44,21 +45,24 @@ namespace mortise
     vertex_normal[3] = to_vec3(n[3] - n[2] - n[1] + n[0]);
 
     normal_twist = 0;
-    for (const auto &normal : n)
-      for (const auto &dual : frame.dual)
+    for (unsigned int v = 0; v < n_vertices(slave.shape); ++v)
+      for (unsigned int i = 0; i < n_chart_axes(slave.shape); ++i)
         normal_twist = std::max(normal_twist,
-                                std::abs(dual * normal) /
-                                  std::max(0.1, frame.normal * normal));
+                                std::abs(frame.axis(i) * n[v]) /
+                                  std::max(0.1, frame.normal * n[v]));
+    // Outside of the face its tangents continue it, so the distance between the
+    // chart and the true coordinates grows in proportion: twice the deviation
+    // on the face and a half.
+    const auto beyond = [&](const double deviation) {
+      return is_linear ? 0. : 0.5 + 3. * std::max(0., deviation);
+    };
     for (unsigned int i = 0; i < 2; ++i)
-      {
-        // Outside of the face its tangents continue it, so the distance between
-        // the chart and the true coordinates grows in proportion: twice the
-        // deviation on the face and a half.
-        const double deviation =
-          std::max({0., -frame.chart_lower[i], frame.chart_upper[i] - 1.});
-        near_lower[i] = is_linear ? 0. : -0.5 - 3. * deviation;
-        near_upper[i] = is_linear ? 1. : 1.5 + 3. * deviation;
-      }
+      near.lower[i] = -beyond(-frame.chart.lower[i]);
+    for (unsigned int i = 0; i < 3; ++i)
+      near.upper[i] = 1. + beyond(frame.chart.upper[i] - 1.);
+    domain = {{{0., 0.}}, {{1., 1., 1.}}};
+    if (slave.shape == FaceShape::quadrilateral)
+      domain.upper[2] = near.upper[2] = frame.chart.upper[2];
     height_limit = slave.size;
   }
 
@@ -67,8 +71,8 @@ namespace mortise
   void
   SlaveMap::chart(const Vec3<Lanes> &x, Lanes (&xi)[2], Lanes &height) const
   {
-    xi[0]  = 0.5 + dot(x, center_dual[0]);
-    xi[1]  = 0.5 + dot(x, center_dual[1]);
+    xi[0]  = frame.center_xi + dot(x, center_dual[0]);
+    xi[1]  = frame.center_xi + dot(x, center_dual[1]);
     height = dot(x, height_dual);
   }
 
@@ -103,14 +107,18 @@ namespace mortise
                               Vec3<Lanes> (&dx)[2],
                               Vec3<Lanes> &n) const
   {
-    const Lanes zero = broadcast(0.), low = broadcast(-margin),
-                high       = broadcast(1. + margin);
-    const Lanes inside[2]  = {minimum(maximum(xi[0], low), high),
-                              minimum(maximum(xi[1], low), high)};
+    Lanes inside[2] = {xi[0], xi[1]};
+    clamp_into(reference_shape, margin, inside);
     const Lanes outside[2] = {xi[0] - inside[0], xi[1] - inside[1]};
     polynomial.evaluate(inside[0], inside[1], x, dx);
-    x                   = x + outside[0] * dx[0] + outside[1] * dx[1];
-    n                   = normal(inside);
+    x = x + outside[0] * dx[0] + outside[1] * dx[1];
+    n = normal(inside);
+    if (reference_shape == FaceShape::triangle)
+      {
+        add_normal_rates(xi, alpha, dx);
+        return;
+      }
+    const Lanes zero    = broadcast(0.);
     const Lanes alpha_1 = outside[0] == 0. ? alpha : zero;
     const Lanes alpha_2 = outside[1] == 0. ? alpha : zero;
     for (unsigned int d = 0; d < 3; ++d)
@@ -119,6 +127,33 @@ namespace mortise
           alpha_1 * (vertex_normal[1][d] + inside[1] * vertex_normal[3][d]);
         dx[1][d] +=
           alpha_2 * (vertex_normal[2][d] + inside[0] * vertex_normal[3][d]);
+      }
+  }
+
+
+
+  // A triangle's field is linear, n = n_0 + xi_1 n_1 + xi_2 n_2. With u the
+  // distances from the corner (-margin, -margin), u_1 + u_2 = S > S_max beyond
+  // the hypotenuse, inside = S_max/S u - margin and d inside_i / d xi_j =
+  // S_max/S (delta_ij - u_i/S).
+  void
+  SlaveMap::add_normal_rates(const Lanes (&xi)[2],
+                             const Lanes &alpha,
+                             Vec3<Lanes> (&dx)[2]) const
+  {
+    const Lanes zero = broadcast(0.), low = broadcast(-margin);
+    const Lanes u[2]   = {maximum(xi[0], low) + margin,
+                          maximum(xi[1], low) + margin};
+    const Lanes sum    = u[0] + u[1];
+    const Lanes beyond = sum > 1. + 3. * margin ? 1. / sum : zero;
+    const Lanes scale  = beyond > 0. ? (1. + 3. * margin) * beyond : zero + 1.;
+    for (unsigned int j = 0; j < 2; ++j)
+      {
+        const Lanes rate = xi[j] > low ? alpha * scale : zero;
+        for (unsigned int d = 0; d < 3; ++d)
+          dx[j][d] += rate * (vertex_normal[1 + j][d] -
+                              beyond * (u[0] * vertex_normal[1][d] +
+                                        u[1] * vertex_normal[2][d]));
       }
   }
 
@@ -143,12 +178,9 @@ namespace mortise
 
     const Lanes widening =
       normal_twist * minimum(absolute(height), broadcast(height_limit));
-    const Lanes distance =
-      maximum(maximum(near_lower[0] - chart_xi[0], chart_xi[0] - near_upper[0]),
-              maximum(near_lower[1] - chart_xi[1],
-                      chart_xi[1] - near_upper[1]));
-    const unsigned int near   = lanes_above(widening, distance);
-    unsigned int       active = near;
+    const unsigned int is_near =
+      lanes_above(widening, near.outside_by(chart_xi));
+    unsigned int active = is_near;
     for (unsigned int iteration = 0; active != 0 && iteration < max_iterations;
          ++iteration)
       {
@@ -159,11 +191,10 @@ namespace mortise
         xi[0] += step[0];
         xi[1] += step[1];
         alpha = step[2];
-        // Outside of the square only the side matters, and the second
+        // Outside of the face only the side matters, and the second
         // derivatives of the continuation are left out: a looser tolerance,
         // continuous at its boundary.
-        const Lanes outside =
-          maximum(maximum(-xi[0], xi[0] - 1.), maximum(-xi[1], xi[1] - 1.));
+        const Lanes outside = domain.outside_by(xi);
         const Lanes allowed =
           step_tolerance + maximum(broadcast(0.), 1e-2 * (outside - margin));
         const unsigned int moving =
@@ -177,19 +208,16 @@ namespace mortise
     // Far away, and where the continuation folds, the chart says on which side
     // a point lies.
     const unsigned int all = (1u << n_lanes) - 1;
-    if (near == all && active == 0)
+    if (is_near == all && active == 0)
       return 0;
     unsigned int failed = 0;
+    const Lanes  beside = frame.chart.outside_by(chart_xi);
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
         const unsigned int bit = 1u << l;
-        const bool beside      = chart_xi[0][l] < frame.chart_lower[0] - 0.05 ||
-                            chart_xi[0][l] > frame.chart_upper[0] + 0.05 ||
-                            chart_xi[1][l] < frame.chart_lower[1] - 0.05 ||
-                            chart_xi[1][l] > frame.chart_upper[1] + 0.05;
-        if ((active & bit) != 0 && !beside)
+        if ((active & bit) != 0 && !(beside[l] > 0.05))
           failed |= bit;
-        if ((near & bit) == 0 || (active & bit) != 0)
+        if ((is_near & bit) == 0 || (active & bit) != 0)
           {
             xi[0][l] = chart_xi[0][l];
             xi[1][l] = chart_xi[1][l];
@@ -219,9 +247,7 @@ namespace mortise
     evaluate_extended(xi, alpha, x_s, dx_s, n);
     Lanes rate[3];
     solve_3x3(dx_s[0], dx_s[1], n, dx, rate);
-    const Lanes beyond =
-      maximum(maximum(near_lower[0] - xi[0], xi[0] - near_upper[0]),
-              maximum(near_lower[1] - xi[1], xi[1] - near_upper[1]));
+    const Lanes beyond = near.outside_by(xi);
     for (unsigned int i = 0; i < 2; ++i)
       dxi[i] = beyond > 0. ? dot(dx, center_dual[i]) : rate[i];
   }
@@ -231,12 +257,14 @@ namespace mortise
   void
   MasterMap::reinit(const SurfaceFace &master, const Point<3> &origin)
   {
+    shape       = master.shape;
     is_affine   = master.affine;
     orientation = master.orientation;
     polynomial.reinit(master, origin);
-    for (unsigned int k = 0; k < 4; ++k)
-      edges[k].reinit(polynomial, k);
-    center = to_vec3(master.frame.center - origin);
+    for (unsigned int k = 0; k < n_vertices(shape); ++k)
+      edges[k].reinit(polynomial, shape, k);
+    center_xi = master.frame.center_xi;
+    center    = to_vec3(master.frame.center - origin);
     for (unsigned int i = 0; i < 2; ++i)
       tangent[i] = to_vec3(master.frame.tangent[i]);
   }
@@ -259,8 +287,8 @@ namespace mortise
         const Vec3<Lanes> t_1 = broadcast(tangent[0]),
                           t_2 = broadcast(tangent[1]);
         solve_3x3(t_1, t_2, minus_n, x - broadcast(center), step);
-        eta[0] = 0.5 + step[0];
-        eta[1] = 0.5 + step[1];
+        eta[0] = center_xi + step[0];
+        eta[1] = center_xi + step[1];
         alpha  = step[2];
         if (is_affine)
           {
@@ -298,8 +326,7 @@ namespace mortise
          ++iteration)
       {
         // A partner lies on the face; farther out the polynomial means nothing.
-        for (auto &e : eta)
-          e = minimum(maximum(e, broadcast(-0.5)), broadcast(1.5));
+        clamp_into(shape, 0.5, eta);
         Vec3<Lanes> dx[2];
         Lanes       step[3];
         polynomial.evaluate(eta[0], eta[1], x_m, dx);
@@ -323,14 +350,14 @@ namespace mortise
                              const unsigned int wanted,
                              Lanes (&eta)[2]) const
   {
-    constexpr unsigned int n_samples = 7;
-    Lanes                  chosen, best = broadcast(1e300);
+    const ReferenceRule &samples = gauss_rule(7).on(shape);
+    Lanes                chosen, best = broadcast(1e300);
     for (unsigned int l = 0; l < n_lanes; ++l)
       chosen[l] = (wanted & (1u << l)) != 0 ? 1. : 0.;
-    for (unsigned int i = 0; i < n_samples * n_samples; ++i)
+    for (unsigned int i = 0; i < samples.weight.size(); ++i)
       {
-        const Lanes e[2] = {broadcast((i % n_samples + 0.5) / n_samples),
-                            broadcast((i / n_samples + 0.5) / n_samples)};
+        const Lanes e[2] = {broadcast(samples.xi_1[i]),
+                            broadcast(samples.xi_2[i])};
         Vec3<Lanes> x_m, dx[2];
         polynomial.evaluate(e[0], e[1], x_m, dx);
         const Vec3<Lanes> off    = cross(x_m - x, n);

@@ -27,8 +27,9 @@ namespace mortise
       for (unsigned int d = 0; d < 3; ++d)
         {
           double component = 0;
-          for (const auto &normal : face.vertex_normals)
-            component = std::max(component, std::abs(normal[d]));
+          for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
+            component =
+              std::max(component, std::abs(face.vertex_normals[v][d]));
           const double reach =
             search_fraction * face.size * component + 1e-10 * face.size;
           lower[d] = face.lower[d] - reach;
@@ -37,31 +38,40 @@ namespace mortise
       return Box({lower, upper});
     }
 
-    // The prism over the face's chart box: it contains the curved face.
+    // The prism over the face's chart box (over a triangle, what the bound of
+    // the sum leaves of it): it contains the curved face.
     struct Prism
     {
+      unsigned int n = 0;
       Tensor<1, 3> corner[8];
     };
 
     Prism
     prism_of(const SurfaceFace &face)
     {
-      const FaceFrame &frame = face.frame;
+      const FaceFrame    &frame = face.frame;
+      const ReferenceBox &chart = frame.chart;
+      const unsigned int  n     = n_vertices(face.shape);
       // What a chart's dual base leaves out is the part of the tangents along
       // the normal.
       Prism prism;
-      for (unsigned int v = 0; v < 8; ++v)
+      prism.n = 2 * n;
+      for (unsigned int v = 0; v < n; ++v)
         {
-          const double a =
-            (v % 2 == 0 ? frame.chart_lower[0] : frame.chart_upper[0]) - 0.5;
-          const double b =
-            (v / 2 % 2 == 0 ? frame.chart_lower[1] : frame.chart_upper[1]) -
-            0.5;
+          double xi[2];
+          for (unsigned int i = 0; i < 2; ++i)
+            xi[i] = (i == 0 ? v % 2 : v / 2) == 0 ?
+                      chart.lower[i] :
+                    face.shape == FaceShape::triangle ?
+                      chart.upper[2] - chart.lower[1 - i] :
+                      chart.upper[i];
           const Tensor<1, 3> in_plane =
-            a * frame.tangent[0] + b * frame.tangent[1];
-          const double height = v < 4 ? frame.height_lower : frame.height_upper;
-          prism.corner[v]     = frame.center + in_plane +
-                            (height - in_plane * frame.normal) * frame.normal;
+            (xi[0] - frame.center_xi) * frame.tangent[0] +
+            (xi[1] - frame.center_xi) * frame.tangent[1];
+          const Tensor<1, 3> foot =
+            frame.center + in_plane - (in_plane * frame.normal) * frame.normal;
+          prism.corner[v]     = foot + frame.height_lower * frame.normal;
+          prism.corner[n + v] = foot + frame.height_upper * frame.normal;
         }
       return prism;
     }
@@ -71,24 +81,29 @@ namespace mortise
     bool
     beside(const SurfaceFace &face, const Prism &other, const double reach)
     {
-      const FaceFrame &frame = face.frame;
-      double           twist = 0;
-      for (const auto &normal : face.vertex_normals)
-        for (const auto &dual : frame.dual)
-          twist = std::max(twist, std::abs(dual * normal));
-      for (unsigned int i = 0; i < 2; ++i)
+      const FaceFrame   &frame  = face.frame;
+      const unsigned int n_axes = n_chart_axes(face.shape);
+      double             twist  = 0;
+      for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
+        for (unsigned int i = 0; i < n_axes; ++i)
+          twist =
+            std::max(twist, std::abs(frame.axis(i) * face.vertex_normals[v]));
+      const double slack = 1e-10 + twist * reach;
+      for (unsigned int i = 0; i < n_axes; ++i)
         {
           double low = 1e300, high = -1e300;
-          for (const auto &corner : other.corner)
+          for (unsigned int c = 0; c < other.n; ++c)
             {
               const double chart =
-                0.5 + frame.dual[i] * (corner - frame.center);
+                (i < 2 ? 1. : 2.) * frame.center_xi +
+                frame.axis(i) * (other.corner[c] - frame.center);
               low  = std::min(low, chart);
               high = std::max(high, chart);
             }
-          const double slack = 1e-10 + twist * reach;
-          if (low > frame.chart_upper[i] + slack ||
-              high < frame.chart_lower[i] - slack)
+          const double least = i < 2 ?
+                                 frame.chart.lower[i] :
+                                 frame.chart.lower[0] + frame.chart.lower[1];
+          if (low > frame.chart.upper[i] + slack || high < least - slack)
             return true;
         }
       return false;
@@ -97,9 +112,9 @@ namespace mortise
     bool
     normals_may_oppose(const SurfaceFace &a, const SurfaceFace &b)
     {
-      for (const auto &n_a : a.vertex_normals)
-        for (const auto &n_b : b.vertex_normals)
-          if (n_a * n_b < 0)
+      for (unsigned int v = 0; v < n_vertices(a.shape); ++v)
+        for (unsigned int w = 0; w < n_vertices(b.shape); ++w)
+          if (a.vertex_normals[v] * b.vertex_normals[w] < 0)
             return true;
       return false;
     }

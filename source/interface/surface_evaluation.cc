@@ -182,9 +182,13 @@ namespace mortise
     for (unsigned int j = 0; j < n; ++j)
       for (unsigned int i = 0; i < n; ++i)
         {
-          s.push_back(point[i]);
-          t.push_back(point[j]);
-          tensor_weight.push_back(weight[i] * weight[j]);
+          const double along = 1. - point[j];
+          square.xi_1.push_back(point[i]);
+          square.xi_2.push_back(point[j]);
+          square.weight.push_back(weight[i] * weight[j]);
+          triangle.xi_1.push_back(point[i] * along);
+          triangle.xi_2.push_back(point[j]);
+          triangle.weight.push_back(weight[i] * weight[j] * along);
         }
   }
 
@@ -248,19 +252,26 @@ namespace mortise
 
 
   void
-  EdgePolynomial::reinit(const FacePolynomial &face, const unsigned int edge)
+  EdgePolynomial::reinit(const FacePolynomial &face,
+                         const FaceShape       shape,
+                         const unsigned int    edge)
   {
-    degree               = face.degree;
-    const unsigned int n = degree + 1;
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        const unsigned int index = edge == 0 ? i :
-                                   edge == 1 ? i * n + degree :
-                                   edge == 2 ? degree * n + degree - i :
-                                               (degree - i) * n;
-        for (unsigned int d = 0; d < 3; ++d)
-          coefficients[d][i] = face.coefficients[d][index];
-      }
+    degree       = face.degree;
+    const int  g = degree, n = g + 1;
+    const bool triangle = shape == FaceShape::triangle;
+    // The nodes are symmetric about 1/2: the support points (g-j, j) lie on the
+    // hypotenuse, at its own nodes.
+    const int first = edge == 0 ? 0 :
+                      edge == 1 ? g :
+                      edge == 2 ? (triangle ? n * g : n * n - 1) :
+                                  n * g;
+    const int step  = edge == 0 ? 1 :
+                      edge == 1 ? (triangle ? g : n) :
+                      edge == 2 ? (triangle ? -n : -1) :
+                                  -n;
+    for (int i = 0; i < n; ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        coefficients[d][i] = face.coefficients[d][first + i * step];
   }
 
 

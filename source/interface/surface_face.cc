@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <unordered_map>
 
 namespace mortise
 {
@@ -69,18 +68,81 @@ namespace mortise
       return result;
     }
 
-    // A parallelogram is its corners' linear interpolant with the fourth corner
-    // where it belongs.
+    // The polynomial of a triangle in the collapsed coordinates of GaussRule:
+    // the image of the square is the triangle, and total degree g makes it one
+    // of degree g per direction.
+    FacePolynomial
+    collapsed(const FacePolynomial &polynomial)
+    {
+      const LagrangeBasis &basis  = lagrange_basis(polynomial.degree);
+      const unsigned int   n      = polynomial.degree + 1;
+      FacePolynomial       result = polynomial;
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const double       t = basis.node[j];
+            const Tensor<1, 3> x =
+              evaluate(polynomial, basis.node[i] * (1. - t), t).x;
+            for (unsigned int d = 0; d < 3; ++d)
+              result.coefficients[d][j * n + i] = x[d];
+          }
+      return result;
+    }
+
+    // A triangle's points beyond the hypotenuse, by Newton's form on those in
+    // it. That amplifies rounding by up to 1e6 (g = 8): in extended precision
+    // what is left does not show inside the triangle.
+    void
+    continue_triangle(SurfaceFace &face)
+    {
+      using Number           = long double;
+      const LagrangeBasis &v = lagrange_basis(face.degree);
+      const unsigned int   g = face.degree, n = g + 1;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          Number       c[max_face_nodes][max_face_nodes];
+          const Number origin = face.points[0][d];
+          for (unsigned int j = 0; j <= g; ++j)
+            for (unsigned int i = 0; i <= g - j; ++i)
+              c[j][i] = face.points[j * n + i][d] - origin;
+          for (unsigned int j = 0; j <= g; ++j)
+            for (unsigned int k = 1; k <= g - j; ++k)
+              for (unsigned int i = g - j; i >= k; --i)
+                c[j][i] =
+                  (c[j][i] - c[j][i - 1]) / (Number(v.node[i]) - v.node[i - k]);
+          for (unsigned int i = 0; i <= g; ++i)
+            for (unsigned int k = 1; k <= g - i; ++k)
+              for (unsigned int j = g - i; j >= k; --j)
+                c[j][i] =
+                  (c[j][i] - c[j - 1][i]) / (Number(v.node[j]) - v.node[j - k]);
+          for (unsigned int j = 1; j <= g; ++j)
+            for (unsigned int i = n - j; i <= g; ++i)
+              {
+                Number sum = 0;
+                for (unsigned int b = n; b-- > 0;)
+                  {
+                    Number row = 0;
+                    for (unsigned int a = n - b; a-- > 0;)
+                      row = row * (Number(v.node[i]) - v.node[a]) + c[b][a];
+                    sum = sum * (Number(v.node[j]) - v.node[b]) + row;
+                  }
+                face.points[j * n + i][d] = origin + sum;
+              }
+        }
+    }
+
+    // Its affine interpolant at three vertices is the face.
     bool
-    is_parallelogram(const SurfaceFace &face)
+    is_affine(const SurfaceFace &face)
     {
       const LagrangeBasis &basis     = lagrange_basis(face.degree);
       const double         tolerance = flat_tolerance(face) * face.size;
       const unsigned int   n         = face.degree + 1;
       const Tensor<1, 3>   a = face.points[face.degree] - face.points[0];
       const Tensor<1, 3>   b = face.points[n * face.degree] - face.points[0];
+      const bool           triangle = face.shape == FaceShape::triangle;
       for (unsigned int j = 0; j < n; ++j)
-        for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int i = 0; i < (triangle ? n - j : n); ++i)
           if ((face.points[j * n + i] - face.points[0] - basis.node[i] * a -
                basis.node[j] * b)
                 .norm() > tolerance)
@@ -93,10 +155,6 @@ namespace mortise
     {
       const std::string where =
         "Surface face " + std::to_string(face.id) + ": ";
-      if (face.shape != FaceShape::quadrilateral)
-        throw InputError(
-          where +
-          "its shape is not a quadrilateral; only those are supported.");
       if (face.degree < 1 || face.degree > max_face_degree)
         throw InputError(where + "degree of the geometry is " +
                          std::to_string(face.degree) + "; allowed: 1 to " +
@@ -117,13 +175,15 @@ namespace mortise
     {
       FacePolynomial polynomial;
       polynomial.reinit(face, Point<3>());
-      const PointOnFace center = evaluate(polynomial, 0.5, 0.5);
-      FaceFrame        &frame  = face.frame;
-      frame.center             = Point<3>(center.x);
-      frame.tangent            = {{center.dx[0], center.dx[1]}};
-      frame.normal             = Tensor<1, 3>();
-      for (const auto &normal : face.vertex_normals)
-        frame.normal += normal;
+      FaceFrame &frame = face.frame;
+      frame.center_xi  = center_coordinate(face.shape);
+      const PointOnFace center =
+        evaluate(polynomial, frame.center_xi, frame.center_xi);
+      frame.center  = Point<3>(center.x);
+      frame.tangent = {{center.dx[0], center.dx[1]}};
+      frame.normal  = Tensor<1, 3>();
+      for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
+        frame.normal += face.vertex_normals[v];
       frame.normal /= frame.normal.norm();
       // dual[0] = t_2 x n / (t_1 . t_2 x n), dual[1] = n x t_1 / (...)
       const double volume =
@@ -135,6 +195,48 @@ namespace mortise
       frame.dual = {{cross_product_3d(center.dx[1], frame.normal) / volume,
                      cross_product_3d(frame.normal, center.dx[0]) / volume}};
     }
+
+    // Everything that contains the face: its control points do.
+    void
+    set_bounds(SurfaceFace &face)
+    {
+      constexpr double infinity = std::numeric_limits<double>::infinity();
+      const bool       triangle = face.shape == FaceShape::triangle;
+      FaceFrame       &frame    = face.frame;
+      FacePolynomial   polynomial;
+      polynomial.reinit(face, frame.center);
+      if (triangle)
+        polynomial = collapsed(polynomial);
+      frame.chart.lower  = {{infinity, infinity}};
+      frame.chart.upper  = {{-infinity, -infinity, -infinity}};
+      frame.height_lower = infinity;
+      frame.height_upper = -infinity;
+      Tensor<1, 3> box_lower({infinity, infinity, infinity}),
+        box_upper = -box_lower;
+      for (const auto &point : control_points(polynomial))
+        {
+          const double chart[2] = {frame.center_xi + frame.dual[0] * point,
+                                   frame.center_xi + frame.dual[1] * point};
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              frame.chart.lower[i] = std::min(frame.chart.lower[i], chart[i]);
+              frame.chart.upper[i] = std::max(frame.chart.upper[i], chart[i]);
+            }
+          frame.chart.upper[2] =
+            std::max(frame.chart.upper[2],
+                     triangle ? chart[0] + chart[1] : infinity);
+          const double height = frame.normal * point;
+          frame.height_lower  = std::min(frame.height_lower, height);
+          frame.height_upper  = std::max(frame.height_upper, height);
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              box_lower[d] = std::min(box_lower[d], point[d]);
+              box_upper[d] = std::max(box_upper[d], point[d]);
+            }
+        }
+      face.lower = frame.center + box_lower;
+      face.upper = frame.center + box_upper;
+    }
   } // namespace
 
 
@@ -143,96 +245,32 @@ namespace mortise
   SurfaceFace::finalize()
   {
     check(*this);
+    if (shape == FaceShape::triangle)
+      continue_triangle(*this);
     const unsigned int n = degree + 1;
-    size                 = std::max((points[n * n - 1] - points[0]).norm(),
-                    (points[degree] - points[n * degree]).norm());
-    affine               = is_parallelogram(*this);
+    const Point<3> &a = points[0], &b = points[degree], &c = points[n * degree];
+    size   = shape == FaceShape::triangle ?
+               std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()}) :
+               std::max((points[n * n - 1] - a).norm(), (b - c).norm());
+    affine = is_affine(*this);
 
-    if (std::all_of(vertex_normals.begin(),
-                    vertex_normals.end(),
-                    [](const auto &normal) {
-                      return normal.norm_square() == 0.;
-                    }))
+    const auto first = vertex_normals.begin(), last = first + n_vertices(shape);
+    if (std::all_of(first, last, [](const auto &normal) {
+          return normal.norm_square() == 0.;
+        }))
       {
-        vertex_normals = corner_normals(*this);
-        for (auto &normal : vertex_normals)
-          normal /= normal.norm();
+        const auto normals = corner_normals(*this);
+        for (unsigned int v = 0; v < n_vertices(shape); ++v)
+          vertex_normals[v] = normals[v] / normals[v].norm();
       }
-    linear = affine;
-    for (const auto &normal : vertex_normals)
-      linear =
-        linear && (normal - vertex_normals[0]).norm() <= flat_tolerance(*this);
+    if (shape == FaceShape::triangle)
+      vertex_normals[3] =
+        vertex_normals[1] + vertex_normals[2] - vertex_normals[0];
+    linear = affine && std::all_of(first, last, [&](const auto &normal) {
+               return (normal - *first).norm() <= flat_tolerance(*this);
+             });
     set_frame(*this);
-
-    FacePolynomial polynomial;
-    polynomial.reinit(*this, frame.center);
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    frame.chart_lower         = {{infinity, infinity}};
-    frame.chart_upper         = {{-infinity, -infinity}};
-    frame.height_lower        = infinity;
-    frame.height_upper        = -infinity;
-    Tensor<1, 3> box_lower({infinity, infinity, infinity}),
-      box_upper = -box_lower;
-    for (const auto &point : control_points(polynomial))
-      {
-        for (unsigned int i = 0; i < 2; ++i)
-          {
-            const double chart   = 0.5 + frame.dual[i] * point;
-            frame.chart_lower[i] = std::min(frame.chart_lower[i], chart);
-            frame.chart_upper[i] = std::max(frame.chart_upper[i], chart);
-          }
-        frame.height_lower = std::min(frame.height_lower, frame.normal * point);
-        frame.height_upper = std::max(frame.height_upper, frame.normal * point);
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            box_lower[d] = std::min(box_lower[d], point[d]);
-            box_upper[d] = std::max(box_upper[d], point[d]);
-          }
-      }
-    lower = frame.center + box_lower;
-    upper = frame.center + box_upper;
-  }
-
-
-
-  std::array<Tensor<1, 3>, 4>
-  corner_normals(const SurfaceFace &face)
-  {
-    FacePolynomial polynomial;
-    polynomial.reinit(face, face.points[0]);
-    std::array<Tensor<1, 3>, 4> result;
-    for (unsigned int v = 0; v < 4; ++v)
-      {
-        const PointOnFace point = evaluate(polynomial, v % 2, v / 2);
-        result[v] =
-          face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
-      }
-    return result;
-  }
-
-
-
-  void
-  average_vertex_normals(
-    std::vector<SurfaceFace>                        &faces,
-    const std::vector<std::array<std::uint64_t, 4>> &vertices)
-  {
-    AssertDimension(faces.size(), vertices.size());
-    // The sum must not depend on the order of the faces beyond rounding of a
-    // few additions.
-    std::unordered_map<std::uint64_t, Tensor<1, 3>> sums;
-    for (unsigned int f = 0; f < faces.size(); ++f)
-      {
-        const auto normals = corner_normals(faces[f]);
-        for (unsigned int v = 0; v < 4; ++v)
-          sums[vertices[f][v]] += normals[v];
-      }
-    for (unsigned int f = 0; f < faces.size(); ++f)
-      for (unsigned int v = 0; v < 4; ++v)
-        {
-          const Tensor<1, 3> &sum    = sums[vertices[f][v]];
-          faces[f].vertex_normals[v] = sum / sum.norm();
-        }
+    set_bounds(*this);
   }
 
 
@@ -245,22 +283,24 @@ namespace mortise
     // A face that bends far away from its plane needs more points.
     const double rise =
       (face.frame.height_upper - face.frame.height_lower) / face.size;
-    const unsigned int enough = face.affine ? 1 :
-                                              face.degree + (rise < 0.05 ? 6 :
-                                                             rise < 0.15 ? 9 :
-                                                                           16);
-    const GaussRule   &rule   = gauss_rule(n > 0 ? n : enough);
-    double             area   = 0;
-    for (unsigned int q = 0; q < rule.s.size(); q += n_lanes)
+    const unsigned int   enough = face.affine ? 1 :
+                                                face.degree + (rise < 0.05 ? 6 :
+                                                               rise < 0.15 ? 9 :
+                                                                             16);
+    const ReferenceRule &rule   = gauss_rule(n > 0 ? n : enough).on(face.shape);
+    double               area   = 0;
+    for (unsigned int q = 0; q < rule.weight.size(); q += n_lanes)
       {
-        Lanes              xi[2] = {broadcast(0.5), broadcast(0.5)}, weight{};
+        Lanes xi[2] = {broadcast(face.frame.center_xi),
+                       broadcast(face.frame.center_xi)},
+              weight{};
         const unsigned int n_active =
-          std::min<unsigned int>(n_lanes, rule.s.size() - q);
+          std::min<unsigned int>(n_lanes, rule.weight.size() - q);
         for (unsigned int l = 0; l < n_active; ++l)
           {
-            xi[0][l]  = rule.s[q + l];
-            xi[1][l]  = rule.t[q + l];
-            weight[l] = rule.tensor_weight[q + l];
+            xi[0][l]  = rule.xi_1[q + l];
+            xi[1][l]  = rule.xi_2[q + l];
+            weight[l] = rule.weight[q + l];
           }
         Vec3<Lanes> x, dx[2];
         polynomial.evaluate(xi[0], xi[1], x, dx);
@@ -293,15 +333,5 @@ namespace mortise
     const Tensor<1, 3> normal =
       face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
     return normal / normal.norm();
-  }
-
-
-
-  Tensor<1, 3>
-  averaged_normal(const SurfaceFace &face, const Point<2> &xi)
-  {
-    const auto &n = face.vertex_normals;
-    return (1 - xi[1]) * ((1 - xi[0]) * n[0] + xi[0] * n[1]) +
-           xi[1] * ((1 - xi[0]) * n[2] + xi[0] * n[3]);
   }
 } // namespace mortise

@@ -115,8 +115,12 @@ namespace mortise
             if (is_triangle() ? blocked[v] && !rim[e] : is_rim_across(v, e))
               across_rim(e, other, record);
           }
-        if (is_triangle() && n_rims == 2 && is_between_rims(v))
-          corner(v, record);
+        if (is_triangle() && blocked[v])
+          {
+            record.on_rim = true;
+            if (is_between_rims(v))
+              corner(v, record);
+          }
         for (unsigned int w = 0; w < basis.n_vertices(); ++w)
           if (w != v && !blocked[w])
             record.diagonal.insert(vertex_dof(w));
@@ -160,19 +164,21 @@ namespace mortise
         return true;
       }
 
-      /// A triangle's vertex between two rims: the functions of degree p - 2
-      /// have a vertex function from p = 3 on; else the other two give its
-      /// value.
+      /// A triangle's vertex between two rims. Functions of degree p - r have
+      /// a vertex function where this is 1 or more; a constant belongs to the
+      /// whole triangle if all its edges are rims.
       void
       corner(const unsigned int v, MultiplierRecord &record)
       {
-        record.on_rim = true;
-        if (face.face_degree >= 3)
+        const int left =
+          static_cast<int>(face.face_degree) - static_cast<int>(n_rims);
+        if (left >= 1)
           record.across_kept = true;
         else
           for (unsigned int w = 0; w < 3; ++w)
             if (w != v)
-              record.neighbours.insert(vertex_dof(w));
+              (left == 0 && n_rims == 3 ? record.merged : record.beside)
+                .insert(vertex_dof(w));
       }
 
       const MultiplierFace                       &face;

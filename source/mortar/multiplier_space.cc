@@ -45,6 +45,29 @@ namespace mortise
         reduction.add_entry(dof, other, 1. / of.size());
     }
 
+    /// Owned dofs of vertices that are stranded but for others beside them on
+    /// the rim, with those.
+    std::map<types::global_dof_index, MultiplierRecord::Dofs>
+    find_rescued(const Body &body, const MultiplierRecords &records)
+    {
+      // the owner of a dof knows all faces around it
+      const IndexSet &owned = body.dof_handler.locally_owned_dofs();
+      LinearAlgebra::distributed::Vector<double> settled(
+        owned, body.relevant_dofs, body.triangulation().get_communicator());
+      for (const auto &[dof, record] : records)
+        if (owned.is_element(dof) && !record.is_stranded())
+          settled(dof) = 1.;
+      settled.update_ghost_values();
+
+      std::map<types::global_dof_index, MultiplierRecord::Dofs> rescued;
+      for (const auto &[dof, record] : records)
+        if (owned.is_element(dof) && record.is_stranded())
+          for (const auto other : record.beside)
+            if (settled(other) > 0.5)
+              rescued[dof].insert(other);
+      return rescued;
+    }
+
     /// The line of one dof without conformity constraints; none if it is a
     /// multiplier.
     void
@@ -104,8 +127,10 @@ namespace mortise
         }
 
     std::map<types::global_dof_index, bool> may_follow;
+    const auto rescued = find_rescued(body, records);
     for (const auto &[dof, record] : records)
-      if (record.is_stranded() && !body.conformity.is_constrained(dof))
+      if (record.is_stranded() && !body.conformity.is_constrained(dof) &&
+          rescued.count(dof) == 0)
         may_follow.emplace(dof, record.can_follow);
     const StrandedVertices stranded(body, faces, may_follow);
     IndexSet               known = body.relevant_dofs;
@@ -115,7 +140,10 @@ namespace mortise
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
         {
-          add_reduction(dof, records, stranded, reduction);
+          if (const auto found = rescued.find(dof); found != rescued.end())
+            add_mean(dof, found->second, reduction);
+          else
+            add_reduction(dof, records, stranded, reduction);
           if (!reduction.is_constrained(dof))
             owned_dofs.push_back(dof);
         }

@@ -28,14 +28,19 @@ namespace
   }
 
   void
-  check(const std::string &name,
+  check(const Pairing     &pairing,
+        const std::string &case_name,
         const bool         only_first_has_slaves,
         const MPI_Comm     comm)
   {
+    const std::string  name    = pairing.name + ", " + case_name;
     const unsigned int rank    = Utilities::MPI::this_mpi_process(comm);
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const auto         slaves  = faces(sphere(), {9, 9, 3});
-    const auto masters = faces(sphere(), {7, 7, 3, -.1, 1.1, -.1, 1.1, -1});
+    const auto         slaves =
+      faces(sphere(), {9, 9, 3, 0, 1, 0, 1, 1, false, 0, pairing.slave});
+    const auto masters =
+      faces(sphere(),
+            {7, 7, 3, -.1, 1.1, -.1, 1.1, -1, false, 0, pairing.master});
 
     auto owned_slaves = only_first_has_slaves ? part(slaves, rank, 1) :
                                                 part(slaves, rank, n_ranks);
@@ -54,6 +59,7 @@ namespace
         sorted = sorted && (i == 0 || near[i - 1].id < near[i].id);
         intact = intact && near[i].payload.size() == 2 &&
                  near[i].payload[0] == char('a' + near[i].id % 26) &&
+                 near[i].shape == pairing.master &&
                  near[i].points == masters[near[i].id].points &&
                  near[i].frame.center == masters[near[i].id].frame.center;
       }
@@ -101,7 +107,10 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  check("both sides on all ranks", false, MPI_COMM_WORLD);
-  check("slaves on the first rank only", true, MPI_COMM_WORLD);
+  for (const Pairing &pairing : pairings())
+    {
+      check(pairing, "both sides on all ranks", false, MPI_COMM_WORLD);
+      check(pairing, "slaves on the first rank only", true, MPI_COMM_WORLD);
+    }
   return 0;
 }

@@ -1,5 +1,6 @@
-// Proves what a SurfaceFace derives from its points: derivatives, box, flags,
-// normals, area, frame, the message for wrong input, and that it survives
+// Proves what a SurfaceFace, triangle or quadrilateral, derives from its
+// points: derivatives, box, flags, normals, area, frame, a triangle's
+// continuation, the message for wrong input, and that it survives
 // serialization.
 #include <deal.II/base/utilities.h>
 
@@ -11,10 +12,29 @@ using namespace synthetic;
 
 namespace
 {
-  void
-  check_evaluation(const unsigned int degree)
+  std::string
+  name_of(const FaceShape shape)
   {
-    const SurfaceFace face = faces(sphere(2.), {1, 1, degree})[0];
+    return shape == FaceShape::triangle ? "triangle of " : "";
+  }
+
+  Grid
+  grid_of(const FaceShape    shape,
+          const unsigned int n_u,
+          const unsigned int n_v,
+          const unsigned int degree)
+  {
+    Grid grid{n_u, n_v, degree};
+    grid.shape = shape;
+    return grid;
+  }
+
+  void
+  check_evaluation(const FaceShape shape, const unsigned int degree)
+  {
+    const std::string name =
+      name_of(shape) + "degree " + std::to_string(degree);
+    const SurfaceFace face = faces(sphere(2.), grid_of(shape, 1, 1, degree))[0];
     FacePolynomial    polynomial;
     polynomial.reinit(face, face.frame.center);
     const double h = 1e-6;
@@ -45,55 +65,59 @@ namespace
       }
     EdgePolynomial edges[4];
     unsigned int   edge[n_lanes];
-    for (unsigned int k = 0; k < 4; ++k)
-      edges[k].reinit(polynomial, k);
+    for (unsigned int k = 0; k < n_vertices(shape); ++k)
+      edges[k].reinit(polynomial, face.shape, k);
     for (unsigned int l = 0; l < n_lanes; ++l)
-      edge[l] = l % 4;
+      edge[l] = l % n_vertices(shape);
     evaluate_edges(edges, edge, xi_1, a, b);
     Lanes eta_1, eta_2;
     for (unsigned int l = 0; l < n_lanes; ++l)
       {
-        const auto eta = edge_coordinates(edge[l], at[l]);
+        const auto eta = edge_coordinates(face.shape, edge[l], at[l]);
         eta_1[l]       = eta[0];
         eta_2[l]       = eta[1];
       }
     polynomial.evaluate(eta_1, eta_2, x, dx);
     for (unsigned int d = 0; d < 3; ++d)
       edge_error = std::max(edge_error, largest(absolute(a[d] - x[d])));
-    verdict("degree " + std::to_string(degree) +
-              ", derivatives against differences",
-            derivative,
-            1e-7);
-    verdict("degree " + std::to_string(degree) + ", edges against the face",
-            edge_error,
-            1e-13);
+    verdict(name + ", derivatives against differences", derivative, 1e-7);
+    verdict(name + ", edges against the face", edge_error, 1e-13);
   }
 
   void
-  check_geometry(const unsigned int degree)
+  check_geometry(const FaceShape shape, const unsigned int degree)
   {
-    const std::string name    = "degree " + std::to_string(degree);
-    const auto        all     = faces(sphere(2.), {3, 2, degree});
-    double            outside = 0, normal_error = 0, chart_error = 0;
+    const std::string name =
+      name_of(shape) + "degree " + std::to_string(degree);
+    const bool triangle = shape == FaceShape::triangle;
+    const auto all      = faces(sphere(2.), grid_of(shape, 3, 2, degree));
+    double     outside = 0, normal_error = 0, chart_error = 0;
     for (const auto &face : all)
       {
         for (unsigned int i = 0; i <= 20; ++i)
           for (unsigned int j = 0; j <= 20; ++j)
             {
-              const Point<3> x = face_point(face, Point<2>(i / 20., j / 20.));
+              const double   along = triangle ? 1. - j / 20. : 1.;
+              const Point<3> x =
+                face_point(face, Point<2>(along * i / 20., j / 20.));
               for (unsigned int d = 0; d < 3; ++d)
                 outside = std::max(
                   {outside, face.lower[d] - x[d], x[d] - face.upper[d]});
+              double chart[2];
               for (unsigned int c = 0; c < 2; ++c)
                 {
-                  const double chart =
-                    0.5 + face.frame.dual[c] * (x - face.frame.center);
-                  chart_error = std::max({chart_error,
-                                          face.frame.chart_lower[c] - chart,
-                                          chart - face.frame.chart_upper[c]});
+                  chart[c] = face.frame.center_xi +
+                             face.frame.dual[c] * (x - face.frame.center);
+                  chart_error =
+                    std::max({chart_error,
+                              face.frame.chart.lower[c] - chart[c],
+                              chart[c] - face.frame.chart.upper[c]});
                 }
+              chart_error =
+                std::max(chart_error,
+                         chart[0] + chart[1] - face.frame.chart.upper[2]);
             }
-        for (unsigned int v = 0; v < 4; ++v)
+        for (unsigned int v = 0; v < n_vertices(shape); ++v)
           {
             const Point<3> x = face_point(face, Point<2>(v % 2, v / 2));
             normal_error =
@@ -137,6 +161,68 @@ namespace
     verdict("flat faces of degree 4: linear, area, normal", worst, 1e-14);
   }
 
+  // A flat triangle of degree 2 with the middle of its hypotenuse off by 1e-13
+  // and 1e-10 of its size, and the continuation of a cubic.
+  void
+  check_triangle()
+  {
+    for (const double size : {1e-3, 1., 1e6})
+      for (const double error : {1e-13, 1e-10})
+        {
+          SurfaceFace face =
+            faces(plane(), grid_of(FaceShape::triangle, 1, 1, 2))[0];
+          for (auto &point : face.points)
+            point = Point<3>(size * point);
+          face.points[4] += size * error * Point<3>(0, 0, 1);
+          face.vertex_normals = {};
+          face.finalize();
+          verdict("a flat triangle is recognised relative to its size",
+                  face.affine == (error < 1e-12) && face.linear == face.affine ?
+                    0. :
+                    1.,
+                  0.);
+        }
+
+    const Surface cubic = [](const double u, const double v) {
+      return Point<3>(u + v * v,
+                      v - u * v * (1 - u),
+                      u * u * u - 2 * u * v + v);
+    };
+    for (const unsigned int degree : {3u, 5u, 8u})
+      {
+        SurfaceFace face;
+        face.shape                 = FaceShape::triangle;
+        face.degree                = degree;
+        const LagrangeBasis &basis = lagrange_basis(degree);
+        // What lies beyond the hypotenuse is not read.
+        for (unsigned int j = 0; j <= degree; ++j)
+          for (unsigned int i = 0; i <= degree; ++i)
+            face.points.push_back(i + j <= degree ?
+                                    cubic(basis.node[i], basis.node[j]) :
+                                    Point<3>(7, 7, 7));
+        face.finalize();
+        double inside = 0, beyond = 0;
+        for (unsigned int i = 0; i <= 10; ++i)
+          for (unsigned int j = 0; j <= 10; ++j)
+            {
+              const double u = i / 10., v = j / 10.;
+              double      &worst = i + j <= 10 ? inside : beyond;
+              worst              = std::max(
+                worst, (face_point(face, Point<2>(u, v)) - cubic(u, v)).norm());
+            }
+        const std::string name =
+          "a cubic as triangle of degree " + std::to_string(degree) + ", ";
+        verdict(name + "inside", inside, 2e-14);
+        // Rounding of points in the triangle is amplified by the Lebesgue
+        // constant at (1,1): 1e2, 4e3, 1.1e6.
+        verdict(name + "continued",
+                beyond,
+                degree == 3 ? 1e-13 :
+                degree == 5 ? 2e-12 :
+                              5e-10);
+      }
+  }
+
   void
   check_area()
   {
@@ -147,10 +233,16 @@ namespace
       const Point<3> p(1., a, b);
       return Point<3>(p / p.norm());
     };
-    double area = 0;
-    for (const auto &face : faces(patch, {8, 8, 8}))
-      area += face_area(face);
-    verdict("area of a sphere", std::abs(6 * area / (4 * M_PI) - 1), 1e-12);
+    for (const FaceShape shape :
+         {FaceShape::quadrilateral, FaceShape::triangle})
+      {
+        double area = 0;
+        for (const auto &face : faces(patch, grid_of(shape, 8, 8, 8)))
+          area += face_area(face);
+        verdict(name_of(shape) + "degree 8, area of a sphere",
+                std::abs(6 * area / (4 * M_PI) - 1),
+                1e-12);
+      }
   }
 
   std::string
@@ -195,9 +287,9 @@ namespace
   }
 
   void
-  check_serialization()
+  check_serialization(const FaceShape shape)
   {
-    SurfaceFace face = faces(sphere(), {2, 2, 3})[2];
+    SurfaceFace face = faces(sphere(), grid_of(shape, 2, 2, 3))[2];
     face.payload     = {'a', 'b', 'c'};
     face.owner       = 7;
     const SurfaceFace copy =
@@ -205,12 +297,15 @@ namespace
     const bool same =
       copy.points == face.points && copy.id == face.id && copy.owner == 7 &&
       copy.payload == face.payload && copy.degree == face.degree &&
-      copy.orientation == face.orientation && copy.lower == face.lower &&
-      copy.upper == face.upper && copy.affine == face.affine &&
+      copy.shape == shape && copy.orientation == face.orientation &&
+      copy.lower == face.lower && copy.upper == face.upper &&
+      copy.affine == face.affine &&
       copy.vertex_normals == face.vertex_normals && copy.size == face.size &&
       copy.frame.dual == face.frame.dual &&
       copy.frame.center == face.frame.center &&
-      copy.frame.chart_upper == face.frame.chart_upper &&
+      copy.frame.chart.upper == face.frame.chart.upper &&
+      copy.frame.chart.lower == face.frame.chart.lower &&
+      copy.frame.center_xi == face.frame.center_xi &&
       copy.frame.height_upper == face.frame.height_upper;
     verdict("a face survives its journey", same ? 0 : 1, 0);
   }
@@ -219,14 +314,18 @@ namespace
 int
 main()
 {
-  for (unsigned int degree = 1; degree <= 8; ++degree)
+  for (const FaceShape shape : {FaceShape::quadrilateral, FaceShape::triangle})
     {
-      check_evaluation(degree);
-      check_geometry(degree);
+      for (unsigned int degree = 1; degree <= 8; ++degree)
+        {
+          check_evaluation(shape, degree);
+          check_geometry(shape, degree);
+        }
+      check_serialization(shape);
     }
   check_flags();
+  check_triangle();
   check_area();
   check_input();
-  check_serialization();
   return 0;
 }

@@ -5,6 +5,7 @@
 #include <mortise/interface/integration_cells.h>
 #include <mortise/interface/surface_evaluation.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -37,7 +38,27 @@ namespace synthetic
     bool   transposed = false; ///< reference coordinates of the faces swapped
     double distortion =
       0; ///< inner vertices move by up to this fraction of a cell
+    /// Triangles: two per cell, with either diagonal and any of the three
+    /// vertices first, at random.
+    FaceShape shape = FaceShape::quadrilateral;
   };
+
+  struct Pairing
+  {
+    FaceShape   slave, master;
+    std::string name;
+  };
+
+  inline std::vector<Pairing>
+  pairings()
+  {
+    constexpr FaceShape triangle      = FaceShape::triangle,
+                        quadrilateral = FaceShape::quadrilateral;
+    return {{quadrilateral, quadrilateral, "quad/quad"},
+            {triangle, triangle, "tri/tri"},
+            {triangle, quadrilateral, "tri/quad"},
+            {quadrilateral, triangle, "quad/tri"}};
+  }
 
   /// A number in [-1,1] that depends on i, j and k only.
   inline double
@@ -62,37 +83,65 @@ namespace synthetic
       return k == 0 ? grid.u_0 + (grid.u_1 - grid.u_0) * (i + d) / grid.n_u :
                       grid.v_0 + (grid.v_1 - grid.v_0) * (j + d) / grid.n_v;
     };
-    const LagrangeBasis     &basis = lagrange_basis(grid.degree);
-    std::vector<SurfaceFace> result;
+    std::vector<SurfaceFace>                  result;
     std::vector<std::array<std::uint64_t, 4>> vertices;
+    // The face with these corners in the grid; the reference coordinates of a
+    // triangle are affine in (u,v), those of a quadrilateral bilinear.
+    const auto add = [&](std::vector<std::array<unsigned int, 2>> corner) {
+      const bool triangle = corner.size() == 3;
+      if (grid.transposed)
+        std::swap(corner[1], corner[2]);
+      const LagrangeBasis &basis = lagrange_basis(grid.degree);
+      SurfaceFace          face;
+      face.shape       = grid.shape;
+      face.degree      = grid.degree;
+      face.id          = result.size();
+      face.orientation = grid.transposed ? -grid.orientation : grid.orientation;
+      for (unsigned int b = 0; b <= grid.degree; ++b)
+        for (unsigned int a = 0; a <= grid.degree; ++a)
+          {
+            const double s = basis.node[a], t = basis.node[b];
+            double       uv[2];
+            for (unsigned int k = 0; k < 2; ++k)
+              {
+                double x[4];
+                for (unsigned int v = 0; v < corner.size(); ++v)
+                  x[v] = vertex(corner[v][0], corner[v][1], k);
+                uv[k] = triangle ? (1 - s - t) * x[0] + s * x[1] + t * x[2] :
+                                   (1 - t) * ((1 - s) * x[0] + s * x[1]) +
+                                     t * ((1 - s) * x[2] + s * x[3]);
+              }
+            face.points.push_back(surface(uv[0], uv[1]));
+          }
+      vertices.push_back({});
+      for (unsigned int v = 0; v < corner.size(); ++v)
+        vertices.back()[v] = corner[v][1] * (grid.n_u + 1) + corner[v][0];
+      result.push_back(face);
+    };
     for (unsigned int j = 0; j < grid.n_v; ++j)
       for (unsigned int i = 0; i < grid.n_u; ++i)
-        {
-          SurfaceFace face;
-          face.degree = grid.degree;
-          face.id     = j * grid.n_u + i;
-          face.orientation =
-            grid.transposed ? -grid.orientation : grid.orientation;
-          for (unsigned int b = 0; b <= grid.degree; ++b)
-            for (unsigned int a = 0; a <= grid.degree; ++a)
+        if (grid.shape == FaceShape::quadrilateral)
+          add({{{i, j}}, {{i + 1, j}}, {{i, j + 1}}, {{i + 1, j + 1}}});
+        else
+          {
+            const std::array<unsigned int, 2> a{{i, j}}, b{{i + 1, j}},
+              c{{i + 1, j + 1}}, d{{i, j + 1}};
+            std::vector<std::array<unsigned int, 2>> halves[2] = {{a, b, c},
+                                                                  {a, c, d}};
+            if (noise(i, j, 2) > 0)
               {
-                const double s = basis.node[grid.transposed ? b : a];
-                const double t = basis.node[grid.transposed ? a : b];
-                double       uv[2];
-                for (unsigned int k = 0; k < 2; ++k)
-                  uv[k] = (1 - t) * ((1 - s) * vertex(i, j, k) +
-                                     s * vertex(i + 1, j, k)) +
-                          t * ((1 - s) * vertex(i, j + 1, k) +
-                               s * vertex(i + 1, j + 1, k));
-                face.points.push_back(surface(uv[0], uv[1]));
+                halves[0] = {a, b, d};
+                halves[1] = {b, c, d};
               }
-          const std::uint64_t m = grid.n_u + 1, first = j * m + i;
-          if (grid.transposed)
-            vertices.push_back({{first, first + m, first + 1, first + m + 1}});
-          else
-            vertices.push_back({{first, first + 1, first + m, first + m + 1}});
-          result.push_back(face);
-        }
+            for (unsigned int h = 0; h < 2; ++h)
+              {
+                const unsigned int first = 1.5 * (1 + noise(i, j, 3 + h));
+                std::rotate(halves[h].begin(),
+                            halves[h].begin() + first,
+                            halves[h].end());
+                add(halves[h]);
+              }
+          }
     average_vertex_normals(result, vertices);
     for (auto &face : result)
       face.finalize();

@@ -43,6 +43,25 @@ namespace mortise
     std::unique_ptr<dealii::Mapping<3>>
     clone() const override;
 
+    /// Points of @p cell, not artificial, in the order of reference_nodes().
+    const std::vector<dealii::Point<3>> &
+    nodes(const CellIterator &cell) const
+    {
+      return (*points)[cell->active_cell_index()];
+    }
+
+    /// simplex_interpolation_points() of the degree.
+    std::vector<dealii::Point<3>>
+    reference_nodes() const;
+
+    /// The polynomials that are one at one of these points and zero at the
+    /// others.
+    const dealii::ScalarPolynomialsBase<3> &
+    nodal_polynomials() const
+    {
+      return *nodal;
+    }
+
     /// The same as the base class, but quick, and without the second
     /// derivatives that it wants. Also outside of the cell.
     dealii::Point<3>

@@ -1,5 +1,5 @@
 // The overlap of a slave face with a master face as a closed loop in the
-// slave's reference square. It never places quadrature points and never looks
+// slave's reference domain. It never places quadrature points and never looks
 // at distances or normals.
 #pragma once
 
@@ -9,54 +9,23 @@
 
 namespace mortise
 {
-  /// Reference coordinates this close to a side of the unit square are on it.
-  constexpr double on_side = 1e-13;
-
-  /// Distance of xi from a side of the unit square, positive inside. Sides: 0:
-  /// xi_1 >= 0, 1: xi_1 <= 1, 2: xi_2 >= 0, 3: xi_2 <= 1.
-  inline double
-  inside_by(const double (&xi)[2], const unsigned int side)
-  {
-    return side % 2 == 0 ? xi[side / 2] : 1. - xi[side / 2];
-  }
-
-  /// Put coordinates that are on a side exactly there.
-  inline void
-  snap_to_sides(double (&xi)[2])
-  {
-    for (auto &x : xi)
-      x = std::abs(x) <= on_side ? 0. : std::abs(1. - x) <= on_side ? 1. : x;
-  }
-
-  /// Both points are outside on one of the sides of the other coordinate: a
-  /// crossing between them is of no interest.
-  inline bool
-  both_beside(const double (&a)[2],
-              const double (&b)[2],
-              const unsigned int side)
-  {
-    const unsigned int other = 1 - side / 2;
-    return (a[other] < -on_side && b[other] < -on_side) ||
-           (a[other] > 1. + on_side && b[other] > 1. + on_side);
-  }
-
   /// One side of an overlap, from p to q in the slave's reference coordinates:
   /// straight, or the pull-back of a part of a master edge.
   struct LoopPiece
   {
     double p[2], q[2];
-    int    edge    = -1; ///< master edge 0..3, see EdgePolynomial; -1: straight
-    double tau_p   = 0;  ///< parameters of the ends on that edge
-    double tau_q   = 0;
-    double mid[2]  = {0,
-                      0}; ///< the curve's point at the mean of both parameters
+    int    edge   = -1; ///< of the master, see edge_coordinates(); -1: straight
+    double tau_p  = 0;  ///< parameters of the ends on that edge
+    double tau_q  = 0;
+    double mid[2] = {0,
+                     0}; ///< the curve's point at the mean of both parameters
     bool   has_mid = false;
   };
 
-  /// Clips the four curved edges of a master face, pulled back to the slave's
-  /// reference coordinates, against the unit square.
+  /// Clips the curved edges of a master face, pulled back to the slave's
+  /// reference coordinates, against the slave's reference domain.
   ///
-  /// Every edge is cut where it crosses a side of the square, by Newton's
+  /// Every edge is cut where it crosses a side, by Newton's
   /// method on (tau, xi, alpha) within a bracket; after that no piece crosses a
   /// side, and Sutherland and Hodgman's walk needs no geometry for curved
   /// pieces. Pieces that lie outside on one side are replaced by their chords,
@@ -79,7 +48,7 @@ namespace mortise
     /// own boundary.
     bool whole_master = false;
 
-    /// The loop is the boundary of the whole square.
+    /// The loop is the boundary of the whole slave face.
     bool whole_slave = false;
 
     /// Signed area of the polygon through ends and middles of the pieces, and
@@ -113,6 +82,16 @@ namespace mortise
       double       xi[2];
     };
 
+    /// Points of a segment with their distances from a side. Entry i of
+    /// @p beside: the points i and i+1 lie outside on another side.
+    struct Samples
+    {
+      static constexpr unsigned int last = n_lanes + 1;
+
+      double tau[last + 1], x[last + 1][2], f[last + 1];
+      bool   beside[last + 1];
+    };
+
     void
     subdivide_edge(const unsigned int edge);
     void
@@ -135,6 +114,16 @@ namespace mortise
     check_segment(Segment &segment, const Breakpoint &middle) const;
     void
     find_crossings(const unsigned int segment, const unsigned int side);
+    void
+    take_samples(const Segment     &segment,
+                 const unsigned int side,
+                 const double       low,
+                 const double       high,
+                 Samples           &samples);
+    bool
+    sample_near_part(const Segment     &segment,
+                     const unsigned int side,
+                     Samples           &samples);
     void
     sample_segment(const unsigned int segment,
                    const unsigned int side,
@@ -162,6 +151,7 @@ namespace mortise
 
     const SlaveMap  *slave  = nullptr;
     const MasterMap *master = nullptr;
+    FaceShape        shape  = FaceShape::quadrilateral; ///< of the slave
     bool             failed = false;
 
     std::vector<Breakpoint> breakpoints;

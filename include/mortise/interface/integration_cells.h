@@ -59,14 +59,16 @@ namespace mortise
 
   /// Points per direction in each integration cell, for products of two shape
   /// functions of
-  /// the given degrees. @p distortion is 0 where both faces are parallelograms with one normal
-  /// and all maps are linear; else the variation (max - min) / (max + min) over
+  /// the given degrees: total degrees on triangles, degrees per direction on
+  /// quadrilaterals.
+  /// @p distortion is 0 where both faces are affine with one normal and all maps are linear; else the variation (max - min) / (max + min) over
   /// the overlap of the surface elements of both faces, less than 1. The choice
   /// and its measured errors stand with the definition.
   unsigned int
   quadrature_points(const unsigned int degree_slave,
                     const unsigned int degree_master,
-                    const double       distortion);
+                    const double       distortion,
+                    const bool         both_triangles = false);
 
   /// Integrates over one slave face after the other against any number of
   /// masters. Owns all scratch memory: one object per thread.

@@ -22,7 +22,13 @@ namespace mortise
       return frame.center;
     }
 
-    /// A parallelogram with one normal: chart() is the exact pull-back.
+    FaceShape
+    shape() const
+    {
+      return reference_shape;
+    }
+
+    /// An affine face with one normal: chart() is the exact pull-back.
     bool
     linear() const
     {
@@ -37,8 +43,8 @@ namespace mortise
     std::array<double, 3>
     chart(const Vec3<double> &x) const
     {
-      return {{0.5 + dot(x, center_dual[0]),
-               0.5 + dot(x, center_dual[1]),
+      return {{frame.center_xi + dot(x, center_dual[0]),
+               frame.center_xi + dot(x, center_dual[1]),
                dot(x, height_dual)}};
     }
 
@@ -50,7 +56,7 @@ namespace mortise
     normal(const Lanes (&xi)[2]) const;
 
     /// What a Newton step needs at any xi: the face continued a little beyond
-    /// the reference square by its polynomial and then by its tangents
+    /// its reference domain by its polynomial and then by its tangents
     /// (continuously, and well defined however far away), the normal field
     /// continued in the same way, and dx[i] + alpha dn/dxi_i.
     void
@@ -80,7 +86,7 @@ namespace mortise
 
     /// Chart coordinates beyond these, widened by twist() times the height,
     /// belong to points that are outside of the face on that side.
-    double near_lower[2], near_upper[2];
+    ReferenceBox near;
 
     /// How much the normal field tilts against the frame's normal, in reference
     /// coordinates per unit of height.
@@ -95,6 +101,13 @@ namespace mortise
     double height_limit;
 
   private:
+    void
+    add_normal_rates(const Lanes (&xi)[2],
+                     const Lanes &alpha,
+                     Vec3<Lanes> (&dx)[2]) const;
+
+    FaceShape      reference_shape;
+    ReferenceBox   domain; ///< of the shape itself
     bool           is_linear;
     FaceFrame      frame;
     FacePolynomial polynomial;
@@ -130,8 +143,9 @@ namespace mortise
             Vec3<Lanes> &x_m,
             Lanes       &slope) const;
 
+    FaceShape      shape;
     FacePolynomial polynomial;
-    EdgePolynomial edges[4];
+    EdgePolynomial edges[4]; ///< as many as the shape has
     double         orientation;
 
   private:
@@ -154,6 +168,7 @@ namespace mortise
                     Lanes (&eta)[2]) const;
 
     bool         is_affine;
+    double       center_xi;
     Vec3<double> center, tangent[2];
   };
 

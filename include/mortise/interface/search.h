@@ -26,8 +26,8 @@ namespace mortise
 
     /// Positions in @p masters, ascending, of the faces that may overlap @p slave: boxes meet,
     /// normals oppose, no separating axis among the sides of either face's
-    /// bounding parallelogram. Never misses an overlapping face within the
-    /// search distance.
+    /// bounding parallelogram or triangle. Never misses an overlapping face
+    /// within the search distance.
     void
     candidates(const SurfaceFace         &slave,
                std::vector<unsigned int> &result) const;

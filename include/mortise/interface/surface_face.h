@@ -6,7 +6,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
-#include <mortise/body/face_shape.h>
+#include <mortise/interface/reference_face.h>
 
 #include <array>
 #include <cstdint>
@@ -15,21 +15,28 @@
 namespace mortise
 {
   /// Linear picture of a face about its centre, used for search, initial
-  /// guesses and everything far away. The chart of a point x is 1/2 + dual[i] .
-  /// (x - center), exact for a parallelogram
-  /// and blind to motion along @p normal.
+  /// guesses and everything far away. The chart of a point x is center_xi +
+  /// dual[i] . (x - center), exact for an affine face and blind to motion along
+  /// @p normal.
   struct FaceFrame
   {
-    dealii::Point<3> center; ///< the face's point at (1/2, 1/2)
+    double           center_xi = 0.5; ///< see center_coordinate()
+    dealii::Point<3> center; ///< the face's point at (center_xi, center_xi)
     std::array<dealii::Tensor<1, 3>, 2> tangent; ///< derivatives at the centre
     std::array<dealii::Tensor<1, 3>, 2>
       dual; ///< dual[i].tangent[j] = delta_ij, dual.normal = 0
     dealii::Tensor<1, 3> normal; ///< mean of the vertex normals, unit length
-    std::array<double, 2>
-      chart_lower; ///< box of the whole face in its own chart
-    std::array<double, 2> chart_upper;
-    double height_lower; ///< extent along normal about the centre
-    double height_upper;
+    ReferenceBox         chart;  ///< of the whole face in its own chart
+    double               height_lower; ///< extent along normal about the centre
+    double               height_upper;
+
+    /// Gradients of the chart coordinates and, third, of their sum, which
+    /// bounds a triangle as well.
+    dealii::Tensor<1, 3>
+    axis(const unsigned int i) const
+    {
+      return i < 2 ? dual[i] : dual[0] + dual[1];
+    }
   };
 
   /// One curved face. The caller fills the first group; finalize() derives the
@@ -40,8 +47,11 @@ namespace mortise
     unsigned int degree = 1; ///< of the geometry, 1..8
 
     /// (degree+1)^2 support points of the tensor Lagrange basis on the
-    /// Gauss-Lobatto nodes of [0,1]^2, first coordinate fastest. Any origin;
-    /// lengths in the scene's unit.
+    /// Gauss-Lobatto nodes of [0,1]^2, first coordinate fastest. The geometry
+    /// of a triangle is a polynomial of total degree g: those points (i, j) of
+    /// the square with i + j <= g lie in it and define it; finalize() computes
+    /// the others, on its continuation. Any origin; lengths in the scene's
+    /// unit.
     std::vector<dealii::Point<3>> points;
 
     /// orientation * (dx/dxi_1 x dx/dxi_2) is the outward normal of the face's
@@ -50,7 +60,8 @@ namespace mortise
 
     /// The continuous normal field at the vertices (0,0), (1,0), (0,1), (1,1):
     /// outward, unit length, equal on all faces around a vertex. All zero:
-    /// finalize() takes the face's own.
+    /// finalize() takes the face's own. A triangle's last entry is n[1] + n[2]
+    /// - n[0], set by finalize(): it makes the bilinear field the linear one.
     std::array<dealii::Tensor<1, 3>, 4> vertex_normals;
 
     std::uint64_t id    = 0; ///< global, unique on its side of the interface
@@ -61,11 +72,12 @@ namespace mortise
     std::vector<char> payload;
 
     // Derived by finalize():
-    bool affine = false; ///< a parallelogram, to rounding (1e-12 of its size)
+    bool affine = false; ///< a parallelogram or a flat straight triangle, to
+                         ///< rounding (1e-12 of its size)
     bool linear = false; ///< affine, and all vertex normals equal to rounding
     dealii::Point<3> lower; ///< box that contains the whole curved face
     dealii::Point<3> upper;
-    double           size = 0; ///< longest diagonal of the corners
+    double           size = 0; ///< longest distance between two vertices
     FaceFrame        frame;
 
     /// Derive box, size, frame and flags from the points and normals. Throws
@@ -79,15 +91,16 @@ namespace mortise
     serialize(Archive &archive, const unsigned int version);
   };
 
-  /// orientation * (dx/dxi_1 x dx/dxi_2) at the four vertices: the outward
-  /// normals of the face, weighted by area (not of unit length). Needs points,
-  /// degree and orientation only.
+  /// orientation * (dx/dxi_1 x dx/dxi_2) at the vertices: the outward normals
+  /// of the face, weighted by area (not of unit length); a triangle's last
+  /// entry is zero. Needs shape, points, degree and orientation only.
   std::array<dealii::Tensor<1, 3>, 4>
   corner_normals(const SurfaceFace &face);
 
   /// Set the vertex normals of all faces to the unit mean of the area-weighted
   /// corner normals of
-  /// the faces that share a vertex; @p vertices holds four vertex numbers per face. Faces that
+  /// the faces that share a vertex; @p vertices holds four vertex numbers per face,
+  /// of which a triangle's last one is ignored. Faces that
   /// other ranks own have to be among @p faces for the field to be the same on every rank.
   /// Call finalize() afterwards.
   void
@@ -95,8 +108,8 @@ namespace mortise
     std::vector<SurfaceFace>                        &faces,
     const std::vector<std::array<std::uint64_t, 4>> &vertices);
 
-  /// Area of a face by the tensor Gauss rule with @p n points per direction (0: exact for a
-  /// parallelogram and to about 1e-13 for moderately curved faces).
+  /// Area of a face by the Gauss rule with @p n points per direction (0: exact for an
+  /// affine face and to about 1e-13 for moderately curved faces).
   double
   face_area(const SurfaceFace &face, const unsigned int n = 0);
 
@@ -122,10 +135,12 @@ namespace mortise
     shape = static_cast<FaceShape>(shape_number);
     for (auto &normal : vertex_normals)
       archive &normal;
-    archive &affine &linear &lower &upper &size &frame.center &frame.normal;
+    archive &affine &linear &lower &upper &size &frame.center_xi &frame
+      .center                                                    &frame.normal;
     for (unsigned int i = 0; i < 2; ++i)
-      archive &frame.tangent[i] & frame.dual[i] & frame.chart_lower[i] &
-        frame.chart_upper[i];
+      archive &frame.tangent[i] & frame.dual[i] & frame.chart.lower[i];
+    for (double &bound : frame.chart.upper)
+      archive &bound;
     archive &frame.height_lower &frame.height_upper;
   }
 } // namespace mortise

@@ -23,6 +23,8 @@ namespace mortise
     Dofs neighbours;         ///< across the rim, off all rims
     Dofs diagonal;           ///< other vertices, off all rims
     Dofs merged;             ///< must have the same value
+    /// Vertices on rims that give the value of one with none of the above.
+    Dofs beside;
 
     /// A vertex on a rim that finds no free one on the faces around it to
     /// take its value from.

@@ -1,0 +1,135 @@
+#include <deal.II/fe/fe_dgq.h>
+
+#include <Teuchos_BLAS.hpp>
+#include <mortise/body/simplex_mapping.h>
+#include <mortise/operators/cell_geometry.h>
+
+#include <array>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Nodes this close to those of the straight cell, relative to its size,
+    /// differ by rounding.
+    constexpr double rounding = 1e-13;
+
+    std::vector<double>
+    gradient_table(const ScalarPolynomialsBase<dim> &polynomials,
+                   const Quadrature<dim>            &quadrature)
+    {
+      const unsigned int          n = polynomials.n();
+      std::vector<double>         table(quadrature.size() * dim * n), no_0;
+      std::vector<Tensor<1, dim>> gradients(n);
+      std::vector<Tensor<2, dim>> no_2;
+      std::vector<Tensor<3, dim>> no_3;
+      std::vector<Tensor<4, dim>> no_4;
+      for (unsigned int q = 0; q < quadrature.size(); ++q)
+        {
+          polynomials.evaluate(
+            quadrature.point(q), no_0, gradients, no_2, no_3, no_4);
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int k = 0; k < n; ++k)
+              table[(q * dim + a) * n + k] = gradients[k][a];
+        }
+      return table;
+    }
+  } // namespace
+
+  CellGeometry::CellGeometry(const Body            &body,
+                             const ReferenceCell   &shape,
+                             const Quadrature<dim> &quadrature)
+    : mapping_degree(body.mapping_degree)
+    , simplices(dynamic_cast<const SimplexMapping *>(body.mapping.get()))
+    , result(quadrature.size())
+  {
+    Assert((simplices != nullptr) == shape.is_simplex(), ExcInternalError());
+    (void)shape;
+    if (simplices == nullptr)
+      {
+        values = std::make_unique<FEValues<dim>>(*body.mapping,
+                                                 FE_DGQ<dim>(0),
+                                                 quadrature,
+                                                 update_jacobians);
+        return;
+      }
+    for (const Point<dim> &x : simplices->reference_nodes())
+      barycentric.push_back({{1. - x[0] - x[1] - x[2], x[0], x[1], x[2]}});
+    nodal_gradients =
+      gradient_table(simplices->nodal_polynomials(), quadrature);
+  }
+
+  std::optional<CellGeometry::Jacobian>
+  CellGeometry::constant_jacobian(const Body::CellIterator &cell) const
+  {
+    const bool simplex = simplices != nullptr;
+    // the vertex at the end of each axis of the reference cell
+    Jacobian jacobian;
+    for (unsigned int a = 0; a < dim; ++a)
+      jacobian[a] = cell->vertex(simplex ? a + 1 : (1u << a)) - cell->vertex(0);
+    const double tolerance = rounding * jacobian.norm();
+
+    if (!simplex)
+      {
+        if (mapping_degree > 1)
+          return {};
+        for (const unsigned int v : cell->vertex_indices())
+          {
+            Tensor<1, dim> rest = cell->vertex(v) - cell->vertex(0);
+            for (unsigned int a = 0; a < dim; ++a)
+              if (v & (1u << a))
+                rest -= jacobian[a];
+            if (rest.norm() > tolerance)
+              return {};
+          }
+        return jacobian;
+      }
+    if (mapping_degree == 1)
+      return jacobian;
+    const auto &nodes = simplices->nodes(cell);
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      {
+        Tensor<1, dim> rest = nodes[k];
+        for (unsigned int v = 0; v <= dim; ++v)
+          rest -= barycentric[k][v] * cell->vertex(v);
+        if (rest.norm() > tolerance)
+          return {};
+      }
+    return jacobian;
+  }
+
+  const std::vector<CellGeometry::Jacobian> &
+  CellGeometry::jacobians(const Body::CellIterator &cell)
+  {
+    if (simplices == nullptr)
+      {
+        values->reinit(typename Triangulation<dim>::cell_iterator(cell));
+        for (unsigned int q = 0; q < result.size(); ++q)
+          result[q] = transpose(Tensor<2, dim>(values->jacobian(q)));
+        return result;
+      }
+    // J[q][a] = sum_k dN_k/dxi_a x_k: (dim x n) times (n x dim Q), all column
+    // major as they lie in memory
+    static_assert(sizeof(Point<dim>) == dim * sizeof(double) &&
+                  sizeof(Jacobian) == dim * dim * sizeof(double));
+    const auto                      &nodes = simplices->nodes(cell);
+    const int                        n     = static_cast<int>(nodes.size());
+    const Teuchos::BLAS<int, double> blas;
+    blas.GEMM(Teuchos::NO_TRANS,
+              Teuchos::NO_TRANS,
+              dim,
+              dim * static_cast<int>(result.size()),
+              n,
+              1.,
+              &nodes[0][0],
+              dim,
+              nodal_gradients.data(),
+              n,
+              0.,
+              &result[0][0][0],
+              dim);
+    return result;
+  }
+} // namespace mortise
