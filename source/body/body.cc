@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
 #include <deal.II/fe/mapping_q_cache.h>
@@ -89,14 +90,30 @@ namespace mortise
   Body::create_mapping()
   {
     mapping_degree = mesh.curved ? max_degree() : 1;
+    if (mesh.geometry != nullptr)
+      mapping_degree = 2; // what the file has, whatever the displacement
+    const auto points = [&](const auto &cell, const auto &unit) {
+      return mesh.geometry->points(cell, unit);
+    };
     if (mesh.tetrahedra)
       {
         mapping =
-          std::make_unique<SimplexMapping>(mapping_degree, triangulation());
+          mesh.geometry != nullptr ?
+            std::make_unique<SimplexMapping>(mapping_degree,
+                                             triangulation(),
+                                             points) :
+            std::make_unique<SimplexMapping>(mapping_degree, triangulation());
         return;
       }
     auto cache = std::make_unique<MappingQCache<dim>>(mapping_degree);
-    cache->initialize(MappingQ<dim>(mapping_degree), triangulation());
+    if (mesh.geometry != nullptr)
+      {
+        const auto unit = FE_Q<dim>(mapping_degree).get_unit_support_points();
+        cache->initialize(triangulation(),
+                          [&](const auto &cell) { return points(cell, unit); });
+      }
+    else
+      cache->initialize(MappingQ<dim>(mapping_degree), triangulation());
     mapping = std::move(cache);
   }
 

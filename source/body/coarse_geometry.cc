@@ -96,25 +96,6 @@ namespace mortise
     {
       return nodes_per_cell == hex_nodes ? 1 << d : d + 1;
     }
-
-    /// Place of vertex @p v of the child @p cell in the unit tetrahedron of its
-    /// parent: a vertex or the middle of a line.
-    Point<3>
-    place_in_parent(const CoarseGeometry::CellIterator &cell,
-                    const unsigned int                  v)
-    {
-      const auto parent = cell->parent();
-      for (unsigned int w = 0; w < 4; ++w)
-        if (parent->vertex_index(w) == cell->vertex_index(v))
-          return unit_vertex(tet_nodes, w);
-      for (unsigned int l = 0; l < 6; ++l)
-        if (parent->line(l)->child(0)->vertex_index(1) == cell->vertex_index(v))
-          return unit_vertex(tet_nodes, tetrahedron_lines[l][0]) +
-                 0.5 * (unit_vertex(tet_nodes, tetrahedron_lines[l][1]) -
-                        unit_vertex(tet_nodes, tetrahedron_lines[l][0]));
-      AssertThrow(false, ExcMessage("A child is not within its parent."));
-      return {};
-    }
   } // namespace
 
   CoarseGeometry::CoarseGeometry(const unsigned int           nodes_per_cell,
@@ -194,10 +175,9 @@ namespace mortise
   {
     if (cell->level() == 0)
       return root_placement(cell);
+    Assert(nodes_per_cell == hex_nodes, ExcNotImplemented());
     const Placement parent = placement(cell->parent());
     const auto      place  = [&](const unsigned int v) {
-      if (nodes_per_cell == tet_nodes)
-        return place_in_parent(cell, v);
       unsigned int child = 0;
       while (cell->parent()->child_index(child) != cell->index())
         ++child;

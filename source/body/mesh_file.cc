@@ -5,6 +5,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include <mortise/base/error.h>
+#include <mortise/body/curved_boundaries.h>
 #include <mortise/body/mesh_file.h>
 
 #include <algorithm>
@@ -168,6 +169,8 @@ namespace mortise
     {
       for (Point<3> &vertex : mesh.vertices)
         vertex = motion(vertex);
+      for (auto &shape : mesh.shapes)
+        shape.second = shape.second->moved(motion);
       if (mesh.geometry != nullptr)
         {
           auto moved = std::make_shared<CoarseGeometry>(*mesh.geometry);
@@ -235,6 +238,15 @@ namespace mortise
         }
     throw_if_any(problem, comm);
     mesh = broadcast(mesh, comm);
+    try
+      {
+        fit_curved_boundaries(mesh, parameters, where);
+      }
+    catch (const InputError &error)
+      {
+        problem = error.what(); // a STEP file that is missing on this rank
+      }
+    throw_if_any(problem, comm);
     move(mesh, rigid_motion(parameters));
     return mesh;
   }

@@ -69,6 +69,19 @@ namespace mortise
     void
     mirror(CoarseMesh &mesh)
     {
+      if (mesh.geometry != nullptr)
+        {
+          constexpr unsigned int tetrahedron[10] = {
+            0, 1, 3, 2, 4, 8, 7, 6, 5, 9};
+          auto               mirrored = *mesh.geometry;
+          const unsigned int n        = mirrored.nodes_per_cell;
+          for (std::size_t i = 0; i < mirrored.nodes.size(); ++i)
+            mirrored.nodes[i] =
+              mesh.geometry
+                ->nodes[i / n * n + (n == 10 ? tetrahedron[i % n] :
+                                               i % 9 + 9 * (2 - i % n / 9))];
+          mesh.geometry = std::make_shared<CoarseGeometry>(mirrored);
+        }
       for (CellData<3> &cell : mesh.cells)
         if (cell.vertices.size() == 4)
           std::swap(cell.vertices[2], cell.vertices[3]);
@@ -114,7 +127,8 @@ namespace mortise
       std::vector<std::set<types::boundary_id>> ids(mesh.vertices.size());
       for (const CellData<2> &face : mesh.faces.boundary_quads)
         for (const unsigned int v : face.vertices)
-          ids[v].insert(face.boundary_id);
+          if (face.boundary_id != 0)
+            ids[v].insert(face.boundary_id);
       return ids;
     }
 

@@ -104,9 +104,15 @@ namespace mortise
     const std::map<FaceKey, int> tags = surface_tags(model);
     for (const BoundaryFace &face : boundary_faces(mesh, model, fail))
       {
-        const auto tag = tags.find(face.key);
+        CellData<2> data(face.vertices.size());
+        data.vertices    = face.vertices;
+        data.boundary_id = 0;
+        const auto tag   = tags.find(face.key);
         if (tag == tags.end())
-          continue;
+          {
+            mesh.faces.boundary_quads.push_back(data);
+            continue;
+          }
         if (tag->second < 0)
           for (const GmshElements &block : model.elements)
             if (block.dimension == 2 && block.entity == -tag->second)
@@ -121,11 +127,8 @@ namespace mortise
               }
         const std::string &name = model.surface_names.at(tag->second);
         // groups of one name are one boundary
-        const auto id =
+        data.boundary_id =
           mesh.names.boundaries.emplace(name, tag->second).first->second;
-        CellData<2> data(face.vertices.size());
-        data.vertices    = face.vertices;
-        data.boundary_id = id;
         mesh.faces.boundary_quads.push_back(data);
       }
     if (mesh.names.boundaries.empty())

@@ -20,8 +20,9 @@ namespace mortise
               const MeshParameters &parameters,
               const FileError      &fail);
 
-  /// Give the faces of only one cell that are in a physical surface its id, and
-  /// the mesh the names of these. Vertices of cells are still nodes of @p model.
+  /// Give @p mesh the faces of only one cell, with the id of the physical surface
+  /// that they are in (0: none), and the names of these. Vertices of cells are
+  /// still nodes of @p model.
   void
   name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail);
 

@@ -3,6 +3,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <mortise/base/error.h>
+#include <mortise/body/curved_boundaries.h>
 #include <mortise/body/mesh_file.h>
 #include <mortise/body/mesh_source.h>
 #include <mortise/body/tetrahedra.h>
@@ -56,6 +57,7 @@ namespace mortise
         {
           Triangulation<3> serial;
           serial.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
+          set_boundary_manifolds(mesh, serial);
           serial.refine_global(1);
           Triangulation<3> flat;
           GridGenerator::flatten_triangulation(serial, flat);
@@ -142,6 +144,9 @@ namespace mortise
       if (parameters.source != "file" && parameters.cells == "tetrahedra")
         mesh = cut_into_tetrahedra(
           refine_uniformly(std::move(mesh), parameters.refinements));
+      else if (is_tetrahedral(mesh))
+        for (unsigned int time = 0; time < parameters.refinements; ++time)
+          mesh = refine_tetrahedra(mesh);
       if (!is_tetrahedral(mesh))
         order_cells(mesh, where);
       check_shapes(mesh, where);
@@ -204,10 +209,20 @@ namespace mortise
           triangulation->set_all_manifold_ids(0);
           triangulation->set_manifold(0, *mesh.manifold);
         }
+      const auto balls = parse_refine_near(parameters.refine_near, where);
+      set_boundary_manifolds(mesh, *triangulation);
+      if (!mesh.shapes.empty() &&
+          (parameters.refinements > 0 || !balls.empty()))
+        blend_into_cells(*triangulation);
       triangulation->refine_global(parameters.refinements);
-      for (const RefinementBall &ball :
-           parse_refine_near(parameters.refine_near, where))
-        refine_near(ball, *triangulation, where);
+      if (mesh.geometry != nullptr)
+        mesh.geometry->place_vertices(*triangulation);
+      for (const RefinementBall &ball : balls)
+        {
+          refine_near(ball, *triangulation, where);
+          if (mesh.geometry != nullptr)
+            mesh.geometry->place_vertices(*triangulation);
+        }
       return triangulation;
     }
   } // namespace
@@ -220,11 +235,19 @@ namespace mortise
   {
     validate(parameters, where);
     const CoarseMesh coarse = coarse_mesh(parameters, where, comm);
+    if (is_tetrahedral(coarse) && !parameters.refine_near.empty())
+      throw InputError(
+        where + ": Refine near = '" + parameters.refine_near +
+        "' belongs to hexahedra, but '" + parameters.file +
+        "' has tetrahedra, which cannot be refined locally; try Degree by "
+        "region, Refinements, or a gmsh file whose mesh size varies");
 
     Mesh mesh;
     mesh.names      = coarse.names;
     mesh.tetrahedra = is_tetrahedral(coarse);
-    mesh.curved     = coarse.manifold != nullptr;
+    mesh.geometry   = coarse.geometry;
+    mesh.curved     = coarse.manifold != nullptr || !coarse.shapes.empty() ||
+                  coarse.geometry != nullptr;
     std::set<types::boundary_id> balanced;
     for (const auto &[name, id] : mesh.names.boundaries)
       if (interfaces.count(name) > 0)

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "simplex_blending.h"
+
 namespace mortise
 {
   using namespace dealii;
@@ -186,67 +188,22 @@ namespace mortise
           simplex_interpolation_points(polynomials.degree());
       }
     };
-
-    /// The manifold of the vertex, line, face or inside on which a node lies,
-    /// given by the local vertices that have a part in it.
-    const Manifold<3> &
-    manifold_of(const SimplexMapping::CellIterator &cell,
-                const std::vector<unsigned int>    &parts)
-    {
-      const auto within = [&](const unsigned int *vertices, unsigned int n) {
-        return std::all_of(parts.begin(), parts.end(), [&](unsigned int v) {
-          return std::find(vertices, vertices + n, v) != vertices + n;
-        });
-      };
-      if (parts.size() <= 2)
-        for (unsigned int l = 0; l < 6; ++l)
-          if (within(tetrahedron_lines[l], 2))
-            return cell->line(l)->get_manifold();
-      if (parts.size() == 3)
-        for (unsigned int f = 0; f < 4; ++f)
-          if (within(tetrahedron_faces[f], 3))
-            return cell->face(f)->get_manifold();
-      return cell->get_manifold();
-    }
-
-    /// Nodes of @p cell, from @p nodes of the reference cell.
-    std::vector<Point<3>>
-    cell_points(const SimplexMapping::CellIterator &cell,
-                const std::vector<Point<3>>        &nodes)
-    {
-      const VertexOrder     order = vertex_order(cell);
-      std::vector<Point<3>> points;
-      for (const Point<3> &node : nodes)
-        {
-          const double lambda[4] = {1. - node[0] - node[1] - node[2],
-                                    node[0],
-                                    node[1],
-                                    node[2]};
-          // ascending, so that all cells around ask the same question
-          std::vector<unsigned int> parts;
-          std::vector<Point<3>>     vertices;
-          std::vector<double>       weights;
-          for (const unsigned int v : order)
-            if (lambda[v] > 1e-12)
-              {
-                parts.push_back(v);
-                vertices.push_back(cell->vertex(v));
-                weights.push_back(lambda[v]);
-              }
-          points.push_back(parts.size() == 1 ?
-                             vertices[0] :
-                             manifold_of(cell, parts)
-                               .get_new_point(make_array_view(vertices.cbegin(),
-                                                              vertices.cend()),
-                                              make_array_view(weights.cbegin(),
-                                                              weights.cend())));
-        }
-      return points;
-    }
   } // namespace
 
   SimplexMapping::SimplexMapping(const unsigned int      degree,
                                  const Triangulation<3> &triangulation)
+    : SimplexMapping(degree,
+                     triangulation,
+                     [blending = SimplexBlending(
+                        degree)](const CellIterator &cell,
+                                 const std::vector<Point<3>> &) mutable {
+                       return blending.points(cell);
+                     })
+  {}
+
+  SimplexMapping::SimplexMapping(const unsigned int      degree,
+                                 const Triangulation<3> &triangulation,
+                                 const PointsOfCell     &points_of_cell)
     : MappingFE<3>(FE_Positions(degree))
     , nodal(std::make_shared<NodalPolynomials>(degree))
   {
@@ -254,7 +211,7 @@ namespace mortise
     auto       all   = std::make_shared<Points>(triangulation.n_active_cells());
     for (const auto &cell : triangulation.active_cell_iterators())
       if (!cell->is_artificial())
-        (*all)[cell->active_cell_index()] = cell_points(cell, nodes);
+        (*all)[cell->active_cell_index()] = points_of_cell(cell, nodes);
     points = all;
   }
 

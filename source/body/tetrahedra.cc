@@ -6,6 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria_description.h>
 
+#include <mortise/body/curved_boundaries.h>
 #include <mortise/body/partition.h>
 #include <mortise/body/tetrahedra.h>
 #include <mortise/body/vertex_order.h>
@@ -84,7 +85,8 @@ namespace mortise
 
   namespace
   {
-    void
+    /// Returns the manifolds of curved boundaries.
+    Manifolds
     create_serial(const CoarseMesh &mesh, Triangulation<3> &triangulation)
     {
       triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
@@ -93,6 +95,7 @@ namespace mortise
           triangulation.set_all_manifold_ids(0);
           triangulation.set_manifold(0, *mesh.manifold);
         }
+      return set_boundary_manifolds(mesh, triangulation);
     }
   } // namespace
 
@@ -119,11 +122,12 @@ namespace mortise
     ordered.vertices = mesh.vertices;
     ordered.cells    = mesh.cells;
     ordered.faces    = mesh.faces;
+    ordered.shapes   = mesh.shapes;
     if (mesh.manifold != nullptr)
       ordered.manifold = mesh.manifold->clone();
     order_vertices(ordered.vertices, ordered.cells);
     Triangulation<3> serial;
-    create_serial(ordered, serial);
+    const Manifolds  curved = create_serial(ordered, serial);
 
     partition_cells(Utilities::MPI::n_mpi_processes(comm), balanced, serial);
 
@@ -131,6 +135,8 @@ namespace mortise
       std::make_unique<parallel::fullydistributed::Triangulation<3>>(comm);
     if (ordered.manifold != nullptr)
       triangulation->set_manifold(0, *ordered.manifold);
+    for (const auto &[id, manifold] : curved)
+      triangulation->set_manifold(id, *manifold);
     triangulation->create_triangulation(
       TriangulationDescription::Utilities::
         create_description_from_triangulation(serial, comm));

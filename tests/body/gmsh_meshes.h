@@ -128,7 +128,7 @@ namespace gmsh_test
           const std::string             &fragment)
   {
     const std::string message = message_of(q);
-    report(message.find("Mesh: ") == 0 &&
+    report(message.find("Mesh") == 0 &&
              message.find(fragment) != std::string::npos,
            "refused: " + what,
            message);

@@ -44,7 +44,7 @@ namespace mortise
     dealii::Tensor<2, 3>
     jacobian(std::size_t cell, const dealii::Point<3> &unit) const;
 
-    /// The points of @p cell, refined or not, at @p unit of its own reference
+    /// The points of @p cell, coarse or (of hexahedra) refined, at @p unit of its own reference
     /// cell: what MappingQCache::initialize() and SimplexMapping ask for.
     std::vector<dealii::Point<3>>
     points(const CellIterator                  &cell,

@@ -8,6 +8,7 @@
 
 #include <mortise/body/coarse_geometry.h>
 #include <mortise/body/mesh_source.h>
+#include <mortise/body/surfaces.h>
 
 #include <memory>
 #include <string>
@@ -25,6 +26,10 @@ namespace mortise
 
     /// Geometry of all entities, moved like the vertices; none: flat.
     std::unique_ptr<dealii::Manifold<3>> manifold;
+
+    /// True shapes of curved boundaries, moved like the vertices; the other
+    /// faces are flat.
+    std::map<dealii::types::boundary_id, SurfacePointer> shapes;
 
     /// Curved geometry of second-order cells, moved like the vertices; none:
     /// the cells are of first order.

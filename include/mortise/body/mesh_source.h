@@ -7,6 +7,7 @@
 
 #include <mortise/base/rigid_motion.h>
 #include <mortise/base/types.h>
+#include <mortise/body/coarse_geometry.h>
 
 #include <array>
 #include <map>
@@ -126,6 +127,9 @@ namespace mortise
     MeshNames names;
     bool      tetrahedra = false;
     bool      curved     = false; ///< not all faces are straight
+
+    /// Of second-order files: what the mapping takes its points from.
+    std::shared_ptr<const CoarseGeometry> geometry;
   };
 
   /// Make the mesh: coarse mesh, manifolds on all entities, motion, global and

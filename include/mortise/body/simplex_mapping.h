@@ -7,27 +7,38 @@
 
 #include <deal.II/fe/mapping_fe.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 namespace mortise
 {
   /// Polynomial of degree @p degree on each cell through the points of
-  /// simplex_interpolation_points(). Those on a line, on a face and inside are
-  /// means of the vertices of that line, face or cell on its own manifold, so
-  /// cells that share it have the same points whatever their numbering. A cell
-  /// with a curved face needs a manifold itself for the full rate: nothing is
-  /// blended here. Source of the seam: MappingFE of deal.II, of which only the
-  /// origin of the points is replaced.
+  /// simplex_interpolation_points(), which lie on the manifolds of lines, faces
+  /// and cells; a face or cell without one blends what is around it, see
+  /// simplex_blending.h. Cells that share a line or face have the same points
+  /// there whatever their numbering. Source of the seam: MappingFE of deal.II,
+  /// of which only the origin of the points is replaced.
   class SimplexMapping : public dealii::MappingFE<3>
   {
   public:
     using CellIterator = dealii::Triangulation<3>::cell_iterator;
 
+    /// Places of points of a cell's reference cell.
+    using PointsOfCell = std::function<
+      std::vector<dealii::Point<3>>(const CellIterator &,
+                                    const std::vector<dealii::Point<3>> &)>;
+
     /// @p degree: 1..8. The points are those of all cells of
     /// @p triangulation that are not artificial, as it is now.
     SimplexMapping(unsigned int                    degree,
                    const dealii::Triangulation<3> &triangulation);
+
+    /// The same with points from @p points_of_cell instead of manifolds; cells
+    /// must agree where they meet.
+    SimplexMapping(unsigned int                    degree,
+                   const dealii::Triangulation<3> &triangulation,
+                   const PointsOfCell             &points_of_cell);
 
     std::unique_ptr<dealii::Mapping<3>>
     clone() const override;

@@ -22,6 +22,12 @@ namespace mortise
   CoarseMesh
   refine_uniformly(CoarseMesh mesh, unsigned int times);
 
+  /// Cut each tetrahedron into eight, the inner octahedron along its shortest
+  /// diagonal; middles of edges follow curved boundaries or the mesh's curved
+  /// geometry.
+  CoarseMesh
+  refine_tetrahedra(const CoarseMesh &mesh);
+
   /// The triangulation of @p mesh (tetrahedra in any numbering, the same on
   /// all ranks), spread over the ranks by partition_cells(). Each rank holds
   /// the whole coarse mesh while this runs. Collective.
