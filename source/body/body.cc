@@ -27,11 +27,12 @@ namespace mortise
   {}
 
   void
-  Body::create_mesh(const MeshParameters &parameters,
-                    const MPI_Comm        comm,
-                    const std::string    &where)
+  Body::create_mesh(const MeshParameters        &parameters,
+                    const MPI_Comm               comm,
+                    const std::string           &where,
+                    const std::set<std::string> &interfaces)
   {
-    mesh = mortise::create_mesh(parameters, comm, where);
+    mesh = mortise::create_mesh(parameters, comm, where, interfaces);
     dof_handler.reinit(*mesh.triangulation);
   }
 

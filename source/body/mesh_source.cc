@@ -228,9 +228,10 @@ namespace mortise
   } // namespace
 
   Mesh
-  create_mesh(const MeshParameters &parameters,
-              const MPI_Comm        comm,
-              const std::string    &where)
+  create_mesh(const MeshParameters        &parameters,
+              const MPI_Comm               comm,
+              const std::string           &where,
+              const std::set<std::string> &interfaces)
   {
     validate(parameters, where);
     const CoarseMesh coarse = coarse_mesh(parameters, where, comm);
@@ -247,8 +248,12 @@ namespace mortise
     mesh.geometry   = coarse.geometry;
     mesh.curved     = coarse.manifold != nullptr || !coarse.shapes.empty() ||
                   coarse.geometry != nullptr;
+    std::set<types::boundary_id> balanced;
+    for (const auto &[name, id] : mesh.names.boundaries)
+      if (interfaces.count(name) > 0)
+        balanced.insert(id);
     if (mesh.tetrahedra)
-      mesh.triangulation = distribute_tetrahedra(coarse, comm);
+      mesh.triangulation = distribute_tetrahedra(coarse, balanced, comm);
     else
       mesh.triangulation =
         distribute_hexahedra(coarse, parameters, comm, where);

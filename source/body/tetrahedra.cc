@@ -7,6 +7,7 @@
 #include <deal.II/grid/tria_description.h>
 
 #include <mortise/body/curved_boundaries.h>
+#include <mortise/body/partition.h>
 #include <mortise/body/tetrahedra.h>
 #include <mortise/body/vertex_order.h>
 
@@ -113,7 +114,9 @@ namespace mortise
   }
 
   std::unique_ptr<parallel::DistributedTriangulationBase<3>>
-  distribute_tetrahedra(const CoarseMesh &mesh, const MPI_Comm comm)
+  distribute_tetrahedra(const CoarseMesh                   &mesh,
+                        const std::set<types::boundary_id> &balanced,
+                        const MPI_Comm                      comm)
   {
     CoarseMesh ordered;
     ordered.vertices = mesh.vertices;
@@ -126,10 +129,7 @@ namespace mortise
     Triangulation<3> serial;
     const Manifolds  curved = create_serial(ordered, serial);
 
-    // METIS does not take more parts than cells
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    GridTools::partition_triangulation(
-      std::min<unsigned int>(n_ranks, serial.n_active_cells()), serial);
+    partition_cells(Utilities::MPI::n_mpi_processes(comm), balanced, serial);
 
     auto triangulation =
       std::make_unique<parallel::fullydistributed::Triangulation<3>>(comm);

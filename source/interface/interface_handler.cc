@@ -100,6 +100,8 @@ namespace mortise
     totals.candidate_pairs   = total(local.n_candidates);
     totals.pairs             = total(local.n_pairs);
     totals.integration_cells = total(local.n_cells);
+    totals.largest_integration_cells =
+      Utilities::MPI::max(std::uint64_t(local.n_cells), comm);
     totals.quadrature_points = total(local.n_points);
     totals.failed_pairs      = total(local.n_failures);
     totals.slave_area        = Utilities::MPI::sum(local.slave_area, comm);

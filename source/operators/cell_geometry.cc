@@ -1,5 +1,3 @@
-#include <deal.II/fe/fe_dgq.h>
-
 #include <Teuchos_BLAS.hpp>
 #include <mortise/body/simplex_mapping.h>
 #include <mortise/operators/cell_geometry.h>
@@ -50,7 +48,7 @@ namespace mortise
     if (simplices == nullptr)
       {
         values = std::make_unique<FEValues<dim>>(*body.mapping,
-                                                 FE_DGQ<dim>(0),
+                                                 constants,
                                                  quadrature,
                                                  update_jacobians);
         return;

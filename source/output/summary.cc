@@ -182,6 +182,10 @@ namespace mortise
     json["memory_mib"] = {{"peak_sum_over_ranks",
                            summary.memory.sum_over_ranks},
                           {"peak_max_rank", summary.memory.max_rank}};
+    for (const BalanceSummary &balance : summary.balance)
+      if (summary.program.ranks > 1)
+        json["integration_cells_per_rank"][balance.interface] = {
+          {"largest", balance.largest}, {"mean", balance.mean}};
     // A title in another encoding than UTF-8 must not end the run.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
   }

@@ -7,6 +7,7 @@
 #include <mortise/problem/simulation.h>
 #include <mortise/solvers/solve.h>
 
+#include <set>
 #include <sstream>
 
 namespace mortise
@@ -32,13 +33,20 @@ namespace mortise
     auto stage = log.stage(timers, "mesh");
     exact      = make_exact_solution(parameters);
     std::vector<std::vector<std::string>> boundary_names;
-    std::uint64_t                         n_cells = 0;
+    std::vector<std::set<std::string>>    interfaces(parameters.bodies.size());
+    for (const InterfaceParameters &interface : parameters.interfaces)
+      for (const SideParameters &side : {interface.slave, interface.master})
+        interfaces[side.body].insert(side.boundary);
+    std::uint64_t n_cells = 0;
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       {
         const BodyParameters &body = parameters.bodies[b];
         bodies.push_back(
           std::make_unique<Body>(body.name, b, materials(parameters)[b]));
-        bodies[b]->create_mesh(body.mesh, comm, "Body " + body.name + ", Mesh");
+        bodies[b]->create_mesh(body.mesh,
+                               comm,
+                               "Body " + body.name + ", Mesh",
+                               interfaces[b]);
         n_cells += bodies[b]->triangulation().n_global_active_cells();
         boundary_names.emplace_back();
         for (const auto &name : bodies[b]->mesh.names.boundaries)
@@ -142,8 +150,9 @@ namespace mortise
   void
   Simulation::couple()
   {
-    const auto total    = timers.scope("coupling");
-    double     clipping = 0.;
+    const auto  total    = timers.scope("coupling");
+    double      clipping = 0.;
+    std::string balance;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
         InterfaceHandler &interface = *couplings[i].interface;
@@ -151,6 +160,13 @@ namespace mortise
           integrate_coupling(interface, method != SolverMethod::direct);
         const InterfaceReport &report = interface.report();
         clipping += report.clipping_seconds;
+        if (const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
+            n_ranks > 1)
+          balance +=
+            (i ? ", " : "") + std::to_string(report.largest_integration_cells) +
+            " cells on the busiest rank, " +
+            RunLog::number(double(report.integration_cells) / n_ranks) +
+            " on average";
         if (report.pairs == 0)
           {
             const InterfaceParameters &given = parameters.interfaces[i];
@@ -182,7 +198,9 @@ namespace mortise
       }
     timers.add("interface_clipping", clipping);
     timers.add("coupling", -clipping);
-    log.stage_line("interface_clipping", Utilities::MPI::max(clipping, comm));
+    log.stage_line("interface_clipping",
+                   Utilities::MPI::max(clipping, comm),
+                   balance);
   }
 
   std::vector<bool>
@@ -310,12 +328,16 @@ namespace mortise
     const TransferErrors   errors =
       transfer_errors(couplings[i], system.owned_multiplier, comm);
     InterfaceSummary result;
-    result.name                      = couplings[i].interface->name();
-    result.slave_faces               = report.slave_faces;
-    result.master_faces              = report.master_faces;
-    result.candidate_pairs           = report.candidate_pairs;
-    result.pairs                     = report.pairs;
-    result.integration_cells         = report.integration_cells;
+    result.name              = couplings[i].interface->name();
+    result.slave_faces       = report.slave_faces;
+    result.master_faces      = report.master_faces;
+    result.candidate_pairs   = report.candidate_pairs;
+    result.pairs             = report.pairs;
+    result.integration_cells = report.integration_cells;
+    summary.balance.push_back({result.name,
+                               report.largest_integration_cells,
+                               double(report.integration_cells) /
+                                 Utilities::MPI::n_mpi_processes(comm)});
     result.quadrature_points         = report.quadrature_points;
     result.slave_area                = report.slave_area;
     result.covered_area              = report.covered_area;

@@ -35,12 +35,13 @@ namespace mortise
          unsigned int         index,
          const LinearElastic &material);
 
-    /// Mesh of the body, spread over @p comm. Collective; throws InputError (@p where starts the
-    /// message).
+    /// Mesh of the body, spread over @p comm; the names are those of create_mesh(). Collective;
+    /// throws InputError (@p where starts the message).
     void
-    create_mesh(const MeshParameters &parameters,
-                MPI_Comm              comm,
-                const std::string    &where);
+    create_mesh(const MeshParameters        &parameters,
+                MPI_Comm                     comm,
+                const std::string           &where,
+                const std::set<std::string> &interfaces);
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
     /// of a cell; mapping of the largest degree on curved meshes; conformity

@@ -12,6 +12,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -136,10 +137,13 @@ namespace mortise
   /// tetrahedra have the orders of order_vertices() and are spread by METIS;
   /// the coarse mesh is the same on every rank. Collective; throws InputError
   /// on all ranks alike.
+  /// @p interfaces: boundaries whose cells have more work, for METIS to balance; unknown names
+  /// do nothing.
   Mesh
-  create_mesh(const MeshParameters &parameters,
-              MPI_Comm              comm,
-              const std::string    &where = "Mesh");
+  create_mesh(const MeshParameters        &parameters,
+              MPI_Comm                     comm,
+              const std::string           &where      = "Mesh",
+              const std::set<std::string> &interfaces = {});
 
   /// The motion "Rotate" then "Translate".
   inline RigidMotion

@@ -7,6 +7,7 @@
 #include <mortise/body/generators.h>
 
 #include <memory>
+#include <set>
 
 namespace mortise
 {
@@ -28,8 +29,10 @@ namespace mortise
   refine_tetrahedra(const CoarseMesh &mesh);
 
   /// The triangulation of @p mesh (tetrahedra in any numbering, the same on
-  /// all ranks), spread over the ranks by METIS such that the common faces are
-  /// few. Each rank holds the whole coarse mesh while this runs. Collective.
+  /// all ranks), spread over the ranks by partition_cells(). Each rank holds
+  /// the whole coarse mesh while this runs. Collective.
   std::unique_ptr<dealii::parallel::DistributedTriangulationBase<3>>
-  distribute_tetrahedra(const CoarseMesh &mesh, MPI_Comm comm);
+  distribute_tetrahedra(const CoarseMesh                           &mesh,
+                        const std::set<dealii::types::boundary_id> &balanced,
+                        MPI_Comm                                    comm);
 } // namespace mortise

@@ -27,15 +27,16 @@ namespace mortise
   /// Totals over all ranks.
   struct InterfaceReport
   {
-    std::uint64_t slave_faces       = 0;
-    std::uint64_t master_faces      = 0;
-    std::uint64_t candidate_pairs   = 0;
-    std::uint64_t pairs             = 0;
-    std::uint64_t integration_cells = 0;
-    std::uint64_t quadrature_points = 0;
-    std::uint64_t failed_pairs      = 0; ///< projections that did not converge
-    double        slave_area        = 0.;
-    double        covered_area      = 0.;
+    std::uint64_t slave_faces               = 0;
+    std::uint64_t master_faces              = 0;
+    std::uint64_t candidate_pairs           = 0;
+    std::uint64_t pairs                     = 0;
+    std::uint64_t integration_cells         = 0;
+    std::uint64_t largest_integration_cells = 0; ///< of the busiest rank
+    std::uint64_t quadrature_points         = 0;
+    std::uint64_t failed_pairs = 0; ///< projections that did not converge
+    double        slave_area   = 0.;
+    double        covered_area = 0.;
     double        worst_face_error =
       0.; ///< largest |1 - covered / area| of a slave face
     dealii::Point<3> worst_face_centre;

@@ -4,11 +4,13 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <deal.II/fe/fe_dgq.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <mortise/base/types.h>
 #include <mortise/body/body.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -44,7 +46,10 @@ namespace mortise
     /// Barycentric coordinates of the nodes of a tetrahedron.
     std::vector<std::array<double, dim + 1>> barycentric;
     std::vector<double>                      nodal_gradients; ///< [q][a][k]
-    std::unique_ptr<dealii::FEValues<dim>>   values;          ///< for hexahedra
-    std::vector<Jacobian>                    result;
+    /// for hexahedra
+    const dealii::FE_DGQ<dim>              constants{0};
+    std::unique_ptr<dealii::FEValues<dim>> values;
+
+    std::vector<Jacobian> result;
   };
 } // namespace mortise

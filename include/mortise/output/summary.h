@@ -93,6 +93,14 @@ namespace mortise
     std::vector<std::pair<std::string, std::vector<double>>> quantities;
   };
 
+  /// How evenly the ranks share an interface.
+  struct BalanceSummary
+  {
+    std::string   interface;
+    std::uint64_t largest = 0;  ///< integration cells of the busiest rank
+    double        mean    = 0.; ///< over all ranks
+  };
+
   struct Summary
   {
     ProgramInfo              program;
@@ -100,8 +108,9 @@ namespace mortise
     std::string              status; ///< "done", "not converged", ...
     std::vector<StepSummary> steps;
     std::vector<std::pair<std::string, double>>
-               timings; ///< Timers::walls(), seconds
-    PeakMemory memory;
+                                timings; ///< Timers::walls(), seconds
+    PeakMemory                  memory;
+    std::vector<BalanceSummary> balance; ///< written with several ranks
   };
 
   /// The text of summary.json. Numbers are written with the digits that read
