@@ -102,6 +102,13 @@ namespace
                     cells("lower", "upper", pairing, 2, 2) +
                       boxes("3, 2, 1", "3, 2, 1"));
       }
+    check_patch(
+      "hanging nodes and mixed degrees on hexahedra, mixed degrees "
+      "on tetrahedra",
+      cells("lower", "upper", pairings[2], 1, 2) + boxes("2, 2, 2", "3, 3, 2") +
+        Settings{"Body lower/Degree by region=4: 3; 5: 2",
+                 "Body upper/Degree by region=0: 1; 3: 4",
+                 "Body lower/Mesh/Refine near=0.2, 0.2, 0.5, 0.3, 1"});
     const Settings clamped = {"Interface glue/Slave=upper: zmin",
                               "Interface glue/Master=lower: zmax"};
     for (const unsigned int p : {1, 2, 3})

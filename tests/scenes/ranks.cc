@@ -97,4 +97,38 @@ main(int argc, char *argv[])
          "Body outer/Degree=3",
          "Body inner/Mesh/Subdivisions=1, 1, 1",
          "Body outer/Mesh/Subdivisions=1, 1, 1"});
+  // Degrees up to 2: deal.II 9.4's assertions take no more on tetrahedra.
+  const Settings tetrahedra = {"Body inner/Mesh/Cells=tetrahedra",
+                               "Body inner/Degree=2",
+                               "Body outer/Degree=2"};
+  for (const std::string method : {"direct", "condensed", "saddle point"})
+    check("tetrahedra on hexahedra, " + method,
+          two_layers(true),
+          quantities + tetrahedra +
+            Settings{"Solver/Method=" + method, "Solver/Tolerance=1e-12"});
+  check("tetrahedra on tetrahedra with mixed degrees",
+        two_layers(true),
+        quantities + tetrahedra +
+          Settings{"Solver/Method=direct",
+                   "Body outer/Mesh/Cells=tetrahedra",
+                   "Body inner/Degree by region=1: 1",
+                   "Body outer/Degree by region=0: 1"});
+  check("clamped rim of tetrahedra",
+        manufactured(),
+        {"Solver/Method=direct",
+         "Body lower/Mesh/Cells=tetrahedra",
+         "Body upper/Mesh/Cells=tetrahedra",
+         "Body lower/Degree=1",
+         "Body upper/Degree=2",
+         "Body lower/Mesh/Subdivisions=3, 3, 1",
+         "Body upper/Mesh/Subdivisions=2, 2, 1"});
+  check("six tetrahedra each",
+        two_layers(false),
+        {"Solver/Method=direct",
+         "Body inner/Mesh/Cells=tetrahedra",
+         "Body outer/Mesh/Cells=tetrahedra",
+         "Body inner/Degree=2",
+         "Body outer/Degree=2",
+         "Body inner/Mesh/Subdivisions=1, 1, 1",
+         "Body outer/Mesh/Subdivisions=1, 1, 1"});
 }
