@@ -24,8 +24,13 @@ namespace mortise
       const QGaussLobatto<1> nodes(result.degree + 1);
       for (unsigned int j = 0; j <= result.degree; ++j)
         for (unsigned int i = 0; i <= result.degree; ++i)
-          result.points.push_back(body.mapping->transform_unit_to_real_cell(
-            at.cell, face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
+          // a triangle's points beyond it follow from the others
+          result.points.push_back(
+            result.shape == FaceShape::triangle && i + j > result.degree ?
+              Point<3>() :
+              body.mapping->transform_unit_to_real_cell(
+                at.cell,
+                face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
       return result;
     }
 
