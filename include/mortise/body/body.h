@@ -41,7 +41,7 @@ namespace mortise
     create_mesh(const MeshParameters        &parameters,
                 MPI_Comm                     comm,
                 const std::string           &where,
-                const std::set<std::string> &interfaces);
+                const std::set<std::string> &interfaces = {});
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
     /// of a cell; mapping of the largest degree on curved meshes; conformity
