@@ -155,17 +155,20 @@ namespace mortise
           std::max(segment.deviation, std::abs(middle.xi[i] - expected[i]));
       }
     segment.checked = segment.deviation <= small;
-    // Not well described, but outside by more than the description may be
-    // wrong?
+    // Outside on one side by more than the description may be wrong? The
+    // cubic's control points contain it.
     for (const unsigned int side : sides_of(shape))
       {
-        if (segment.checked)
-          break;
         const double f_0 = inside_by(a.xi, side), f_1 = inside_by(b.xi, side);
-        const double nearest = std::max(
-          {f_0, f_1, inside_by(expected, side), inside_by(segment.mid, side)});
-        segment.checked = nearest < -2. * segment.deviation;
+        const double third = (b.tau - a.tau) / 3.;
+        const double nearest =
+          std::max({f_0,
+                    f_1,
+                    f_0 + third * inside_rate(a.dxi, side),
+                    f_1 - third * inside_rate(b.dxi, side)});
+        segment.far = segment.far || nearest < -3. * segment.deviation;
       }
+    segment.checked = segment.checked || segment.far;
     return segment.checked;
   }
 } // namespace mortise

@@ -27,46 +27,57 @@ namespace mortise
              s * t * (s * d_0 - t * d_1);
     }
 
-    // Whether a curve may cross zero more often than its ends say, judged by
-    // the cubic through its ends and slopes from which its middle deviates by
-    // @p deviation. What the cubic leaves out vanishes with its slope at the
-    // ends, like 16 deviation t^2 (1-t)^2; three times that is allowed for.
-    bool
-    is_doubtful(const double f_0,
-                const double f_1,
-                const double d_0,
-                const double d_1,
-                const double deviation)
+    // How many rounds of samples it takes to find out whether a curve crosses
+    // zero more often than its ends say, judged by the cubic through its ends
+    // and
+    // slopes from which its middle deviates by @p deviation. What the cubic
+    // leaves out vanishes with its slope at the ends, like 16 deviation t^2
+    // (1-t)^2; three times that is allowed for.
+    unsigned int
+    rounds_needed(const double f_0,
+                  const double f_1,
+                  const double d_0,
+                  const double d_1,
+                  const double deviation)
     {
-      const double rise = f_1 - f_0;
+      constexpr unsigned int few = 1, many = 5;
+
+      const double rise = f_1 - f_0, slope = std::abs(d_0) + std::abs(d_1);
       if (f_0 == 0. && f_1 == 0.)
-        return std::abs(d_0) + std::abs(d_1) + deviation > on_side;
+        return slope + deviation > on_side ? few : 0;
+      // An edge that runs along the side, as on two polynomial pictures of one
+      // smooth surface, may cross it several times.
+      const bool along =
+        std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
       if (f_0 * f_1 < 0)
         {
           // Monotone curves cross once: slopes at both ends, at the middle and
           // where t^2 (1-t)^2 has its largest slope, 0.192.
-          const double quarters[2] = {1.125 * rise + 0.1875 * d_0 -
-                                        0.3125 * d_1,
-                                      1.125 * rise + 0.1875 * d_1 -
-                                        0.3125 * d_0};
-          const double middle      = 1.5 * rise - 0.25 * (d_0 + d_1);
-          const double least       = 10. * deviation * std::abs(rise);
-          return d_0 * rise <= 0 || d_1 * rise <= 0 || middle * rise <= 0 ||
-                 quarters[0] * rise <= least || quarters[1] * rise <= least;
+          const double first  = 1.125 * rise + 0.1875 * d_0 - 0.3125 * d_1;
+          const double middle = 1.5 * rise - 0.25 * (d_0 + d_1);
+          const double second = 1.125 * rise + 0.1875 * d_1 - 0.3125 * d_0;
+          const double least  = 10. * deviation * std::abs(rise);
+          const bool   once   = d_0 * rise > 0 && d_1 * rise > 0 &&
+                            middle * rise > 0 && first * rise > least &&
+                            second * rise > least;
+          return !once || along ? few : 0;
         }
       const double sign    = f_0 + f_1 >= 0 ? 1. : -1.;
       const bool   touches = f_0 == 0. || f_1 == 0.;
-      double       nearest = touches ? 1. : std::min(sign * f_0, sign * f_1);
+      if (touches && sign * (f_0 == 0. ? d_0 : -d_1) < 0)
+        return many;
+      double nearest = std::min(sign * f_0, sign * f_1);
+      bool   clear   = true;
       for (unsigned int i = 1; i < 8; ++i)
         {
           const double t    = i / 8.;
           const double here = sign * cubic(f_0, f_1, d_0, d_1, t);
-          if (touches && here <= 48. * deviation * t * t * (1. - t) * (1. - t))
-            return true;
-          nearest = std::min(nearest, here);
+          nearest           = std::min(nearest, here);
+          clear = clear && here > 48. * deviation * t * t * (1. - t) * (1. - t);
         }
-      return touches ? sign * (f_0 == 0. ? d_0 : -d_1) < 0 :
-                       nearest < 3. * deviation;
+      return !touches && nearest < 3. * deviation ? many :
+             along || (touches && !clear)         ? few :
+                                                    0;
     }
   } // namespace
 
@@ -88,21 +99,26 @@ namespace mortise
   LoopClipper::find_crossings(const unsigned int segment,
                               const unsigned int side)
   {
-    const Breakpoint &a     = breakpoints[segments[segment].first];
-    const Breakpoint &b     = breakpoints[segments[segment].last];
-    const double      f_0   = snapped(inside_by(a.xi, side));
-    const double      f_1   = snapped(inside_by(b.xi, side));
-    const double      d_0   = (b.tau - a.tau) * inside_rate(a.dxi, side);
-    const double      d_1   = (b.tau - a.tau) * inside_rate(b.dxi, side);
-    const double      slope = std::abs(d_0) + std::abs(d_1);
-    const bool        doubtful =
-      is_doubtful(f_0, f_1, d_0, d_1, segments[segment].deviation);
-    // An edge that runs along the side, as on two polynomial pictures of one
-    // smooth surface, may cross it several times.
-    const bool along =
-      std::abs(f_0) + std::abs(f_1) + slope < 0.1 && slope > on_side;
-    if (doubtful || along)
-      sample_segment(segment, side, doubtful ? 5 : 1);
+    const Breakpoint &a   = breakpoints[segments[segment].first];
+    const Breakpoint &b   = breakpoints[segments[segment].last];
+    const double      f_0 = snapped(inside_by(a.xi, side));
+    const double      f_1 = snapped(inside_by(b.xi, side));
+    const double      d_0 = (b.tau - a.tau) * inside_rate(a.dxi, side);
+    const double      d_1 = (b.tau - a.tau) * inside_rate(b.dxi, side);
+    // Across the side the cubic may describe the curve much better than along
+    // it.
+    const double deviation = segments[segment].deviation;
+    const double across    = std::abs(inside_by(segments[segment].mid, side) -
+                                   cubic(f_0, f_1, d_0, d_1, 0.5));
+    const unsigned int rounds =
+      rounds_needed(f_0,
+                    f_1,
+                    d_0,
+                    d_1,
+                    f_0 * f_1 > 0 ? deviation :
+                                    std::max(across, 0.125 * deviation));
+    if (rounds > 0)
+      sample_segment(segment, side, rounds);
     else if (f_0 * f_1 < 0)
       crossings.push_back(
         {segment, side, a.tau, b.tau, f_0, f_1, 0., {0., 0.}});

@@ -39,39 +39,39 @@ namespace mortise
     }
 
     // The prism over the face's chart box (over a triangle, what the bound of
-    // the sum leaves of it): it contains the curved face.
+    // the sum leaves of it, with two corners twice): it contains the curved
+    // face.
     struct Prism
     {
-      unsigned int n = 0;
       Tensor<1, 3> corner[8];
     };
 
     Prism
     prism_of(const SurfaceFace &face)
     {
-      const FaceFrame    &frame = face.frame;
-      const ReferenceBox &chart = frame.chart;
-      const unsigned int  n     = n_vertices(face.shape);
+      const FaceFrame    &frame    = face.frame;
+      const ReferenceBox &chart    = frame.chart;
+      const bool          triangle = face.shape == FaceShape::triangle;
+      const double        low[2]   = {chart.lower[0] - frame.center_xi,
+                                      chart.lower[1] - frame.center_xi};
+      const double        high[2]  = {
+        (triangle ? chart.upper[2] - chart.lower[1] : chart.upper[0]) -
+          frame.center_xi,
+        (triangle ? chart.upper[2] - chart.lower[0] : chart.upper[1]) -
+          frame.center_xi};
       // What a chart's dual base leaves out is the part of the tangents along
       // the normal.
       Prism prism;
-      prism.n = 2 * n;
-      for (unsigned int v = 0; v < n; ++v)
+      for (unsigned int v = 0; v < 4; ++v)
         {
-          double xi[2];
-          for (unsigned int i = 0; i < 2; ++i)
-            xi[i] = (i == 0 ? v % 2 : v / 2) == 0 ?
-                      chart.lower[i] :
-                    face.shape == FaceShape::triangle ?
-                      chart.upper[2] - chart.lower[1 - i] :
-                      chart.upper[i];
           const Tensor<1, 3> in_plane =
-            (xi[0] - frame.center_xi) * frame.tangent[0] +
-            (xi[1] - frame.center_xi) * frame.tangent[1];
+            (v % 2 == 0 || (triangle && v == 3) ? low : high)[0] *
+              frame.tangent[0] +
+            (v / 2 == 0 ? low : high)[1] * frame.tangent[1];
           const Tensor<1, 3> foot =
             frame.center + in_plane - (in_plane * frame.normal) * frame.normal;
-          prism.corner[v]     = foot + frame.height_lower * frame.normal;
-          prism.corner[n + v] = foot + frame.height_upper * frame.normal;
+          prism.corner[2 * v]     = foot + frame.height_lower * frame.normal;
+          prism.corner[2 * v + 1] = foot + frame.height_upper * frame.normal;
         }
       return prism;
     }
@@ -81,32 +81,34 @@ namespace mortise
     bool
     beside(const SurfaceFace &face, const Prism &other, const double reach)
     {
-      const FaceFrame   &frame  = face.frame;
-      const unsigned int n_axes = n_chart_axes(face.shape);
-      double             twist  = 0;
-      for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
-        for (unsigned int i = 0; i < n_axes; ++i)
-          twist =
-            std::max(twist, std::abs(frame.axis(i) * face.vertex_normals[v]));
-      const double slack = 1e-10 + twist * reach;
-      for (unsigned int i = 0; i < n_axes; ++i)
-        {
-          double low = 1e300, high = -1e300;
-          for (unsigned int c = 0; c < other.n; ++c)
-            {
-              const double chart =
-                (i < 2 ? 1. : 2.) * frame.center_xi +
-                frame.axis(i) * (other.corner[c] - frame.center);
-              low  = std::min(low, chart);
-              high = std::max(high, chart);
-            }
-          const double least = i < 2 ?
-                                 frame.chart.lower[i] :
-                                 frame.chart.lower[0] + frame.chart.lower[1];
-          if (low > frame.chart.upper[i] + slack || high < least - slack)
-            return true;
-        }
-      return false;
+      const FaceFrame    &frame = face.frame;
+      const ReferenceBox &box   = frame.chart;
+      const auto          apart = [&](const Tensor<1, 3> &axis,
+                             const double        centre,
+                             const double        least,
+                             const double        most) {
+        // A triangle's fourth normal only widens the slack.
+        double twist = 0;
+        for (const auto &normal : face.vertex_normals)
+          twist = std::max(twist, std::abs(axis * normal));
+        double low = 1e300, high = -1e300;
+        for (const auto &corner : other.corner)
+          {
+            const double chart = centre + axis * (corner - frame.center);
+            low  = std::min(low, chart);
+            high = std::max(high, chart);
+          }
+        const double slack = 1e-10 + twist * reach;
+        return low > most + slack || high < least - slack;
+      };
+      for (unsigned int i = 0; i < 2; ++i)
+        if (apart(frame.dual[i], frame.center_xi, box.lower[i], box.upper[i]))
+          return true;
+      return face.shape == FaceShape::triangle &&
+             apart(frame.axis(2),
+                   2. * frame.center_xi,
+                   box.lower[0] + box.lower[1],
+                   box.upper[2]);
     }
 
     bool
