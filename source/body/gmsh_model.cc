@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdio>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 

@@ -37,24 +37,20 @@ namespace mortise
       return std::filesystem::path(file_name).extension() == ".msh";
     }
 
-    /// What a whole .msh file has, so that a damaged one is not left to the
-    /// library, which says less.
+    /// OpenCASCADE takes anything, and says so on the terminal.
     void
-    check_sections(const std::string &content, const FileError &fail)
+    check_cad_content(const std::string &file,
+                      const std::string &content,
+                      const FileError   &fail)
     {
-      if (content.compare(0, 11, "$MeshFormat") != 0)
-        fail(
-          "does not begin with $MeshFormat; allowed: gmsh's .msh format, version 2.2 or 4.1");
-      std::istringstream header(content.substr(11, 100));
-      std::string        version, binary;
-      header >> version >> binary;
-      if ((version != "2.2" && version != "4.1") ||
-          (binary != "0" && binary != "1"))
-        fail("has format version " + version +
-             "; allowed: 2.2 or 4.1, ASCII or binary (gmsh -format msh41)");
-      for (const std::string section : {"Nodes", "Elements"})
-        if (content.find("$End" + section) == std::string::npos)
-          fail("ends before $End" + section + "; allowed: a complete file");
+      const std::string extension =
+        std::filesystem::path(file).extension().string();
+      const std::string mark = extension == ".geo"  ? "" :
+                               extension == ".brep" ? "CASCADE Topology" :
+                                                      "ISO-10303-21";
+      if (content.find(mark) == std::string::npos)
+        fail("does not hold the words " + mark +
+             "; allowed: a CAD file of the format that its name tells");
     }
 
     GmshModel
@@ -73,7 +69,9 @@ namespace mortise
       if (content.empty())
         fail("is empty");
       if (is_mesh_file(file))
-        check_sections(content, fail);
+        check_msh_content(content, fail);
+      else
+        check_cad_content(file, content, fail);
       try
         {
           return read_gmsh_model(file, parameters.mesh_size);

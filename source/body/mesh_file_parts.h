@@ -13,6 +13,13 @@ namespace mortise
   /// Throws InputError with the file's name before @p what.
   using FileError = std::function<void(const std::string &what)>;
 
+  /// Walk through the @p content of a .msh file: is it of a known version and
+  /// complete, do all counts fit and do all elements have nodes that are there?
+  /// The library takes much of this on trust and crashes, or takes all memory,
+  /// on damaged binary files.
+  void
+  check_msh_content(const std::string &content, const FileError &fail);
+
   /// The cells of @p parameters.part (all, if that is empty) with their
   /// vertices, boundary faces, names and curved geometry.
   CoarseMesh

@@ -66,7 +66,7 @@ Physical Surface("low") = {5};
   {
     const std::string whole = read_file(write_mesh("broken_cut", cube, format));
     std::mt19937      random(7);
-    for (unsigned int i = 0; i < 20; ++i)
+    for (unsigned int i = 0; i < 60; ++i)
       {
         std::string damaged = whole;
         for (unsigned int k = 0; k < 5; ++k)
@@ -77,8 +77,12 @@ Physical Surface("low") = {5};
     std::string noise = "$MeshFormat\n4.1 1 8\n";
     while (noise.size() < 5000)
       noise += static_cast<char>(random() % 256);
-    refused(report, "binary garbage", broken(noise), "ends before $EndNodes");
-    noise += "$EndNodes$EndElements";
+    refused(report, "binary garbage", broken(noise), "byte order");
+    const int one = 1;
+    noise         = "$MeshFormat\n4.1 1 8\n" +
+            std::string(reinterpret_cast<const char *>(&one), sizeof(int)) +
+            "\n$EndMeshFormat\n$Nodes\n" + noise + "$EndNodes\n$Elements\n" +
+            noise + "$EndElements\n";
     refused(report, "garbage with the right words", broken(noise), "mesh file");
   }
 
@@ -229,7 +233,7 @@ Physical Surface("low") = {5};
     refused(report,
             "CAD garbage",
             file_parameters(write_file("broken.brep", "garbage\n")),
-            "gmsh says: ");
+            "does not hold the words CASCADE Topology");
     mortise::MeshParameters q = file_parameters(write_file("broken.geo", cube));
     q.mesh_size               = -1.;
     refused(report,

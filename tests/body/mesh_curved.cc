@@ -110,7 +110,7 @@ namespace
           const Distances      &distances)
   {
     Body body("body", 0, mortise::LinearElastic());
-    body.create_mesh(q, MPI_COMM_WORLD, "Mesh");
+    body.create_mesh(q, MPI_COMM_WORLD, "Mesh", {});
     body.create_space(degree, {}, "Mesh");
     Measured result;
     result.volume = volume(body);

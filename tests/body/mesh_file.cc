@@ -335,7 +335,7 @@ main(int argc, char **argv)
   refused(report,
           "half a file",
           file("bad.msh", version_2.substr(0, version_2.size() / 2)),
-          "ends before");
+          "is not a complete mesh: in $Nodes");
 
   const auto message_of = [](const MeshParameters &q) {
     try

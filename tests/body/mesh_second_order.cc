@@ -108,7 +108,7 @@ Physical Surface("high") = {core[0]};
   measure(const MeshParameters &q)
   {
     Body body("body", 0, mortise::LinearElastic());
-    body.create_mesh(q, MPI_COMM_WORLD, "Mesh");
+    body.create_mesh(q, MPI_COMM_WORLD, "Mesh", {});
     body.create_space(1, {}, "Mesh");
     std::unique_ptr<FiniteElement<3>> fe;
     if (body.mesh.tetrahedra)
