@@ -12,16 +12,16 @@ namespace mortise
 {
   using namespace dealii;
 
+  std::string
+  place_name(const Point<3> &x)
+  {
+    std::ostringstream text;
+    text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
+    return text.str();
+  }
+
   namespace
   {
-    std::string
-    place(const Point<3> &x)
-    {
-      std::ostringstream text;
-      text << "(" << x[0] << ", " << x[1] << ", " << x[2] << ")";
-      return text.str();
-    }
-
     Point<3>
     centre(const CoarseMesh &mesh, const std::size_t cell)
     {
@@ -113,7 +113,7 @@ namespace mortise
               if (!(det * sign > 0.))
                 fail(
                   "has a second-order cell that its curved sides fold, near " +
-                  place(geometry.point(c, unit)) +
+                  place_name(geometry.point(c, unit)) +
                   "; allowed: a positive Jacobian (in gmsh: "
                   "Mesh.HighOrderOptimize = 1, or a finer mesh)");
             }
@@ -203,7 +203,7 @@ namespace mortise
           std::string(range.first < -flat ?
                         "that is turned inside out (negative volume)" :
                         "without volume") +
-          ", at " + place(centre(mesh, c)) + "; allowed: " +
+          ", at " + place_name(centre(mesh, c)) + "; allowed: " +
           (tetrahedron ? "tetrahedra of positive volume" : "convex hexahedra"));
       }
     if (mesh.geometry != nullptr)
@@ -233,7 +233,7 @@ namespace mortise
             (disjoint(volumes[v], volumes[w]) || surfaces[v] != surfaces[w]))
           continue;
         fail(
-          "has two nodes at " + place(mesh.vertices[v]) + " (" +
+          "has two nodes at " + place_name(mesh.vertices[v]) + " (" +
           std::to_string(pairs.size()) +
           " such pairs in this body), which leaves its cells apart there; allowed: one node "
           "at a place (in gmsh: Coherence, or Coherence Mesh; for a crack or an interface "

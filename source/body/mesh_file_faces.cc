@@ -27,32 +27,24 @@ namespace mortise
       return key;
     }
 
-    std::string
-    place(const Point<3> &x)
-    {
-      std::ostringstream text;
-      text << x[0] << ", " << x[1] << ", " << x[2];
-      return text.str();
-    }
-
-    struct BoundaryFace
+    struct OuterFace
     {
       FaceKey                   key;
       std::vector<unsigned int> vertices; ///< in deal.II's order
     };
 
     /// The faces of only one cell, by ascending key.
-    std::vector<BoundaryFace>
-    boundary_faces(const CoarseMesh &mesh,
-                   const GmshModel  &model,
-                   const FileError  &fail)
+    std::vector<OuterFace>
+    outer_faces(const CoarseMesh &mesh,
+                const GmshModel  &model,
+                const FileError  &fail)
     {
       const bool hexahedra = mesh.cells.front().vertices.size() == 8;
-      std::vector<BoundaryFace> faces;
+      std::vector<OuterFace> faces;
       for (const CellData<3> &cell : mesh.cells)
         for (unsigned int f = 0; f < (hexahedra ? 6 : 4); ++f)
           {
-            BoundaryFace face;
+            OuterFace face;
             for (unsigned int v = 0; v < (hexahedra ? 4 : 3); ++v)
               face.vertices.push_back(
                 cell.vertices[hexahedra ?
@@ -64,7 +56,7 @@ namespace mortise
       std::sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
         return a.key < b.key;
       });
-      std::vector<BoundaryFace> boundary;
+      std::vector<OuterFace> boundary;
       for (std::size_t i = 0, next; i < faces.size(); i = next)
         {
           for (next = i + 1;
@@ -76,8 +68,8 @@ namespace mortise
             {
               const Point<3> &at = model.nodes[faces[i].key[0]];
               fail("has " + std::to_string(next - i) +
-                   " cells at one face, near (" + place(at) +
-                   "); allowed: two, so cells must not overlap");
+                   " cells at one face, near " + place_name(at) +
+                   "; allowed: two, so cells must not overlap");
             }
         }
       return boundary;
@@ -102,7 +94,7 @@ namespace mortise
   name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail)
   {
     const std::map<FaceKey, int> tags = surface_tags(model);
-    for (const BoundaryFace &face : boundary_faces(mesh, model, fail))
+    for (const OuterFace &face : outer_faces(mesh, model, fail))
       {
         CellData<2> data(face.vertices.size());
         data.vertices    = face.vertices;

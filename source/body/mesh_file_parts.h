@@ -20,6 +20,10 @@ namespace mortise
   void
   check_msh_content(const std::string &content, const FileError &fail);
 
+  /// "(x, y, z)".
+  std::string
+  place_name(const dealii::Point<3> &x);
+
   /// The cells of @p parameters.part (all, if that is empty) with their
   /// vertices, boundary faces, names and curved geometry.
   CoarseMesh
