@@ -30,7 +30,7 @@ namespace mortise
     {
       const unsigned int n = rows.front().slopes.size();
       FullMatrix<double> normal(n, n);
-      Vector<double>     right(n), step(n);
+      dealii::Vector<double>     right(n), step(n);
       for (const Row &row : rows)
         for (unsigned int i = 0; i < n; ++i)
           {

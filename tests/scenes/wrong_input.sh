@@ -44,6 +44,19 @@ expect 2 '0.5' "$scene" --set 'Body lower/Material/Poisson ratio=0.5'
 expect 2 'Young' "$scene" --set 'Body lower/Material/Young modulus=-1'
 expect 2 'missing.msh' "$scene" --set 'Body lower/Mesh/Source=file' --set 'Body lower/Mesh/File=missing.msh' \
   --set 'Body lower/Mesh/Extent=' --set 'Body lower/Mesh/Subdivisions='
+# broken and unsuitable mesh files; all kinds of damage are in tests/body/mesh_broken.cc
+file=(--set 'Body lower/Mesh/Source=file' --set 'Body lower/Mesh/Extent=' --set 'Body lower/Mesh/Subdivisions=')
+printf 'solid cube\n' >"$work/solid.msh"
+: >"$work/empty.msh"
+head -c 3000 /dev/urandom >"$work/noise.msh"
+geometry=$prm/../meshes/thick_sphere_tet.geo
+expect 2 'MeshFormat' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/solid.msh"
+expect 2 'is empty' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/empty.msh"
+expect 2 'MeshFormat' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$work/noise.msh"
+expect 2 'it has: inner (tetrahedra), outer (tetrahedra)' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$geometry" \
+  --set 'Body lower/Mesh/Part=middle'
+expect 2 'did you mean .inner inside' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$geometry" \
+  --set 'Body lower/Mesh/Curved boundaries=inner insid: sphere'
 expect 2 'zmax' "$scene" --set 'Interface glue/Slave=lower: top'
 expect 2 'same' "$scene" --set 'Interface glue/Master=lower: zmax'
 expect 2 'do not meet' "$scene" --set 'Body upper/Mesh/Translate=0, 0, 5'
