@@ -67,7 +67,7 @@ def thick_rows(mortise, scene, ratio, meshes, cells=("hexahedra", "hexahedra")):
             tied = run(mortise, scene, tied_settings(("inner", "outer"), p, (inner, outer)) +
                        cells_settings(("inner", "outer"), cells) + [TOLERANCE])
             twin = run(mortise, scene + "_conforming", tied_settings(("shell",), p, (whole,)) +
-                       cells_settings(("shell",), [max(cells)]) + [TOLERANCE])
+                       cells_settings(("shell",), cells[:1]) + [TOLERANCE])
             before = add_rates(row_of(scene, cells, ratio, p, n, tied, twin), before)
             yield before
 

@@ -2,7 +2,6 @@
 // placement, cells that cannot be ordered consistently; damaged and unsuitable
 // files are refused with a message.
 
-#include <deal.II/base/conditional_ostream.h>
 
 #include <deal.II/grid/grid_tools.h>
 
@@ -13,27 +12,14 @@
 #include <fstream>
 #include <iostream>
 
+#include "gmsh_meshes.h"
+
 using namespace mortise;
 using namespace dealii;
 
 namespace
 {
-  class Report
-  {
-  public:
-    void
-    operator()(const bool         good,
-               const std::string &what,
-               const std::string &got = "")
-    {
-      out << (good ? "OK  " : "FAILED ") << what << (good ? "" : ": got " + got)
-          << std::endl;
-    }
-
-    ConditionalOStream out{std::cout,
-                           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) ==
-                             0};
-  };
+  using gmsh_test::Report;
 
   /// Two hexahedra, 2 x 1 x 1, in version 2.2. Surfaces: x = 0 "glued face"
   /// (1), z = 0 "bottom" (7), x = 2 without a name (12), the rest in no
@@ -254,27 +240,6 @@ $EndElements
     const auto &tria = *mesh.triangulation;
     report(tria.n_global_active_cells() == 96 && consistently_ordered(tria),
            "a twisted ring is refined once and then consistently ordered");
-  }
-
-  void
-  refused(Report               &report,
-          const std::string    &what,
-          const MeshParameters &q,
-          const std::string    &fragment)
-  {
-    std::string message = "(no error)";
-    try
-      {
-        create_mesh(q, MPI_COMM_WORLD, "Body inner, Mesh");
-      }
-    catch (const InputError &error)
-      {
-        message = error.what();
-      }
-    report(message.find("Body inner, Mesh: ") == 0 &&
-             message.find(fragment) != std::string::npos,
-           "refused: " + what,
-           message);
   }
 
   std::string

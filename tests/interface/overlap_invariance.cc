@@ -14,9 +14,13 @@ namespace
     std::vector<double> values;
   };
 
+  /// Area and the integral of @p function of the points, pair by pair,
+  /// relative to the slave face.
+  template <typename Function>
   Signature
-  signature(const std::vector<SurfaceFace> &slaves,
-            const std::vector<SurfaceFace> &masters)
+  pair_integrals(const std::vector<SurfaceFace> &slaves,
+                 const std::vector<SurfaceFace> &masters,
+                 const Function                 &function)
   {
     Signature  result;
     const auto visit = [&](const SurfaceFace       &slave,
@@ -25,11 +29,7 @@ namespace
                            const IntegrationPoints &points) {
       double sum = 0;
       for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          const double x = points.slave_xi[0][q], y = points.slave_xi[1][q];
-          const double s = points.master_eta[0][q], t = points.master_eta[1][q];
-          sum += points.weight[q] * (x * x + 2 * y - x * y) * (1 + s - t * t);
-        }
+        sum += points.weight[q] * function(points, q);
       const double area = face_area(slave);
       // Slivers of rounding may come and go: they count for nothing.
       if (pair.area > 1e-10 * area)
@@ -41,6 +41,19 @@ namespace
     };
     integrate(slaves, masters, 2, visit);
     return result;
+  }
+
+  /// By the reference coordinates in both faces.
+  Signature
+  signature(const std::vector<SurfaceFace> &slaves,
+            const std::vector<SurfaceFace> &masters)
+  {
+    return pair_integrals(
+      slaves, masters, [](const IntegrationPoints &points, unsigned int q) {
+        const double x = points.slave_xi[0][q], y = points.slave_xi[1][q];
+        const double s = points.master_eta[0][q], t = points.master_eta[1][q];
+        return (x * x + 2 * y - x * y) * (1 + s - t * t);
+      });
   }
 
   double
@@ -122,33 +135,17 @@ namespace
     return result;
   }
 
-  // Area and the integral of a quadratic function of the places on both faces,
-  // pair by pair, relative to the slave face.
+  /// By the places on both faces.
   Signature
   signature_in_space(const std::vector<SurfaceFace> &slaves,
                      const std::vector<SurfaceFace> &masters)
   {
-    Signature  result;
-    const auto visit = [&](const SurfaceFace       &slave,
-                           const SurfaceFace       &master,
-                           const PairResult        &pair,
-                           const IntegrationPoints &points) {
-      double sum = 0;
-      for (unsigned int q = 0; q < points.size(); ++q)
-        sum +=
-          points.weight[q] *
-          (points.slave_x[0][q] * points.master_x[1][q] +
-           points.slave_x[2][q] * (1 - points.master_x[2][q]) + points.gap[q]);
-      const double area = face_area(slave);
-      if (pair.area > 1e-10 * area)
-        for (const double value : {double(slave.id),
-                                   double(master.id),
-                                   pair.area / area,
-                                   sum / area})
-          result.values.push_back(value);
-    };
-    integrate(slaves, masters, 2, visit);
-    return result;
+    return pair_integrals(
+      slaves, masters, [](const IntegrationPoints &points, unsigned int q) {
+        return points.slave_x[0][q] * points.master_x[1][q] +
+               points.slave_x[2][q] * (1 - points.master_x[2][q]) +
+               points.gap[q];
+      });
   }
 
   void

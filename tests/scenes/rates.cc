@@ -69,18 +69,10 @@ namespace
         const ErrorSummary &coarse,
         const ErrorSummary &fine)
   {
-    const std::string what = scene + ", degree " + std::to_string(p);
     // coarse meshes halved once are still before the limit (conforming ones
     // have the same rates)
-    verdict(what + ": energy rate at least p - 0.3",
-            p - rate(*coarse.energy, *fine.energy),
-            0.3);
-    verdict(what + ": L2 rate at least p + 1 - 0.3",
-            p + 1. - rate(*coarse.displacement_l2, *fine.displacement_l2),
-            0.3);
-    verdict(what + ": multiplier rate at least p - 0.2",
-            p - rate(*coarse.multiplier_l2, *fine.multiplier_l2),
-            0.2);
+    rate_verdicts(
+      scene + ", degree " + std::to_string(p), p, coarse, fine, {0.3, 0.2});
   }
 } // namespace
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -66,5 +67,44 @@ namespace mortise::testing
   rate(const double coarse, const double fine, const double refinement = 2.)
   {
     return std::log(coarse / fine) / std::log(refinement);
+  }
+
+  /// By how much a rate may stay below its limit: p in energy, p + 1 in L2, p
+  /// for the multiplier.
+  struct RateSlack
+  {
+    double displacement, multiplier;
+  };
+
+  /// Verdicts on the errors of a mesh of degree @p p and of the same mesh with
+  /// all cells halved.
+  inline void
+  rate_verdicts(const std::string  &what,
+                const unsigned int  p,
+                const ErrorSummary &coarse,
+                const ErrorSummary &fine,
+                const RateSlack     slack)
+  {
+    const auto check = [&](const std::string           &quantity,
+                           const unsigned int           limit,
+                           const std::optional<double> &before,
+                           const std::optional<double> &after,
+                           const double                 allowed) {
+      std::ostringstream text;
+      text << what << ": " << quantity << " rate at least " << limit << " - "
+           << allowed;
+      verdict(text.str(), limit - rate(*before, *after), allowed);
+    };
+    check("energy", p, coarse.energy, fine.energy, slack.displacement);
+    check("L2",
+          p + 1,
+          coarse.displacement_l2,
+          fine.displacement_l2,
+          slack.displacement);
+    check("multiplier",
+          p,
+          coarse.multiplier_l2,
+          fine.multiplier_l2,
+          slack.multiplier);
   }
 } // namespace mortise::testing
