@@ -115,10 +115,11 @@ def picture(mortise):
                 mesh["u_z"] = mesh["displacement"][:, 2]
                 plotter.add_mesh(mesh.extract_surface(algorithm="dataset_surface"), scalars="u_z", cmap="viridis", n_colors=14,
                                  clim=(u_z.min(), u_z.max()), ambient=0.5, diffuse=0.5, show_edges=True, edge_opacity=0.25,
-                                 scalar_bar_args={"title": "u_z", "color": "black"})
+                                 scalar_bar_args={"title": "u_z", "color": "black", "position_y": 0.01})
             middle = LENGTH[scene] / 2
             plotter.camera_position = [(middle + 2.1, -1.7, 1.8), (middle, 0.5, 0.5), (0, 0, 1)]
             plotter.reset_camera()
+            plotter.camera.zoom(0.9)
             axes[row, column].imshow(plotter.screenshot(None, return_img=True))
             axes[row, column].set_axis_off()
             axes[row, column].set_title(f"{scene}, " + ("conforming" if column else "non-conforming, tied"))
