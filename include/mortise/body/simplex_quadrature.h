@@ -9,8 +9,9 @@ namespace mortise
   /// A rule with positive weights and points inside the reference triangle
   /// (dim 2) or tetrahedron (dim 3) that is exact for all polynomials of
   /// degree @p degree: the symmetric one of Witherden and Vincent (2015) where
-  /// deal.II has it (degree 13 or 14 on triangles, 9 or 10 on tetrahedra),
-  /// else Gauss points in collapsed coordinates (Duffy 1982).
+  /// deal.II has it (up to degree 14 on triangles, 10 on tetrahedra), else
+  /// Gauss points in collapsed coordinates (Duffy 1982). No point is close to a
+  /// vertex: integrands may be singular there.
   template <int dim>
   dealii::Quadrature<dim>
   simplex_quadrature(unsigned int degree);
