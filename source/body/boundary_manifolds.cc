@@ -153,9 +153,15 @@ namespace mortise
   }
 
   Manifolds
-  set_boundary_manifolds(const CoarseMesh &mesh,
-                         Triangulation<3> &triangulation)
+  create_coarse_triangulation(const CoarseMesh &mesh,
+                              Triangulation<3> &triangulation)
   {
+    triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
+    if (mesh.manifold != nullptr)
+      {
+        triangulation.set_all_manifold_ids(0);
+        triangulation.set_manifold(0, *mesh.manifold);
+      }
     if (mesh.shapes.empty())
       return {};
     const CurvedEdges edges = curved_edges(mesh);

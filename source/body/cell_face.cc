@@ -9,18 +9,6 @@ namespace mortise
 {
   using namespace dealii;
 
-  namespace
-  {
-    Point<3>
-    tetrahedron_vertex(const unsigned int v)
-    {
-      Point<3> x;
-      if (v > 0)
-        x[v - 1] = 1.;
-      return x;
-    }
-  } // namespace
-
   CellFace::CellFace(const CellIterator &cell, const unsigned int face)
   {
     const FiniteElement<3> &fe = cell->get_fe();
@@ -39,6 +27,9 @@ namespace mortise
         return;
       }
 
+    const auto tetrahedron_vertex = [](const unsigned int v) {
+      return ReferenceCells::Tetrahedron.vertex<3>(v);
+    };
     const FE_SimplexLegendre &element = SimplexElements::base(fe);
     basis                = &trace_basis(FaceShape::triangle, fe.degree);
     indices              = trace_dof_indices(element, face);

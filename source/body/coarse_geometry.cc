@@ -43,8 +43,8 @@ namespace mortise
     std::vector<std::array<double, 4>>
     tet_functions(const Point<3> &x)
     {
-      const double lambda[4] = {1. - x[0] - x[1] - x[2], x[0], x[1], x[2]};
-      const auto   slope     = [](const unsigned int v, const unsigned int d) {
+      const auto lambda = barycentric_coordinates(x);
+      const auto slope  = [](const unsigned int v, const unsigned int d) {
         return v == 0 ? -1. : (v == d + 1 ? 1. : 0.);
       };
       std::vector<std::array<double, 4>> result(tet_nodes);

@@ -56,8 +56,7 @@ namespace mortise
       if (!consistently_ordered(ordered))
         {
           Triangulation<3> serial;
-          serial.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
-          set_boundary_manifolds(mesh, serial);
+          create_coarse_triangulation(mesh, serial);
           serial.refine_global(1);
           Triangulation<3> flat;
           GridGenerator::flatten_triangulation(serial, flat);
@@ -190,10 +189,7 @@ namespace mortise
           triangulation.execute_coarsening_and_refinement();
         }
     }
-  } // namespace
 
-  namespace
-  {
     std::unique_ptr<HexTriangulation>
     distribute_hexahedra(const CoarseMesh     &mesh,
                          const MeshParameters &parameters,
@@ -201,16 +197,8 @@ namespace mortise
                          const std::string    &where)
     {
       auto triangulation = std::make_unique<HexTriangulation>(comm);
-      triangulation->create_triangulation(mesh.vertices,
-                                          mesh.cells,
-                                          mesh.faces);
-      if (mesh.manifold != nullptr)
-        {
-          triangulation->set_all_manifold_ids(0);
-          triangulation->set_manifold(0, *mesh.manifold);
-        }
+      create_coarse_triangulation(mesh, *triangulation);
       const auto balls = parse_refine_near(parameters.refine_near, where);
-      set_boundary_manifolds(mesh, *triangulation);
       if (!mesh.shapes.empty() &&
           (parameters.refinements > 0 || !balls.empty()))
         blend_into_cells(*triangulation);
@@ -234,7 +222,7 @@ namespace mortise
               const std::set<std::string> &interfaces)
   {
     validate(parameters, where);
-    const CoarseMesh coarse = coarse_mesh(parameters, where, comm);
+    CoarseMesh coarse = coarse_mesh(parameters, where, comm);
     if (is_tetrahedral(coarse) && !parameters.refine_near.empty())
       throw InputError(
         where + ": Refine near = '" + parameters.refine_near +
@@ -253,7 +241,8 @@ namespace mortise
       if (interfaces.count(name) > 0)
         balanced.insert(id);
     if (mesh.tetrahedra)
-      mesh.triangulation = distribute_tetrahedra(coarse, balanced, comm);
+      mesh.triangulation =
+        distribute_tetrahedra(std::move(coarse), balanced, comm);
     else
       mesh.triangulation =
         distribute_hexahedra(coarse, parameters, comm, where);

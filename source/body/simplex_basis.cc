@@ -10,12 +10,6 @@ namespace mortise
 
   namespace
   {
-    std::array<double, 4>
-    barycentric_coordinates(const Point<3> &x)
-    {
-      return {{1. - x[0] - x[1] - x[2], x[0], x[1], x[2]}};
-    }
-
     std::array<Jet, 4>
     barycentric_jets(const Point<3> &x)
     {

@@ -12,17 +12,11 @@ namespace mortise
 
   namespace
   {
-    std::array<double, 4>
-    barycentric(const Point<3> &x)
-    {
-      return {{1. - x[0] - x[1] - x[2], x[0], x[1], x[2]}};
-    }
-
     /// Local vertices that have a part in a node.
     std::vector<unsigned int>
     parts_of(const Point<3> &node)
     {
-      const auto                lambda = barycentric(node);
+      const auto                lambda = barycentric_coordinates(node);
       std::vector<unsigned int> parts;
       for (unsigned int v = 0; v < 4; ++v)
         if (lambda[v] > 1e-12)
@@ -178,7 +172,7 @@ namespace mortise
         // ascending vertices; see face_vertices
         std::array<Point<3>, 2> ends;
         std::array<double, 2>   weights;
-        const auto              lambda = barycentric(nodes[own[j]]);
+        const auto              lambda = barycentric_coordinates(nodes[own[j]]);
         unsigned int            i      = 0;
         for (const unsigned int v : vertex_order(cell))
           if (v == tetrahedron_lines[line][0] ||
@@ -221,9 +215,10 @@ namespace mortise
       {
         std::vector<double> weights(around.size());
         for (unsigned int i = 0; i < around.size(); ++i)
-          weights[i] =
-            blended ? layout.face_weights[face](j, i) :
-                      barycentric(nodes[own[j]])[layout.face_vertices[face][i]];
+          weights[i] = blended ?
+                         layout.face_weights[face](j, i) :
+                         barycentric_coordinates(
+                           nodes[own[j]])[layout.face_vertices[face][i]];
         off[j] = cell->face(face)->get_manifold().get_new_point(
                    make_array_view(around.cbegin(), around.cend()),
                    make_array_view(weights.cbegin(), weights.cend())) -
@@ -250,7 +245,7 @@ namespace mortise
     for (const unsigned int q : layout.inner_nodes)
       {
         std::vector<double> weights;
-        const auto          lambda = barycentric(nodes[q]);
+        const auto          lambda = barycentric_coordinates(nodes[q]);
         for (const unsigned int v : vertex_order(cell))
           weights.push_back(lambda[v]);
         places[q] = cell->get_manifold().get_new_point(
@@ -266,7 +261,7 @@ namespace mortise
     places.assign(nodes.size(), Tensor<1, 3>());
     for (unsigned int q = 0; q < nodes.size(); ++q)
       for (unsigned int v = 0; v < 4; ++v)
-        places[q] += barycentric(nodes[q])[v] * cell->vertex(v);
+        places[q] += barycentric_coordinates(nodes[q])[v] * cell->vertex(v);
 
     for (unsigned int l = 0; l < 6; ++l)
       if (!flat(cell->line(l)->manifold_id()))

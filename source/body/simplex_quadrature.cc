@@ -52,6 +52,19 @@ namespace mortise
     return collapsed_quadrature<dim>(degree);
   }
 
+  template <int dim>
+  Quadrature<dim>
+  gauss_quadrature(const FiniteElement<3> &element, const unsigned int n)
+  {
+    if (element.reference_cell() == ReferenceCells::Hexahedron)
+      return QGauss<dim>(n);
+    return simplex_quadrature<dim>(2 * n - 1);
+  }
+
+  template Quadrature<2>
+  gauss_quadrature(const FiniteElement<3> &, unsigned int);
+  template Quadrature<3>
+  gauss_quadrature(const FiniteElement<3> &, unsigned int);
   template Quadrature<2>
   collapsed_quadrature(unsigned int);
   template Quadrature<3>

@@ -28,9 +28,9 @@ namespace mortise
     std::vector<double>
     least_squares_step(const std::vector<Row> &rows)
     {
-      const unsigned int n = rows.front().slopes.size();
-      FullMatrix<double> normal(n, n);
-      dealii::Vector<double>     right(n), step(n);
+      const unsigned int     n = rows.front().slopes.size();
+      FullMatrix<double>     normal(n, n);
+      dealii::Vector<double> right(n), step(n);
       for (const Row &row : rows)
         for (unsigned int i = 0; i < n; ++i)
           {
@@ -54,6 +54,16 @@ namespace mortise
         return {};
       inverse.vmult(step, right);
       return std::vector<double>(step.begin(), step.end());
+    }
+
+    /// Largest entry of a step in magnitude; -1 if there is none.
+    double
+    size_of_step(const std::vector<double> &step)
+    {
+      double size = step.empty() ? -1. : 0.;
+      for (const double s : step)
+        size = std::max(size, std::fabs(s));
+      return size;
     }
 
     Point<3>
@@ -185,12 +195,10 @@ namespace mortise
                            -height * (e * uv[1]),
                            -1.}});
         }
-      const auto step = least_squares_step(rows);
-      if (step.empty())
-        return -1.;
-      double size = 0.;
-      for (const double s : step)
-        size = std::max(size, std::fabs(s));
+      const auto   step = least_squares_step(rows);
+      const double size = size_of_step(step);
+      if (size < 0.)
+        return size;
       circle.centre += circle.radius * (step[0] * uv[0] + step[1] * uv[1]);
       axis += step[2] * uv[0] + step[3] * uv[1];
       axis /= axis.norm();
@@ -227,12 +235,10 @@ namespace mortise
                  const Tensor<1, 3> e    = from / from.norm();
                  rows.push_back({from.norm() - 1., {-e[0], -e[1], -e[2], -1.}});
                }
-             const auto step = least_squares_step(rows);
-             if (step.empty())
-               return -1.;
-             double size = 0.;
-             for (const double s : step)
-               size = std::max(size, std::fabs(s));
+             const auto   step = least_squares_step(rows);
+             const double size = size_of_step(step);
+             if (size < 0.)
+               return size;
              sphere.centre += sphere.radius *
                               Tensor<1, 3>(Point<3>(step[0], step[1], step[2]));
              sphere.radius *= 1. + step[3];

@@ -83,29 +83,13 @@ namespace mortise
     return mesh;
   }
 
-  namespace
-  {
-    /// Returns the manifolds of curved boundaries.
-    Manifolds
-    create_serial(const CoarseMesh &mesh, Triangulation<3> &triangulation)
-    {
-      triangulation.create_triangulation(mesh.vertices, mesh.cells, mesh.faces);
-      if (mesh.manifold != nullptr)
-        {
-          triangulation.set_all_manifold_ids(0);
-          triangulation.set_manifold(0, *mesh.manifold);
-        }
-      return set_boundary_manifolds(mesh, triangulation);
-    }
-  } // namespace
-
   CoarseMesh
   refine_uniformly(CoarseMesh mesh, const unsigned int times)
   {
     if (times == 0)
       return mesh;
     Triangulation<3> serial, flat;
-    create_serial(mesh, serial);
+    create_coarse_triangulation(mesh, serial);
     serial.refine_global(times);
     GridGenerator::flatten_triangulation(serial, flat);
     std::tie(mesh.vertices, mesh.cells, mesh.faces) =
@@ -114,27 +98,20 @@ namespace mortise
   }
 
   std::unique_ptr<parallel::DistributedTriangulationBase<3>>
-  distribute_tetrahedra(const CoarseMesh                   &mesh,
+  distribute_tetrahedra(CoarseMesh                          mesh,
                         const std::set<types::boundary_id> &balanced,
                         const MPI_Comm                      comm)
   {
-    CoarseMesh ordered;
-    ordered.vertices = mesh.vertices;
-    ordered.cells    = mesh.cells;
-    ordered.faces    = mesh.faces;
-    ordered.shapes   = mesh.shapes;
-    if (mesh.manifold != nullptr)
-      ordered.manifold = mesh.manifold->clone();
-    order_vertices(ordered.vertices, ordered.cells);
+    order_vertices(mesh.vertices, mesh.cells);
     Triangulation<3> serial;
-    const Manifolds  curved = create_serial(ordered, serial);
+    const Manifolds  curved = create_coarse_triangulation(mesh, serial);
 
     partition_cells(Utilities::MPI::n_mpi_processes(comm), balanced, serial);
 
     auto triangulation =
       std::make_unique<parallel::fullydistributed::Triangulation<3>>(comm);
-    if (ordered.manifold != nullptr)
-      triangulation->set_manifold(0, *ordered.manifold);
+    if (mesh.manifold != nullptr)
+      triangulation->set_manifold(0, *mesh.manifold);
     for (const auto &[id, manifold] : curved)
       triangulation->set_manifold(id, *manifold);
     triangulation->create_triangulation(

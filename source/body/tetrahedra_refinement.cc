@@ -19,7 +19,7 @@ namespace mortise
     unit_point(const unsigned int i)
     {
       const auto vertex = [](const unsigned int v) {
-        return v == 0 ? Point<3>() : Point<3>::unit_vector(v - 1);
+        return ReferenceCells::Tetrahedron.vertex<3>(v);
       };
       return i < 4 ? vertex(i) :
                      Point<3>(0.5 * (vertex(tetrahedron_lines[i - 4][0]) +
@@ -104,11 +104,10 @@ namespace mortise
     {
       for (unsigned int i = 0; i < 10; ++i)
         {
-          const Point<3> at = unit_point(i);
-          Tensor<1, 3>   unit =
-            (1. - at[0] - at[1] - at[2]) * unit_point(child[0]);
-          for (unsigned int d = 0; d < 3; ++d)
-            unit += at[d] * unit_point(child[d + 1]);
+          const auto   lambda = barycentric_coordinates(unit_point(i));
+          Tensor<1, 3> unit;
+          for (unsigned int v = 0; v < 4; ++v)
+            unit += lambda[v] * unit_point(child[v]);
           nodes.push_back(geometry.point(cell, Point<3>(unit)));
         }
     }

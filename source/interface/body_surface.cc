@@ -12,10 +12,11 @@ namespace mortise
   namespace
   {
     SurfaceFace
-    face_geometry(const Body &body, const BoundaryFace &at)
+    face_geometry(const Body         &body,
+                  const BoundaryFace &at,
+                  const CellFace     &face)
     {
-      const CellFace face(at.cell, at.number);
-      SurfaceFace    result;
+      SurfaceFace result;
       result.shape       = face.basis->shape;
       result.degree      = body.mapping_degree;
       result.orientation = face.orientation;
@@ -99,8 +100,8 @@ namespace mortise
     for (const BoundaryFace &at : boundary_faces(body, boundary))
       {
         const auto &[cell, f] = at;
-        faces.push_back(face_geometry(body, at));
-        const CellFace               face(cell, f);
+        const CellFace face(cell, f);
+        faces.push_back(face_geometry(body, at, face));
         std::array<std::uint64_t, 4> corners{};
         for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
           corners[v] = cell->vertex_index(face.vertices[v]);

@@ -1,5 +1,6 @@
 #include <Teuchos_BLAS.hpp>
 #include <mortise/body/simplex_mapping.h>
+#include <mortise/body/vertex_order.h>
 #include <mortise/operators/cell_geometry.h>
 
 #include <array>
@@ -54,7 +55,7 @@ namespace mortise
         return;
       }
     for (const Point<dim> &x : simplices->reference_nodes())
-      barycentric.push_back({{1. - x[0] - x[1] - x[2], x[0], x[1], x[2]}});
+      barycentric.push_back(barycentric_coordinates(x));
     nodal_gradients =
       gradient_table(simplices->nodal_polynomials(), quadrature);
   }

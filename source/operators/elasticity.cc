@@ -42,14 +42,6 @@ namespace mortise
       return simplex_quadrature<dim>(2 * element.degree + mapping_degree - 1);
     }
 
-    Quadrature<dim - 1>
-    face_quadrature(const FiniteElement<dim> &element)
-    {
-      if (element.reference_cell() == ReferenceCells::Hexahedron)
-        return QGauss<dim - 1>(element.degree + 2);
-      return simplex_quadrature<dim - 1>(2 * element.degree + 3);
-    }
-
     /// What the cells of one element share. Values for loads are made when
     /// there are any.
     struct Kernel
@@ -88,14 +80,12 @@ namespace mortise
       face_values()
       {
         if (!face)
-          face =
-            std::make_unique<FEFaceValues<dim>>(*body.mapping,
-                                                element(),
-                                                face_quadrature(system),
-                                                update_values |
-                                                  update_JxW_values |
-                                                  update_normal_vectors |
-                                                  update_quadrature_points);
+          face = std::make_unique<FEFaceValues<dim>>(
+            *body.mapping,
+            element(),
+            gauss_quadrature<dim - 1>(system, system.degree + 2),
+            update_values | update_JxW_values | update_normal_vectors |
+              update_quadrature_points);
         return *face;
       }
 

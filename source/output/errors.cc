@@ -1,17 +1,12 @@
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/quadrature_lib.h>
-
-#include <deal.II/fe/fe_values.h>
-
-#include <deal.II/grid/grid_tools.h>
 
 #include <mortise/body/boundary_faces.h>
 #include <mortise/body/cell_face.h>
 #include <mortise/body/simplex_quadrature.h>
+#include <mortise/output/cell_values.h>
 #include <mortise/output/errors.h>
 
 #include <cmath>
-#include <map>
 
 namespace mortise
 {
@@ -19,101 +14,15 @@ namespace mortise
 
   namespace
   {
-    /// Coefficients of the three components on one cell, in the order of the
-    /// scalar element.
-    std::array<std::vector<double>, dim>
-    cell_coefficients(const Body::CellIterator &cell,
-                      const BodyVector         &displacement)
-    {
-      const auto                          &fe = cell->get_fe();
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      std::array<std::vector<double>, dim> coefficients;
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int i = 0; i < fe.n_dofs_per_cell() / dim; ++i)
-          coefficients[c].push_back(
-            displacement(dofs[fe.component_to_system_index(c, i)]));
-      return coefficients;
-    }
-
-    template <typename Values>
-    Tensor<2, dim>
-    gradient(const Values                               &values,
-             const std::array<std::vector<double>, dim> &coefficients,
-             const unsigned int                          q)
-    {
-      Tensor<2, dim> result;
-      for (unsigned int i = 0; i < coefficients[0].size(); ++i)
-        {
-          const Tensor<1, dim> shape = values.shape_grad(i, q);
-          for (unsigned int c = 0; c < dim; ++c)
-            result[c] += coefficients[c][i] * shape;
-        }
-      return result;
-    }
-
-    template <typename Values>
-    Tensor<1, dim>
-    value(const Values                               &values,
-          const std::array<std::vector<double>, dim> &coefficients,
-          const unsigned int                          q)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int i = 0; i < coefficients[0].size(); ++i)
-        for (unsigned int c = 0; c < dim; ++c)
-          result[c] += coefficients[c][i] * values.shape_value(i, q);
-      return result;
-    }
-
-    /// A rule for integrands of @p degree and more, on cells or faces.
+    /// Gauss rules with so many more points per direction than the degree.
     template <int n>
-    Quadrature<n>
-    quadrature(const FiniteElement<dim> &element,
-               const unsigned int        extra_points)
+    auto
+    rule(const unsigned int extra_points)
     {
-      if (element.reference_cell() == ReferenceCells::Hexahedron)
-        return QGauss<n>(element.degree + extra_points);
-      return simplex_quadrature<n>(2 * (element.degree + extra_points) - 1);
+      return [=](const FiniteElement<dim> &element) {
+        return gauss_quadrature<n>(element, element.degree + extra_points);
+      };
     }
-
-    /// FEValues objects of scalar elements, made when an element first appears.
-    template <typename Values>
-    class ValuesByElement
-    {
-    public:
-      ValuesByElement(const Body        &body,
-                      const unsigned int extra_points,
-                      const UpdateFlags  flags)
-        : body(body)
-        , extra_points(extra_points)
-        , flags(flags)
-      {}
-
-      Values &
-      operator()(const Body::CellIterator &cell)
-      {
-        auto &values = all[cell->active_fe_index()];
-        if (!values)
-          {
-            auto &element = elements[cell->active_fe_index()];
-            element       = cell->get_fe().base_element(0).clone();
-            values        = std::make_unique<Values>(
-              *body.mapping,
-              *element,
-              quadrature<Values::integral_dimension>(*element, extra_points),
-              flags);
-          }
-        return *values;
-      }
-
-    private:
-      const Body        &body;
-      const unsigned int extra_points;
-      const UpdateFlags  flags;
-      std::map<unsigned int, std::unique_ptr<FiniteElement<dim>>>
-        elements; ///< outlive the values
-      std::map<unsigned int, std::unique_ptr<Values>> all;
-    };
 
     using TriaCell = Triangulation<dim>::cell_iterator;
   } // namespace
@@ -128,7 +37,7 @@ namespace mortise
     for (const auto &body : bodies)
       {
         ValuesByElement<FEValues<dim>> by_element(*body,
-                                                  3,
+                                                  rule<dim>(3),
                                                   update_values |
                                                     update_gradients |
                                                     update_quadrature_points |
@@ -182,7 +91,7 @@ namespace mortise
         const Body                        &body = *bodies[slave_bodies[n]];
         ValuesByElement<FEFaceValues<dim>> by_element(
           body,
-          3,
+          rule<dim - 1>(3),
           update_values | update_normal_vectors | update_quadrature_points |
             update_JxW_values);
         const BodySurface &slave = couplings[n].interface->slave();
@@ -271,8 +180,11 @@ namespace mortise
             const types::boundary_id boundary)
   {
     Tensor<1, dim>                     force;
-    ValuesByElement<FEFaceValues<dim>> by_element(
-      body, 2, update_gradients | update_normal_vectors | update_JxW_values);
+    ValuesByElement<FEFaceValues<dim>> by_element(body,
+                                                  rule<dim - 1>(2),
+                                                  update_gradients |
+                                                    update_normal_vectors |
+                                                    update_JxW_values);
     for (const auto &[cell, f] : boundary_faces(body, boundary))
       if (cell->is_locally_owned())
         {

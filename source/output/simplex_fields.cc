@@ -1,5 +1,4 @@
-#include <deal.II/fe/fe_values.h>
-
+#include <mortise/output/cell_values.h>
 #include <mortise/output/patches.h>
 #include <mortise/output/simplex_fields.h>
 
@@ -19,27 +18,19 @@ namespace mortise
                   const LinearElastic      &material,
                   const FieldSelection     &selection)
     {
-      const auto                          &fe = cell->get_fe();
-      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
+      const auto coefficients = cell_coefficients(cell, displacement);
       std::vector<std::vector<double>> data(values.n_quadrature_points);
       for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
         {
-          Tensor<1, dim> u;
-          Tensor<2, dim> gradient;
-          for (unsigned int i = 0; i < values.dofs_per_cell; ++i)
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                const double coefficient =
-                  displacement(dofs[fe.component_to_system_index(c, i)]);
-                u[c] += coefficient * values.shape_value(i, q);
-                gradient[c] += coefficient * values.shape_grad(i, q);
-              }
           if (selection.displacement)
-            data[q].insert(data[q].end(), u.begin_raw(), u.end_raw());
+            {
+              const auto u = value(values, coefficients, q);
+              data[q].insert(data[q].end(), u.begin_raw(), u.end_raw());
+            }
           if (selection.stress)
             {
-              const auto stress = material.stress(symmetrize(gradient));
+              const auto stress =
+                material.stress(symmetrize(gradient(values, coefficients, q)));
               for (unsigned int i = 0; i < dim; ++i)
                 for (unsigned int j = 0; j < dim; ++j)
                   data[q].push_back(stress[i][j]);
@@ -66,28 +57,18 @@ namespace mortise
       }
     const Quadrature<dim> points(output.lattice.points);
 
-    std::map<unsigned int, std::unique_ptr<FiniteElement<dim>>> elements;
-    std::map<unsigned int, std::unique_ptr<FEValues<dim>>>      all_values;
+    ValuesByElement<FEValues<dim>> by_element(
+      body,
+      [&](const FiniteElement<dim> &) { return points; },
+      update_values | update_gradients | update_quadrature_points);
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          auto &values = all_values[cell->active_fe_index()];
-          if (!values)
-            {
-              auto &element = elements[cell->active_fe_index()];
-              element       = cell->get_fe().base_element(0).clone();
-              values =
-                std::make_unique<FEValues<dim>>(*body.mapping,
-                                                *element,
-                                                points,
-                                                update_values |
-                                                  update_gradients |
-                                                  update_quadrature_points);
-            }
-          values->reinit(Triangulation<dim>::cell_iterator(cell));
-          output.add_simplex(values->get_quadrature_points(),
+          auto &values = by_element(cell);
+          values.reinit(Triangulation<dim>::cell_iterator(cell));
+          output.add_simplex(values.get_quadrature_points(),
                              evaluate_cell(cell,
-                                           *values,
+                                           values,
                                            displacement,
                                            body.material,
                                            selection));

@@ -27,8 +27,8 @@
 
 #include <iostream>
 
-#include "bound_verdict.h"
 #include "element_meshes.h"
+#include "verdict.h"
 
 using namespace dealii;
 using namespace mortise;

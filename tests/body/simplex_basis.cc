@@ -16,8 +16,8 @@
 #include <iostream>
 #include <set>
 
-#include "bound_verdict.h"
 #include "simplex_meshes.h"
+#include "verdict.h"
 
 using namespace dealii;
 using namespace mortise;

@@ -1,5 +1,5 @@
 // Surfaces for tests of the interface's geometry, built from functions (u,v) ->
-// x without a mesh. Apart from verdict() it never compares or prints.
+// x without a mesh. It never compares.
 #pragma once
 
 #include <mortise/interface/integration_cells.h>
@@ -12,21 +12,15 @@
 #include <string>
 #include <vector>
 
+#include "verdict.h"
+
 namespace synthetic
 {
   using namespace mortise;
   using dealii::Point;
   using dealii::Tensor;
 
-  inline void
-  verdict(const std::string &what, const double got, const double allowed)
-  {
-    if (got <= allowed)
-      std::cout << "OK  " << what << ": " << allowed << std::endl;
-    else
-      std::cout << "FAILED  " << what << ": got " << got << ", allowed "
-                << allowed << std::endl;
-  }
+  using ::verdict;
 
   using Surface = std::function<Point<3>(double, double)>;
 

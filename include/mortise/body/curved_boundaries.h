@@ -76,15 +76,15 @@ namespace mortise
   using Manifolds =
     std::map<dealii::types::manifold_id, std::shared_ptr<dealii::Manifold<3>>>;
 
-  /// Set the manifolds of the faces and edges of curved boundaries on
-  /// @p triangulation, which has just been made of @p mesh, and return them.
+  /// Make the empty @p triangulation of @p mesh, with the manifolds of all of it and of the faces
+  /// and edges of curved boundaries; the latter are returned.
   Manifolds
-  set_boundary_manifolds(const CoarseMesh         &mesh,
-                         dealii::Triangulation<3> &triangulation);
+  create_coarse_triangulation(const CoarseMesh         &mesh,
+                              dealii::Triangulation<3> &triangulation);
 
   /// Let everything else of a mesh of hexahedra follow its curved boundaries by
   /// transfinite interpolation in coarse cells, for meshes that are to be
-  /// refined; after set_boundary_manifolds().
+  /// refined; after create_coarse_triangulation().
   void
   blend_into_cells(dealii::Triangulation<3> &triangulation);
 } // namespace mortise

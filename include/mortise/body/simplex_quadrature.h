@@ -4,6 +4,8 @@
 
 #include <deal.II/base/quadrature.h>
 
+#include <deal.II/fe/fe.h>
+
 namespace mortise
 {
   /// A rule with positive weights and points inside the reference triangle
@@ -15,6 +17,12 @@ namespace mortise
   template <int dim>
   dealii::Quadrature<dim>
   simplex_quadrature(unsigned int degree);
+
+  /// For the cells (dim 3) or faces (dim 2) of @p element: the Gauss rule of @p n points per
+  /// direction on hexahedra, one of the same degree 2 n - 1 on tetrahedra.
+  template <int dim>
+  dealii::Quadrature<dim>
+  gauss_quadrature(const dealii::FiniteElement<3> &element, unsigned int n);
 
   /// The collapsed rule for any degree.
   template <int dim>

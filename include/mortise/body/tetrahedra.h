@@ -32,7 +32,7 @@ namespace mortise
   /// all ranks), spread over the ranks by partition_cells(). Each rank holds
   /// the whole coarse mesh while this runs. Collective.
   std::unique_ptr<dealii::parallel::DistributedTriangulationBase<3>>
-  distribute_tetrahedra(const CoarseMesh                           &mesh,
+  distribute_tetrahedra(CoarseMesh                                  mesh,
                         const std::set<dealii::types::boundary_id> &balanced,
                         MPI_Comm                                    comm);
 } // namespace mortise

@@ -30,6 +30,13 @@ namespace mortise
                                                     {0, 2, 3},
                                                     {2, 1, 3}};
 
+  /// Of a point of the reference tetrahedron.
+  inline std::array<double, 4>
+  barycentric_coordinates(const dealii::Point<3> &x)
+  {
+    return {{1. - x[0] - x[1] - x[2], x[0], x[1], x[2]}};
+  }
+
   /// Order of four different points.
   VertexOrder
   vertex_order(const std::array<dealii::Point<3>, 4> &points);

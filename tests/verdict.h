@@ -1,4 +1,4 @@
-// The line that tests of elements print for a number and its bound.
+// The line that tests print for a number and its bound.
 #pragma once
 
 #include <iostream>

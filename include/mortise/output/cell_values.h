@@ -1,0 +1,102 @@
+// A displacement on one cell or face at quadrature points. It never integrates
+// and never writes.
+#pragma once
+
+#include <deal.II/fe/fe_values.h>
+
+#include <mortise/operators/scene_system.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// Coefficients of the three components on one cell, in the order of the
+  /// scalar element.
+  inline std::array<std::vector<double>, dim>
+  cell_coefficients(const Body::CellIterator &cell,
+                    const BodyVector         &displacement)
+  {
+    const auto                                  &fe = cell->get_fe();
+    std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    std::array<std::vector<double>, dim> coefficients;
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int i = 0; i < fe.n_dofs_per_cell() / dim; ++i)
+        coefficients[c].push_back(
+          displacement(dofs[fe.component_to_system_index(c, i)]));
+    return coefficients;
+  }
+
+  /// Gradient at point @p q of a function with these coefficients.
+  template <typename Values>
+  dealii::Tensor<2, dim>
+  gradient(const Values                               &values,
+           const std::array<std::vector<double>, dim> &coefficients,
+           const unsigned int                          q)
+  {
+    dealii::Tensor<2, dim> result;
+    for (unsigned int i = 0; i < coefficients[0].size(); ++i)
+      {
+        const dealii::Tensor<1, dim> shape = values.shape_grad(i, q);
+        for (unsigned int c = 0; c < dim; ++c)
+          result[c] += coefficients[c][i] * shape;
+      }
+    return result;
+  }
+
+  template <typename Values>
+  dealii::Tensor<1, dim>
+  value(const Values                               &values,
+        const std::array<std::vector<double>, dim> &coefficients,
+        const unsigned int                          q)
+  {
+    dealii::Tensor<1, dim> result;
+    for (unsigned int i = 0; i < coefficients[0].size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c] += coefficients[c][i] * values.shape_value(i, q);
+    return result;
+  }
+
+  /// FEValues or FEFaceValues of the scalar elements of a body, made when an
+  /// element first appears.
+  template <typename Values>
+  class ValuesByElement
+  {
+  public:
+    using Rule = std::function<dealii::Quadrature<Values::integral_dimension>(
+      const dealii::FiniteElement<dim> &)>;
+
+    ValuesByElement(const Body               &body,
+                    const Rule               &rule,
+                    const dealii::UpdateFlags flags)
+      : body(body)
+      , rule(rule)
+      , flags(flags)
+    {}
+
+    Values &
+    operator()(const Body::CellIterator &cell)
+    {
+      auto &values = all[cell->active_fe_index()];
+      if (!values)
+        {
+          const auto &element = cell->get_fe().base_element(0);
+          values              = std::make_unique<Values>(*body.mapping,
+                                            element,
+                                            rule(element),
+                                            flags);
+        }
+      return *values;
+    }
+
+  private:
+    const Body                                     &body;
+    const Rule                                      rule;
+    const dealii::UpdateFlags                       flags;
+    std::map<unsigned int, std::unique_ptr<Values>> all;
+  };
+} // namespace mortise
