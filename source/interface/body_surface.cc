@@ -90,7 +90,8 @@ namespace mortise
   extract_surface(const Body                      &body,
                   const types::boundary_id         boundary,
                   const DisplacementNumbering     &numbering,
-                  const AffineConstraints<double> &constraints)
+                  const AffineConstraints<double> &constraints,
+                  const NodalSpaces               &levels)
   {
     // ghost cells take part in the averaging of normals
     BodySurface                               surface;
@@ -124,6 +125,9 @@ namespace mortise
                                               surface.face_numbers[local],
                                               numbering,
                                               constraints));
+          for (const auto &level : levels)
+            surface.traces.back().nodes.push_back(level->face_nodes(
+              body.index, surface.cells[local], surface.face_numbers[local]));
           faces[i].finalize();
           faces[i].payload = Utilities::pack(surface.traces.back(), false);
           surface.faces.push_back(std::move(faces[i]));

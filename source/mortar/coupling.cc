@@ -1,6 +1,7 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <mortise/mortar/coupling.h>
+#include <mortise/mortar/nodal_block.h>
 
 #include <algorithm>
 #include <map>
@@ -28,6 +29,55 @@ namespace mortise
     {
       return {trace.begin, trace.column, trace.weight, c * trace.n_functions()};
     }
+
+    /// The columns of one side of the constraint: hierarchical functions, or
+    /// nodal ones where the trace has nodes, which need no weights.
+    class ConstraintColumns
+    {
+    public:
+      explicit ConstraintColumns(const FaceTrace &trace)
+        : trace(trace)
+        , begin(1)
+      {
+        if (trace.nodes.empty())
+          return;
+        const auto &nodes = trace.nodes[0];
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int k = 0; k < nodes.size(); ++k)
+            {
+              const unsigned int row = c * nodes.size() + k;
+              // what holds a mode holds the node in its place
+              if (trace.begin[row + 1] > trace.begin[row])
+                index.push_back(dim * nodes[k] + c);
+              begin.push_back(index.size());
+            }
+        weight.assign(index.size(), 1.);
+      }
+
+      Expansion
+      component(const unsigned int c) const
+      {
+        if (trace.nodes.empty())
+          return mortise::component(trace, c);
+        return {begin, index, weight, c * trace.n_functions()};
+      }
+
+      /// @p local with its columns in these functions.
+      FullMatrix<double>
+      in_columns(const FullMatrix<double> &local) const
+      {
+        return trace.nodes.empty() ? local :
+                                     nodal_block(local,
+                                                 {trace.degree, 0},
+                                                 {trace.degree, trace.degree});
+      }
+
+    private:
+      const FaceTrace          &trace;
+      std::vector<unsigned int> begin;
+      std::vector<Index>        index;
+      std::vector<double>       weight;
+    };
 
     Expansion
     component(const MultiplierSpace::FaceRows &rows, const unsigned int c)
@@ -211,22 +261,20 @@ namespace mortise
                         partition.owned_displacement);
     for_each_face(
       couplings, [&](const Coupling &coupling, const unsigned int s) {
-        const FaceTrace   &slave = coupling.interface->slave().traces[s];
-        const auto        &rows  = coupling.multipliers->rows()[s];
-        const unsigned int n     = slave.n_functions();
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            assembler.record(component(rows, c), n, component(slave, c), n);
-            for (const auto &partner : coupling.local[s].partners)
-              {
-                const FaceTrace &master =
-                  coupling.interface->master_traces()[partner.master];
-                assembler.record(component(rows, c),
-                                 n,
-                                 component(master, c),
-                                 master.n_functions());
-              }
-          }
+        const FaceTrace   &slave  = coupling.interface->slave().traces[s];
+        const auto        &rows   = coupling.multipliers->rows()[s];
+        const unsigned int n      = slave.n_functions();
+        const auto         record = [&](const FaceTrace &side) {
+          const ConstraintColumns columns(side);
+          for (unsigned int c = 0; c < dim; ++c)
+            assembler.record(component(rows, c),
+                             n,
+                             columns.component(c),
+                             side.n_functions());
+        };
+        record(slave);
+        for (const auto &partner : coupling.local[s].partners)
+          record(coupling.interface->master_traces()[partner.master]);
       });
     assembler.create(coupling_matrix, partition.comm);
     coupling_rhs.reinit(partition.owned_multiplier, partition.comm);
@@ -236,26 +284,28 @@ namespace mortise
         const FaceTrace     &slave = coupling.interface->slave().traces[s];
         const auto          &rows  = coupling.multipliers->rows()[s];
         const LocalCoupling &local = coupling.local[s];
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            const Expansion row = component(rows, c);
-            Assembler::add(
-              row, component(slave, c), local.mass, 1., false, coupling_matrix);
-            move_constants(row, slave, c, local.mass, 1., coupling_rhs);
-            for (const auto &partner : local.partners)
-              {
-                const FaceTrace &master =
-                  coupling.interface->master_traces()[partner.master];
-                Assembler::add(row,
-                               component(master, c),
-                               partner.mixed,
-                               -1.,
-                               false,
-                               coupling_matrix);
-                move_constants(
-                  row, master, c, partner.mixed, -1., coupling_rhs);
-              }
-          }
+        const auto           add   = [&](const FaceTrace          &side,
+                             const FullMatrix<double> &block,
+                             const double              factor) {
+          const ConstraintColumns  columns(side);
+          const FullMatrix<double> in_columns = columns.in_columns(block);
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const Expansion row = component(rows, c);
+              Assembler::add(row,
+                             columns.component(c),
+                             in_columns,
+                             factor,
+                             false,
+                             coupling_matrix);
+              move_constants(row, side, c, block, factor, coupling_rhs);
+            }
+        };
+        add(slave, local.mass, 1.);
+        for (const auto &partner : local.partners)
+          add(coupling.interface->master_traces()[partner.master],
+              partner.mixed,
+              -1.);
       });
     coupling_matrix.compress(VectorOperation::add);
     coupling_rhs.compress(VectorOperation::add);

@@ -4,6 +4,7 @@
 #include <mortise/operators/cell_geometry.h>
 
 #include <array>
+#include <sstream>
 
 namespace mortise
 {
@@ -130,5 +131,16 @@ namespace mortise
               &result[0][0][0],
               dim);
     return result;
+  }
+
+  std::string
+  tangled_message(const Body &body, const Body::CellIterator &cell)
+  {
+    std::ostringstream message;
+    message
+      << "Body " << body.name << ": the cell with centre " << cell->center()
+      << " is tangled (its Jacobian is not positive everywhere); every cell must "
+         "have a positive volume. Use a finer mesh or a lower degree";
+    return message.str();
   }
 } // namespace mortise

@@ -42,15 +42,13 @@ namespace mortise
       return simplex_quadrature<dim>(2 * element.degree + mapping_degree - 1);
     }
 
-    /// What the cells of one element share. Values for loads are made when
+    /// What the loads of the cells of one element share. Values are made when
     /// there are any.
-    struct Kernel
+    struct LoadKernel
     {
-      Kernel(const Body &body, const FiniteElement<dim> &system)
+      LoadKernel(const Body &body, const FiniteElement<dim> &system)
         : body(body)
         , system(system)
-        , stiffness(body, system)
-        , matrix(system.n_dofs_per_cell())
         , load(system.n_dofs_per_cell())
       {
         for (unsigned int c = 0; c < dim; ++c)
@@ -91,9 +89,7 @@ namespace mortise
 
       const Body                                &body;
       const FiniteElement<dim>                  &system;
-      CellKernel                                 stiffness;
       std::array<std::vector<unsigned int>, dim> system_index;
-      FullMatrix<double>                         matrix;
       dealii::Vector<double>                     load;
 
     private:
@@ -101,10 +97,22 @@ namespace mortise
       std::unique_ptr<FEFaceValues<dim>> face;
     };
 
+    struct Kernel : LoadKernel
+    {
+      Kernel(const Body &body, const FiniteElement<dim> &system)
+        : LoadKernel(body, system)
+        , stiffness(body, system)
+        , matrix(system.n_dofs_per_cell())
+      {}
+
+      CellKernel         stiffness;
+      FullMatrix<double> matrix;
+    };
+
     void
     add_body_force(const Body::CellIterator &cell,
                    const Loads              &loads,
-                   Kernel                   &kernel)
+                   LoadKernel               &kernel)
     {
       auto &values = kernel.cell_values();
       values.reinit(typename Triangulation<dim>::cell_iterator(cell));
@@ -122,7 +130,7 @@ namespace mortise
     void
     add_tractions(const Body::CellIterator &cell,
                   const Loads              &loads,
-                  Kernel                   &kernel)
+                  LoadKernel               &kernel)
     {
       if (!cell->at_boundary())
         return;
@@ -168,17 +176,6 @@ namespace mortise
         }
       scatter.add(kernel.matrix, kernel.load, dofs);
     }
-
-    std::string
-    tangled_message(const Body &body, const Body::CellIterator &cell)
-    {
-      std::ostringstream message;
-      message
-        << "Body " << body.name << ": the cell with centre " << cell->center()
-        << " is tangled (its Jacobian is not positive everywhere); every cell must "
-           "have a positive volume. Use a finer mesh or a lower degree";
-      return message.str();
-    }
   } // namespace
 
   CondensedInteriors
@@ -216,5 +213,29 @@ namespace mortise
         }
     throw_if_any(tangled, body.triangulation().get_communicator());
     return interiors;
+  }
+
+  void
+  for_each_loaded_cell(
+    const Body                                                &body,
+    const Loads                                               &loads,
+    const std::function<void(const Body::CellIterator &,
+                             const dealii::Vector<double> &)> &visit)
+  {
+    std::map<unsigned int, std::unique_ptr<LoadKernel>> kernels;
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned() &&
+          (loads.body_force ||
+           (!loads.tractions.empty() && cell->at_boundary())))
+        {
+          auto &kernel = kernels[cell->active_fe_index()];
+          if (!kernel)
+            kernel = std::make_unique<LoadKernel>(body, cell->get_fe());
+          kernel->load = 0.;
+          if (loads.body_force)
+            add_body_force(cell, loads, *kernel);
+          add_tractions(cell, loads, *kernel);
+          visit(cell, kernel->load);
+        }
   }
 } // namespace mortise

@@ -124,6 +124,35 @@ namespace mortise
     return result;
   }
 
+  std::vector<BodyVector>
+  body_displacements(const Bodies                    &bodies,
+                     const DisplacementNumbering     &numbering,
+                     const AffineConstraints<double> &constraints,
+                     const NodalSystem               &nodal,
+                     const Vector                    &displacement)
+  {
+    std::vector<BodyVector> result(bodies.size());
+    for (const auto &body : bodies)
+      result[body->index].reinit(body->dof_handler.locally_owned_dofs(),
+                                 body->relevant_dofs,
+                                 body->triangulation().get_communicator());
+    nodal.for_each_coefficient(displacement,
+                               [&](const unsigned int            body,
+                                   const types::global_dof_index dof,
+                                   const double                  value) {
+                                 if (!result[body].in_local_range(dof))
+                                   return;
+                                 const auto index = numbering(body, dof);
+                                 result[body](dof) =
+                                   constraints.is_constrained(index) ?
+                                     constraints.get_inhomogeneity(index) :
+                                     value;
+                               });
+    for (BodyVector &vector : result)
+      vector.update_ghost_values();
+    return result;
+  }
+
   namespace
   {
     /// Collects blocks of owned dofs, each dof once.

@@ -106,9 +106,19 @@ namespace mortise
     unsigned int max_degree = 1;
     for (const BodySummary &body : step.bodies)
       max_degree = std::max(max_degree, body.degree_max);
-    method =
-      choose_solver(parameters.solver.method, numbering.size(), max_degree)
-        .method;
+    std::vector<const Body *> scene;
+    for (const auto &body : bodies)
+      scene.push_back(body.get());
+    const bool nodal = max_degree > 1 && NodalSpace::represents(scene);
+    method           = choose_solver(parameters.solver.method,
+                                     {numbering.size(), max_degree, nodal})
+               .method;
+    if (nodal && method != SolverMethod::direct)
+      {
+        nodal_spaces = make_nodal_spaces(scene, comm);
+        system.owned_displacement =
+          displacement_indices(nodal_spaces.front()->owned_nodes());
+      }
 
     step.dofs.displacement = numbering.size();
     step.dofs.total        = numbering.size();
@@ -128,7 +138,8 @@ namespace mortise
                                  body.boundary_id(side.boundary,
                                                   "Interface " + given.name),
                                  numbering,
-                                 constraints);
+                                 constraints,
+                                 nodal_spaces);
         };
         InterfaceOptions options;
         options.search_fraction      = given.search_distance;
@@ -299,7 +310,7 @@ namespace mortise
                                 partition,
                                 system.coupling,
                                 system.coupling_rhs);
-            if (method != SolverMethod::direct)
+            if (method != SolverMethod::direct && nodal_spaces.empty())
               assemble_jump_penalty(couplings, partition, system.jump_penalty);
           }
         for (unsigned int i = 0; i < couplings.size(); ++i)
@@ -315,6 +326,18 @@ namespace mortise
     std::vector<Loads> loads;
     for (const auto &body : bodies)
       loads.push_back(make_loads(parameters, *body, exact));
+    system.max_degree = 1;
+    for (const auto &body : bodies)
+      system.max_degree = std::max(system.max_degree, body->max_degree());
+    if (!nodal_spaces.empty())
+      {
+        const NodalSystem::Scene scene{numbering, constraints, couplings};
+        system.nodal =
+          std::make_unique<NodalSystem>(std::move(nodal_spaces), scene, comm);
+        system.nodal->assemble_load(loads, scene, system.load);
+        stage.details("without a matrix");
+        return;
+      }
     interiors = assemble_bodies(bodies, loads, numbering, constraints, system);
     describe_structure(bodies, numbering, system);
     stage.details(std::to_string(system.stiffness.n_nonzero_elements()) +

@@ -48,8 +48,12 @@ namespace mortise
   {
     auto         stage = log.stage(timers, "postprocess");
     StepSummary &step  = summary.steps.back();
-    displacements      = body_displacements(
-      bodies, numbering, constraints, interiors, displacement);
+    displacements =
+      system.nodal ?
+        body_displacements(
+          bodies, numbering, constraints, *system.nodal, displacement) :
+        body_displacements(
+          bodies, numbering, constraints, interiors, displacement);
 
     std::vector<unsigned int> slave_bodies;
     for (unsigned int i = 0; i < couplings.size(); ++i)

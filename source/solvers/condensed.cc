@@ -1,9 +1,9 @@
 // See condensed.h.
 #include <deal.II/base/timer.h>
 
+#include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/constraint_projector.h>
-#include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/scaled_residual.h>
 
 #include <cmath>
@@ -20,12 +20,11 @@ namespace mortise
     class ProjectedConjugateGradients
     {
     public:
-      ProjectedConjugateGradients(
-        const BlockSystem                &system,
-        const ScaledResidual             &residual,
-        const HierarchicalPreconditioner &preconditioner,
-        const ConstraintProjector        *projector,
-        const SolverOptions              &options)
+      ProjectedConjugateGradients(const BlockSystem         &system,
+                                  const ScaledResidual      &residual,
+                                  const BulkPreconditioner  &preconditioner,
+                                  const ConstraintProjector *projector,
+                                  const SolverOptions       &options)
         : system(system)
         , residual(residual)
         , preconditioner(preconditioner)
@@ -86,7 +85,7 @@ namespace mortise
       bool
       step(Vector &u, const double rho)
       {
-        system.stiffness.vmult(kd, d);
+        system.apply_stiffness(kd, d);
         const double energy = d * kd;
         if (!(rho > 0. && energy > 0.))
           return false;
@@ -97,13 +96,13 @@ namespace mortise
         return true;
       }
 
-      const BlockSystem                &system;
-      const ScaledResidual             &residual;
-      const HierarchicalPreconditioner &preconditioner;
-      const ConstraintProjector        *projector;
-      const SolverOptions              &options;
-      Vector                            r, z, d, kd, r_lambda;
-      double                            energy_of_u = 0.; ///< gained so far
+      const BlockSystem         &system;
+      const ScaledResidual      &residual;
+      const BulkPreconditioner  &preconditioner;
+      const ConstraintProjector *projector;
+      const SolverOptions       &options;
+      Vector                     r, z, d, kd, r_lambda;
+      double                     energy_of_u = 0.; ///< gained so far
     };
   } // namespace
 
@@ -115,20 +114,19 @@ namespace mortise
   {
     SolveReport report;
     report.method = "condensed";
-    Timer                             timer;
-    HierarchicalPreconditioner        preconditioner;
-    bool                              valid = preconditioner.initialize(system);
-    std::unique_ptr<InterfaceLifting> lifting;
+    Timer                    timer;
+    const auto               preconditioner = make_bulk_preconditioner(system);
+    bool                     valid = preconditioner->initialize(system);
+    std::unique_ptr<Lifting> lifting;
     std::unique_ptr<ConstraintProjector> projector;
     if (valid && system.owned_multiplier.size() > 0)
       {
-        lifting =
-          std::make_unique<InterfaceLifting>(system, preconditioner.smoother());
+        lifting   = preconditioner->make_lifting(system);
         projector = std::make_unique<ConstraintProjector>(system, *lifting);
         valid     = projector->is_valid();
       }
     const ScaledResidual residual(system);
-    report.preconditioner = preconditioner.description();
+    report.preconditioner = preconditioner->description();
     report.setup_seconds  = timer.wall_time();
     timer.restart();
 
@@ -138,7 +136,7 @@ namespace mortise
     const double                target   = options.tolerance * rhs_norm;
     double                      reached  = rhs_norm;
     ProjectedConjugateGradients solver(
-      system, residual, preconditioner, projector.get(), options);
+      system, residual, *preconditioner, projector.get(), options);
     // Rounding makes the carried residual drift from the true one: start again
     // from what was reached.
     for (unsigned int start = 0; start < 3 && valid && reached > target &&

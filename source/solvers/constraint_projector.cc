@@ -4,8 +4,8 @@
 
 namespace mortise
 {
-  ConstraintProjector::ConstraintProjector(const BlockSystem      &system,
-                                           const InterfaceLifting &lifting)
+  ConstraintProjector::ConstraintProjector(const BlockSystem &system,
+                                           const Lifting     &lifting)
     : system(system)
     , lifting(lifting)
     , jump(system.owned_multiplier, system.communicator)

@@ -5,6 +5,7 @@
 #include <mortise/solvers/block_smoother.h>
 #include <mortise/solvers/entity_graph.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
+#include <mortise/solvers/interface_lifting.h>
 #include <mortise/solvers/vertex_solver.h>
 
 namespace mortise
@@ -57,7 +58,8 @@ namespace mortise
       , y(r)
       , has_high_modes(system.max_degree > 1)
     {
-      valid = coarse.initialize(system, *bulk);
+      valid = coarse.initialize(
+        {system.vertex_dofs, system.vertex_points, system.communicator}, *bulk);
       if (has_high_modes || system.owned_multiplier.size() > 0)
         valid =
           smoother.initialize(*bulk, EntityGraph(system).patches(system)) &&
@@ -107,10 +109,10 @@ namespace mortise
       }
   }
 
-  const BlockSmoother &
-  HierarchicalPreconditioner::smoother() const
+  std::unique_ptr<Lifting>
+  HierarchicalPreconditioner::make_lifting(const BlockSystem &system) const
   {
-    return implementation->smoother;
+    return std::make_unique<InterfaceLifting>(system, implementation->smoother);
   }
 
   std::string

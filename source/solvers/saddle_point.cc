@@ -4,10 +4,10 @@
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
+#include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/constraint_projector.h>
 #include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/saddle_point.h>
 #include <mortise/solvers/scaled_residual.h>
 
@@ -47,7 +47,7 @@ namespace mortise
       {
         scaled = x;
         scaled.scale(weight);
-        system.stiffness.vmult(y.block(0), scaled.block(0));
+        system.apply_stiffness(y.block(0), scaled.block(0));
         system.coupling.Tvmult_add(y.block(0), scaled.block(1));
         system.coupling.vmult(y.block(1), scaled.block(0));
         y.scale(weight);
@@ -76,11 +76,12 @@ namespace mortise
       BlockPreconditioner(const BlockSystem    &system,
                           const ScaledOperator &scaling)
         : scaling(scaling)
-        , valid(bulk.initialize(system))
+        , bulk(make_bulk_preconditioner(system))
+        , valid(bulk->initialize(system))
       {
         if (!valid)
           return;
-        lifting   = std::make_unique<InterfaceLifting>(system, bulk.smoother());
+        lifting   = bulk->make_lifting(system);
         projector = std::make_unique<ConstraintProjector>(system, *lifting);
         valid     = projector->is_valid();
       }
@@ -97,7 +98,7 @@ namespace mortise
         // r_u - B^T y with y = C^{-1} B T r_u
         z_l = 0.;
         projector->project_residual(t.block(0), z_l);
-        bulk.vmult(z_u, t.block(0));
+        bulk->vmult(z_u, t.block(0));
         // z_u - T B^T y with y = C^{-1} (B z_u - r_lambda)
         z_l += projector->project(z_u, &t.block(1));
         z.scale(scaling.inverse);
@@ -110,14 +111,14 @@ namespace mortise
       {
         Vector z(r.block(0)), projected(z), multiplier(r.block(1));
         projector->project_residual(projected, multiplier);
-        bulk.vmult(z, projected);
+        bulk->vmult(z, projected);
         return z * projected;
       }
 
       std::string
       description() const
       {
-        return "block factorisation: " + bulk.description() +
+        return "block factorisation: " + bulk->description() +
                "; interface Schur complement factorised";
       }
 
@@ -129,8 +130,8 @@ namespace mortise
 
     private:
       const ScaledOperator                &scaling;
-      HierarchicalPreconditioner           bulk;
-      std::unique_ptr<InterfaceLifting>    lifting;
+      std::unique_ptr<BulkPreconditioner>  bulk;
+      std::unique_ptr<Lifting>             lifting;
       std::unique_ptr<ConstraintProjector> projector;
       bool                                 valid;
       mutable BlockVector                  scratch;
@@ -178,9 +179,10 @@ namespace mortise
                               goal,
                               false,
                               false);
-        SolverGMRES<BlockVector> solver(
-          control,
-          SolverGMRES<BlockVector>::AdditionalData(max_basis + 2, true));
+        // flexible, since multigrid in single precision is linear to seven
+        // digits only
+        SolverFGMRES<BlockVector> solver(
+          control, SolverFGMRES<BlockVector>::AdditionalData(max_basis));
         solver.connect([&](const unsigned int iteration,
                            const double       value,
                            const BlockVector &) {
@@ -206,7 +208,7 @@ namespace mortise
         residual.compute(u, lambda, r.block(0), r.block(1));
         reached = residual.norm(r.block(0), r.block(1));
         goal    = std::min(goal, 0.1 * reached);
-        system.stiffness.vmult(x.block(0), u);
+        system.apply_stiffness(x.block(0), u);
         const double energy = x.block(0) * u;
         accurate            = reached <= target &&
                    preconditioner.error_energy(r) <=

@@ -33,9 +33,12 @@ namespace mortise
     : system(system)
     , interface_present(system.owned_multiplier.size() > 0)
   {
-    const auto &stiffness = system.stiffness.trilinos_matrix();
-    weight_u              = std::make_unique<Epetra_Vector>(stiffness.RowMap());
-    stiffness.ExtractDiagonalCopy(*weight_u);
+    weight_u =
+      std::make_unique<Epetra_Vector>(system.load.trilinos_partitioner());
+    if (system.nodal)
+      system.nodal->diagonal(weight_u->Values());
+    else
+      system.stiffness.trilinos_matrix().ExtractDiagonalCopy(*weight_u);
     for (int i = 0; i < weight_u->MyLength(); ++i)
       (*weight_u)[i] = inverse((*weight_u)[i]);
     if (interface_present)
@@ -67,7 +70,7 @@ namespace mortise
                           Vector       &r_u,
                           Vector       &r_lambda) const
   {
-    system.stiffness.vmult(r_u, u);
+    system.apply_stiffness(r_u, u);
     if (interface_present)
       {
         system.coupling.Tvmult_add(r_u, lambda);

@@ -12,11 +12,13 @@ namespace mortise
 {
   namespace
   {
-    /// A factorisation (MUMPS) is the fastest up to about 2,500 p^2 dofs, since
-    /// dense blocks suit it. Whole runs on one core, direct against condensed:
-    /// degree 2, 94,650 dofs: 14 s, 7 s; degree 4, 30,426: 4.5 s, 6.4 s, and
-    /// 94,650: 21 s, 18 s; degree 5, 56,661: 13 s, 15 s; degree 6, 94,776:
-    /// 44 s, 38 s. Its memory sets the second limit.
+    /// Where K needs a matrix, a factorisation (MUMPS) is the fastest up to
+    /// about 2,500 p^2 dofs, since dense blocks suit it. Whole runs on one
+    /// core, direct against condensed: degree 2, 94,650 dofs: 14 s, 7 s; degree
+    /// 4, 30,426: 4.5 s, 6.4 s, and 94,650: 21 s, 18 s; degree 5, 56,661: 13 s,
+    /// 15 s; degree 6, 94,776: 44 s, 38 s. Its memory sets the second limit.
+    /// Without a matrix condensed wins from the smallest scenes on (720 dofs of
+    /// degree 2: 0.05 s, 0.02 s; 27,918 of degree 8: 9.8 s, 0.63 s).
     constexpr unsigned int direct_dofs     = 2500;
     constexpr unsigned int max_direct_dofs = 100000;
   } // namespace
@@ -39,15 +41,17 @@ namespace mortise
   }
 
   SolverChoice
-  choose_solver(const SolverMethod                    asked,
-                const dealii::types::global_dof_index n_displacements,
-                const unsigned int                    max_degree)
+  choose_solver(const SolverMethod asked, const SceneSize &scene)
   {
     if (asked != SolverMethod::automatic)
       return {asked, ""};
+    if (scene.nodal)
+      return {SolverMethod::condensed,
+              "chosen for hexahedra of one degree per body"};
     const auto limit =
-      std::min(direct_dofs * max_degree * max_degree, max_direct_dofs);
-    if (n_displacements <= limit)
+      std::min(direct_dofs * scene.max_degree * scene.max_degree,
+               max_direct_dofs);
+    if (scene.n_displacements <= limit)
       return {SolverMethod::direct,
               "chosen for at most " + std::to_string(limit) + " dofs"};
     return {SolverMethod::condensed,
@@ -61,8 +65,9 @@ namespace mortise
         Vector              &lambda)
   {
     const SolverChoice choice = choose_solver(options.method,
-                                              system.owned_displacement.size(),
-                                              system.max_degree);
+                                              {system.owned_displacement.size(),
+                                               system.max_degree,
+                                               system.nodal != nullptr});
     SolveReport        report = choice.method == SolverMethod::direct ?
                                   solve_direct(system, options, u, lambda) :
                                 choice.method == SolverMethod::saddle_point ?

@@ -24,10 +24,10 @@ namespace mortise
   VertexSolver::~VertexSolver() = default;
 
   bool
-  VertexSolver::initialize(const BlockSystem      &system,
+  VertexSolver::initialize(const VertexFunctions  &vertices,
                            const Epetra_CrsMatrix &matrix)
   {
-    extract(system, matrix);
+    extract(vertices, matrix);
     r_c = std::make_unique<Epetra_Vector>(*map);
     x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
@@ -35,7 +35,7 @@ namespace mortise
         factorization = std::make_unique<SparseFactorization>();
         return factorization->initialize(*coarse);
       }
-    compute_rigid_modes(system);
+    compute_rigid_modes(vertices);
     Teuchos::ParameterList parameters;
     ML_Epetra::SetDefaults("SA", parameters);
     parameters.set("ML output", 0);
@@ -64,17 +64,16 @@ namespace mortise
   }
 
   void
-  VertexSolver::extract(const BlockSystem      &system,
+  VertexSolver::extract(const VertexFunctions  &vertices,
                         const Epetra_CrsMatrix &matrix)
   {
-    const int n = system.vertex_dofs.size();
+    const int n = vertices.rows.size();
     map         = std::make_unique<Epetra_Map>(-1, n, 0, matrix.Comm());
     Epetra_IntVector number(matrix.RowMap()), column_number(matrix.ColMap());
     number.PutValue(-1);
     for (int i = 0; i < n; ++i)
       {
-        rows.push_back(
-          matrix.RowMap().LID(static_cast<int>(system.vertex_dofs[i])));
+        rows.push_back(matrix.RowMap().LID(static_cast<int>(vertices.rows[i])));
         number[rows.back()] = map->GID(i);
       }
     if (matrix.Importer() != nullptr)
@@ -111,27 +110,27 @@ namespace mortise
   }
 
   void
-  VertexSolver::compute_rigid_modes(const BlockSystem &system)
+  VertexSolver::compute_rigid_modes(const VertexFunctions &vertices)
   {
     Point<dim> center;
-    for (const auto &x : system.vertex_points)
+    for (const auto &x : vertices.points)
       center += x;
     const unsigned int n_points =
-      Utilities::MPI::sum<unsigned int>(system.vertex_points.size(),
-                                        system.communicator);
+      Utilities::MPI::sum<unsigned int>(vertices.points.size(),
+                                        vertices.communicator);
     for (unsigned int d = 0; d < dim; ++d)
       center[d] =
-        Utilities::MPI::sum(center[d], system.communicator) / n_points;
+        Utilities::MPI::sum(center[d], vertices.communicator) / n_points;
     double radius = 0.;
-    for (const auto &x : system.vertex_points)
+    for (const auto &x : vertices.points)
       radius = std::max(radius, x.distance(center));
-    radius = Utilities::MPI::max(radius, system.communicator);
+    radius = Utilities::MPI::max(radius, vertices.communicator);
 
     const unsigned int n = rows.size();
     rigid_modes.assign(std::max(1U, 6 * n), 0.);
     for (unsigned int v = 0; v < n / 3; ++v)
       {
-        const Tensor<1, dim> x = (system.vertex_points[v] - center) / radius;
+        const Tensor<1, dim> x = (vertices.points[v] - center) / radius;
         for (unsigned int d = 0; d < dim; ++d)
           {
             rigid_modes[d * n + 3 * v + d] = 1.;

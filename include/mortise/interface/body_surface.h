@@ -6,6 +6,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <mortise/body/body.h>
+#include <mortise/body/nodal_space.h>
 #include <mortise/body/numbering.h>
 #include <mortise/body/trace_basis.h>
 #include <mortise/interface/surface_face.h>
@@ -27,6 +28,10 @@ namespace mortise
                         column; ///< numbering of the scene
     std::vector<double> weight;
     std::vector<double> constant; ///< by row: prescribed displacements
+    /// Nodes of the face by level, for iterative solvers that use a
+    /// NodalSpace, else empty: in the order of the functions of the level's
+    /// degree.
+    std::vector<std::vector<dealii::types::global_dof_index>> nodes;
 
     const TraceBasis &
     basis() const
@@ -45,7 +50,8 @@ namespace mortise
     serialize(Archive &archive, const unsigned int /*version*/)
     {
       int shape_number = static_cast<int>(shape);
-      archive &shape_number &degree &modulus &begin &column &weight &constant;
+      archive &shape_number &degree &modulus &begin &column &weight &constant
+        &nodes;
       shape = static_cast<FaceShape>(shape_number);
     }
   };
@@ -63,12 +69,13 @@ namespace mortise
   /// Extract the owned faces with boundary id @p boundary. The geometry is that of the body's mapping,
   /// exactly; vertex normals are averaged over all faces of this boundary
   /// around the vertex.
-  /// @p constraints are those of the scene.
+  /// @p constraints are those of the scene; @p levels fill the traces' nodes.
   BodySurface
   extract_surface(const Body                              &body,
                   dealii::types::boundary_id               boundary,
                   const DisplacementNumbering             &numbering,
-                  const dealii::AffineConstraints<double> &constraints);
+                  const dealii::AffineConstraints<double> &constraints,
+                  const NodalSpaces                       &levels = {});
 
   /// Dofs (numbering of the body's DoFHandler) of the face functions of
   /// component c: entry [c][k], k as in FaceTrace.

@@ -11,7 +11,9 @@
 #include <deal.II/base/index_set.h>
 
 #include <mortise/base/types.h>
+#include <mortise/operators/nodal_system.h>
 
+#include <memory>
 #include <vector>
 
 namespace mortise
@@ -25,6 +27,11 @@ namespace mortise
 
     dealii::IndexSet owned_displacement;
     dealii::IndexSet owned_multiplier;
+
+    /// K without a matrix, where it is to be had: displacements are then values
+    /// at its nodes, indices are those of its finest level, and stiffness,
+    /// jump_penalty, vertex_dofs, vertex_points and entity_blocks are empty.
+    std::unique_ptr<NodalSystem> nodal;
 
     /// K, symmetric, the interiors of cells eliminated; a constrained or
     /// eliminated degree of freedom (Dirichlet, hanging node, interior of a
@@ -59,5 +66,15 @@ namespace mortise
 
     /// Largest polynomial degree in the scene.
     unsigned int max_degree = 1;
+
+    /// dst = K src. Collective.
+    void
+    apply_stiffness(Vector &dst, const Vector &src) const
+    {
+      if (nodal)
+        nodal->apply_stiffness(dst, src);
+      else
+        stiffness.vmult(dst, src);
+    }
   };
 } // namespace mortise

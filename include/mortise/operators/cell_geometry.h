@@ -13,6 +13,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace mortise
@@ -52,4 +53,8 @@ namespace mortise
 
     std::vector<Jacobian> result;
   };
+
+  /// What to tell a user whose @p cell has a Jacobian that is not positive.
+  std::string
+  tangled_message(const Body &body, const Body::CellIterator &cell);
 } // namespace mortise

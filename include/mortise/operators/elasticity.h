@@ -4,6 +4,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/vector.h>
 
 #include <mortise/base/types.h>
 #include <mortise/body/body.h>
@@ -44,4 +45,13 @@ namespace mortise
                       const dealii::AffineConstraints<double> &constraints,
                       SparseMatrix                            &stiffness,
                       Vector                                  &load);
+
+  /// Calls @p visit with the owned cells that may have loads and int b.v + int
+  /// t.v in the cell's numbering.
+  void
+  for_each_loaded_cell(
+    const Body                                                &body,
+    const Loads                                               &loads,
+    const std::function<void(const Body::CellIterator &,
+                             const dealii::Vector<double> &)> &visit);
 } // namespace mortise

@@ -45,6 +45,14 @@ namespace mortise
                      const std::vector<CondensedInteriors>   &interiors,
                      const Vector                            &displacement);
 
+  /// The same where @p displacement holds values at the nodes of @p nodal.
+  std::vector<BodyVector>
+  body_displacements(const Bodies                            &bodies,
+                     const DisplacementNumbering             &numbering,
+                     const dealii::AffineConstraints<double> &constraints,
+                     const NodalSystem                       &nodal,
+                     const Vector                            &displacement);
+
   /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
   void
   describe_structure(const Bodies                &bodies,

@@ -86,10 +86,11 @@ namespace mortise
     std::vector<dealii::AffineConstraints<double>> body_constraints;
     DisplacementNumbering                          numbering;
     dealii::AffineConstraints<double>              constraints;
-    SolverMethod                   method = SolverMethod::automatic; ///< chosen
-    std::vector<Coupling>          couplings;
-    std::vector<std::vector<bool>> occupied; ///< by body, owned dofs
-    BlockSystem                    system;
+    SolverMethod method = SolverMethod::automatic; ///< chosen
+    NodalSpaces  nodal_spaces; ///< for a bulk without a matrix, until assembly
+    std::vector<Coupling>           couplings;
+    std::vector<std::vector<bool>>  occupied; ///< by body, owned dofs
+    BlockSystem                     system;
     std::vector<CondensedInteriors> interiors; ///< by body
     Vector                          displacement, multiplier;
     SolveReport                     solve_report;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/interface_lifting.h>
+#include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/sparse_factorization.h>
 
 namespace mortise
@@ -13,8 +13,7 @@ namespace mortise
   {
   public:
     /// Both must stay alive. Collective.
-    ConstraintProjector(const BlockSystem      &system,
-                        const InterfaceLifting &lifting);
+    ConstraintProjector(const BlockSystem &system, const Lifting &lifting);
 
     /// False when the multipliers are not independent of each other.
     bool
@@ -32,10 +31,10 @@ namespace mortise
     project(Vector &u, const Vector *g = nullptr) const;
 
   private:
-    const BlockSystem      &system;
-    const InterfaceLifting &lifting;
-    SparseFactorization     inner;
-    bool                    valid = true;
-    mutable Vector          jump, multiplier, force, correction;
+    const BlockSystem  &system;
+    const Lifting      &lifting;
+    SparseFactorization inner;
+    bool                valid = true;
+    mutable Vector      jump, multiplier, force, correction;
   };
 } // namespace mortise

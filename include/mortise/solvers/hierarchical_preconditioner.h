@@ -4,39 +4,31 @@
 // the multipliers.
 #pragma once
 
-#include <mortise/operators/block_system.h>
-#include <mortise/solvers/block_smoother.h>
+#include <mortise/solvers/bulk_preconditioner.h>
 
 #include <memory>
 #include <string>
 
 namespace mortise
 {
-  /// Symmetric and positive definite, hence usable in conjugate gradients and
-  /// GMRES.
-  class HierarchicalPreconditioner
+  class HierarchicalPreconditioner : public BulkPreconditioner
   {
   public:
     HierarchicalPreconditioner();
-    ~HierarchicalPreconditioner();
+    ~HierarchicalPreconditioner() override;
 
-    /// Build for A = K + J of @p system (A = K without an interface). Collective. False, on every
-    /// rank, when A turned out not to be positive definite; vmult() must not be
-    /// called then.
     bool
-    initialize(const BlockSystem &system);
+    initialize(const BlockSystem &system) override;
 
-    /// dst = A^{-1} src, approximately; dst and src are distinct.
     void
-    vmult(Vector &dst, const Vector &src) const;
+    vmult(Vector &dst, const Vector &src) const override;
 
-    /// The patches of A; only with an interface or above degree 1.
-    const BlockSmoother &
-    smoother() const;
+    /// By the patches of the smoother.
+    std::unique_ptr<Lifting>
+    make_lifting(const BlockSystem &system) const override;
 
-    /// What was built, in words.
     std::string
-    description() const;
+    description() const override;
 
   private:
     struct Implementation;

@@ -5,6 +5,7 @@
 
 #include <mortise/operators/block_system.h>
 #include <mortise/solvers/block_smoother.h>
+#include <mortise/solvers/bulk_preconditioner.h>
 
 #include <memory>
 #include <vector>
@@ -14,7 +15,7 @@ namespace mortise
   /// T = sum over the patches p that hold interface dofs of R_p^T A_p^{-1} R_p
   /// with A = K + J, and C = B T B^T. T is symmetric, positive semi-definite
   /// and positive on the range of B^T.
-  class InterfaceLifting
+  class InterfaceLifting : public Lifting
   {
   public:
     /// @p smoother holds the patches of A and must stay alive. Collective.
@@ -22,14 +23,14 @@ namespace mortise
 
     /// C = B T B^T, sparse, with the rows of B.
     const Epetra_CrsMatrix &
-    schur_complement() const
+    schur_complement() const override
     {
       return schur.trilinos_matrix();
     }
 
     /// dst = T src. Collective.
     void
-    vmult(Vector &dst, const Vector &src) const;
+    vmult(Vector &dst, const Vector &src) const override;
 
   private:
     /// The columns of B that a patch touches.

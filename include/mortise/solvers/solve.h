@@ -14,12 +14,18 @@ namespace mortise
     std::string  reason; ///< empty when the method was asked for
   };
 
-  /// The method for a scene of that many displacements: what was asked for,
-  /// else the one that measurements favour.
+  /// What the choice depends on.
+  struct SceneSize
+  {
+    dealii::types::global_dof_index n_displacements;
+    unsigned int                    max_degree;
+    bool nodal; ///< has a NodalSpace and more than degree one
+  };
+
+  /// The method for a scene: what was asked for, else the one that measurements
+  /// favour.
   SolverChoice
-  choose_solver(SolverMethod                    asked,
-                dealii::types::global_dof_index n_displacements,
-                unsigned int                    max_degree);
+  choose_solver(SolverMethod asked, const SceneSize &scene);
 
   /// Solve the system by the method asked for. Collective.
   ///

@@ -21,16 +21,25 @@ namespace ML_Epetra
 
 namespace mortise
 {
+  /// Owned vertex functions of a matrix.
+  struct VertexFunctions
+  {
+    /// Three rows per vertex, x, y, z consecutive, prescribed ones included.
+    const std::vector<dealii::types::global_dof_index> &rows;
+    const std::vector<dealii::Point<dim>>              &points; ///< vertices
+    MPI_Comm                                            communicator;
+  };
+
   class VertexSolver
   {
   public:
     VertexSolver();
     ~VertexSolver();
 
-    /// @p matrix: a matrix whose rows include the vertex dofs of @p system under their own numbers.
+    /// @p matrix: its rows include those of @p vertices under their own numbers.
     /// Collective. False when the factorisation broke down.
     bool
-    initialize(const BlockSystem &system, const Epetra_CrsMatrix &matrix);
+    initialize(const VertexFunctions &vertices, const Epetra_CrsMatrix &matrix);
 
     /// x = P A_c^{-1} P^T r, both on the rows of the matrix given; x is
     /// overwritten. Collective.
@@ -42,9 +51,9 @@ namespace mortise
 
   private:
     void
-    extract(const BlockSystem &system, const Epetra_CrsMatrix &matrix);
+    extract(const VertexFunctions &vertices, const Epetra_CrsMatrix &matrix);
     void
-    compute_rigid_modes(const BlockSystem &system);
+    compute_rigid_modes(const VertexFunctions &vertices);
 
     std::vector<int>            rows; ///< of the matrix given, in coarse order
     std::unique_ptr<Epetra_Map> map;

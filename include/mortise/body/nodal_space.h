@@ -1,0 +1,105 @@
+// The displacements of a whole scene of hexahedra by their values at
+// Gauss-Lobatto points: the space of the hierarchical element where each body
+// has one degree, in the basis that iterative solvers like better. One
+// numbering of nodes for all bodies, with lower degrees on the same meshes for
+// multigrid. It never evaluates a function and never solves.
+#pragma once
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <mortise/body/body.h>
+#include <mortise/body/numbering.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  class NodalSpace
+  {
+  public:
+    using Index = dealii::types::global_dof_index;
+
+    /// Degree @p degrees[b] on body b; hexahedra of one degree without hanging
+    /// nodes. The bodies are kept by reference. Collective.
+    NodalSpace(const std::vector<const Body *> &bodies,
+               const std::vector<unsigned int> &degrees,
+               MPI_Comm                         comm);
+
+    /// Whether the bodies are such that a NodalSpace stands for their spaces:
+    /// hexahedra, one degree in each body, no hanging nodes. Collective.
+    static bool
+    represents(const std::vector<const Body *> &bodies);
+
+    unsigned int
+    degree(const unsigned int body) const
+    {
+      return degrees[body];
+    }
+
+    const std::vector<const Body *> &
+    bodies() const
+    {
+      return scene;
+    }
+
+    /// Nodes of a cell of body @p body (one of its DoFHandler's), in the order
+    /// of deal.II's FE_Q: that of the modes of FE_Legendre. @p nodes is resized.
+    void
+    get_nodes(unsigned int              body,
+              const Body::CellIterator &cell,
+              std::vector<Index>       &nodes) const;
+
+    /// Nodes of face @p face_number, in the order of the functions of
+    /// TraceBasis.
+    std::vector<Index>
+    face_nodes(unsigned int              body,
+               const Body::CellIterator &cell,
+               unsigned int              face_number) const;
+
+    const dealii::IndexSet &
+    owned_nodes() const
+    {
+      return numbering.owned();
+    }
+
+    /// All nodes of owned cells.
+    const dealii::IndexSet &
+    relevant_nodes() const
+    {
+      return relevant;
+    }
+
+  private:
+    std::vector<const Body *>                             scene;
+    std::vector<unsigned int>                             degrees;
+    std::vector<std::unique_ptr<dealii::DoFHandler<dim>>> handlers;
+    DisplacementNumbering                                 numbering;
+    dealii::IndexSet                                      relevant;
+  };
+
+  /// Levels of falling degree on the same meshes, the finest first.
+  using NodalSpaces = std::vector<std::unique_ptr<NodalSpace>>;
+
+  /// The degrees of each body and the halves of them, down to one. Collective.
+  NodalSpaces
+  make_nodal_spaces(const std::vector<const Body *> &bodies, MPI_Comm comm);
+
+  /// Index 3 n + c of each n in @p nodes.
+  dealii::IndexSet
+  displacement_indices(const dealii::IndexSet &nodes);
+
+  /// Values at the Gauss-Lobatto points of the functions of evaluate_lobatto(),
+  /// both in the order of these functions (ends first): entry (node, mode).
+  const dealii::FullMatrix<double> &
+  modes_to_nodes(unsigned int degree);
+
+  /// The inverse.
+  const dealii::FullMatrix<double> &
+  nodes_to_modes(unsigned int degree);
+} // namespace mortise

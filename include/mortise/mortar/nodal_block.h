@@ -1,0 +1,31 @@
+// Integrals of hierarchical functions on faces, turned into those of nodal
+// functions of the same or a lower degree. It never integrates.
+#pragma once
+
+#include <deal.II/base/types.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// What the rows or columns of a block are made of and become.
+  struct BlockSide
+  {
+    unsigned int modal; ///< degree of the hierarchical functions
+    unsigned int nodal; ///< degree of the nodal functions; 0: left as it is
+  };
+
+  /// @p modal in nodal functions: F_r^T modal F_c, where F expands the nodal
+  /// functions of a quadrilateral in the hierarchical ones. All in the order of
+  /// TraceBasis.
+  dealii::FullMatrix<double>
+  nodal_block(const dealii::FullMatrix<double> &modal,
+              const BlockSide                  &rows,
+              const BlockSide                  &columns);
+
+  /// Degree of a face with these nodes.
+  unsigned int
+  level_degree(const std::vector<dealii::types::global_dof_index> &nodes);
+} // namespace mortise

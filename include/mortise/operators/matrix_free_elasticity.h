@@ -1,0 +1,89 @@
+// Linear elasticity on hexahedra without a matrix: products by sum
+// factorisation, several cells at once. It never resolves constraints and never
+// communicates.
+#pragma once
+
+#include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/partitioner.h>
+
+#include <mortise/body/nodal_space.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// The cells of one body that are computed together.
+  template <typename Number>
+  struct CellBatches
+  {
+    unsigned int body   = 0;
+    unsigned int degree = 1;
+    double       lambda = 0., mu = 0.;
+    unsigned int n_cells = 0;
+    /// Batches with constant Jacobians come first.
+    unsigned int n_affine = 0, n_batches = 0;
+    unsigned int n_affine_cells = 0;
+    /// [batch][node, lexicographic][lane]: place of the first component. Lanes
+    /// without a cell repeat the first and have no metric.
+    dealii::AlignedVector<unsigned int> nodes;
+    /// dxi_a/dx_e sqrt(|J|) as [batch][a][e][lane] on affine cells; after these
+    /// dxi_a/dx_e sqrt(w |J|) as [batch][point][a][e][lane].
+    dealii::AlignedVector<Number> metric;
+
+    unsigned int
+    n_nodes() const
+    {
+      return (degree + 1) * (degree + 1) * (degree + 1);
+    }
+
+    /// Cells of a batch.
+    unsigned int
+    lanes(unsigned int batch) const;
+
+    const Number *
+    metric_of(unsigned int batch) const;
+  };
+
+  template <typename Number>
+  class MatrixFreeElasticity
+  {
+  public:
+    /// @p layout: where the components 3 n + c of node n stand in vectors; owned
+    /// and relevant ones. Collective; throws InputError for a tangled cell.
+    MatrixFreeElasticity(const NodalSpace                          &space,
+                         const dealii::Utilities::MPI::Partitioner &layout);
+    ~MatrixFreeElasticity();
+
+    /// dst += K src, both local with ghost entries, contributions of owned
+    /// cells only.
+    void
+    add_product(const Number *src, Number *dst) const;
+
+    /// dst += diag(K), as above.
+    void
+    add_diagonal(Number *dst) const;
+
+    /// By body.
+    const std::vector<CellBatches<Number>> &
+    cells() const
+    {
+      return bodies;
+    }
+
+    /// In bytes.
+    std::size_t
+    memory_consumption() const;
+
+  private:
+    class Kernel; ///< of one degree
+    template <int n>
+    class KernelOfSize;
+
+    static std::unique_ptr<Kernel>
+    make_kernel(unsigned int degree);
+
+    std::vector<CellBatches<Number>>     bodies;
+    std::vector<std::unique_ptr<Kernel>> kernels; ///< by body
+  };
+} // namespace mortise

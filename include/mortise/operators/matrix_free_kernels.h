@@ -1,0 +1,246 @@
+// The kernels behind MatrixFreeElasticity, by number of nodes per direction;
+// only its source includes this.
+#pragma once
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <mortise/operators/matrix_free_elasticity.h>
+#include <mortise/operators/tensor_kernel.h>
+
+#include <cmath>
+
+namespace mortise
+{
+  /// Values at @p to of the Lagrange polynomials on @p from: entry (to, from).
+  dealii::FullMatrix<double>
+  lagrange_values(const dealii::Quadrature<1> &from,
+                  const dealii::Quadrature<1> &to);
+
+  /// Derivatives.
+  dealii::FullMatrix<double>
+  lagrange_derivatives(const dealii::Quadrature<1> &from,
+                       const dealii::Quadrature<1> &to);
+
+  template <typename Number>
+  class MatrixFreeElasticity<Number>::Kernel
+  {
+  public:
+    virtual ~Kernel() = default;
+    virtual void
+    add_product(const CellBatches<Number> &cells,
+                const Number              *src,
+                Number                    *dst) = 0;
+    virtual void
+    add_diagonal(const CellBatches<Number> &cells, Number *dst) = 0;
+  };
+
+  /// n nodes and n Gauss points in each direction.
+  template <typename Number>
+  template <int n>
+  class MatrixFreeElasticity<Number>::KernelOfSize
+    : public MatrixFreeElasticity<Number>::Kernel
+  {
+  public:
+    using V                 = typename Batch<Number>::Vector;
+    static constexpr int N  = n * n * n;
+    static constexpr int n9 = dim * dim;
+
+    KernelOfSize()
+      : scratch((dim + n9) * N * Batch<Number>::size)
+    {
+      const dealii::QGaussLobatto<1>   nodes(n);
+      const dealii::QGauss<1>          points(n);
+      const dealii::FullMatrix<double> values = lagrange_values(nodes, points),
+                                       derivatives =
+                                         lagrange_derivatives(points, points);
+      dealii::FullMatrix<double> transposed(n, n);
+      to_points = Line(values);
+      transposed.copy_transposed(values);
+      from_points = Line(transposed);
+      derivative  = Antisymmetric(derivatives);
+      transposed.copy_transposed(derivatives);
+      derivative_transposed = Antisymmetric(transposed);
+      const dealii::QGauss<dim> all(n);
+      for (unsigned int q = 0; q < N; ++q)
+        root_weights[q] = std::sqrt(all.weight(q));
+    }
+
+    void
+    add_product(const CellBatches<Number> &cells,
+                const Number              *src,
+                Number                    *dst) override
+    {
+      V *u = reinterpret_cast<V *>(scratch.data()), *g = u + dim * N;
+      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+        {
+          const unsigned int *nodes =
+            &cells.nodes[std::size_t(batch) * N * Batch<Number>::size];
+          const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+          gather<N>(src, nodes, u);
+          evaluate(u, g);
+          const Number lambda = cells.lambda, mu = cells.mu;
+          if (batch < cells.n_affine)
+            at_points<true>(metric, lambda, mu, g);
+          else
+            at_points<false>(metric, lambda, mu, g);
+          integrate(g, u);
+          scatter_add<N>(u, nodes, dst);
+        }
+    }
+
+    void
+    add_diagonal(const CellBatches<Number> &cells, Number *dst) override
+    {
+      V *diagonal = reinterpret_cast<V *>(scratch.data()),
+        *a        = diagonal + dim * N;
+      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+        {
+          std::fill(diagonal, diagonal + dim * N, V{});
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = i; j < dim; ++j)
+                {
+                  coefficients(cells, batch, c, i, j, a);
+                  contract(i, j, a, diagonal + c * N);
+                }
+          scatter_add<N>(
+            diagonal,
+            &cells.nodes[std::size_t(batch) * N * Batch<Number>::size],
+            dst);
+        }
+    }
+
+  private:
+    using Line          = LineMatrix<Number, n, n>;
+    using Antisymmetric = LineMatrix<Number, n, n, true>;
+
+    /// Gradients with respect to xi at all points, g[3 c + a], from values at
+    /// nodes, which are overwritten.
+    void
+    evaluate(V *u, V *g) const
+    {
+      for (unsigned int c = 0; c < dim; ++c, u += N, g += dim * N)
+        {
+          apply_along<0, false, n, n, n>(to_points, u, u, n);
+          apply_along<1, false, n, n, n>(to_points, u, u, n);
+          apply_along<2, false, n, n, n>(to_points, u, u, n);
+          apply_along<0, false, n, n, n>(derivative, u, g, n);
+          apply_along<1, false, n, n, n>(derivative, u, g + N, n);
+          apply_along<2, false, n, n, n>(derivative, u, g + 2 * N, n);
+        }
+    }
+
+    void
+    integrate(const V *g, V *u) const
+    {
+      for (unsigned int c = 0; c < dim; ++c, u += N, g += dim * N)
+        {
+          apply_along<0, false, n, n, n>(derivative_transposed, g, u, n);
+          apply_along<1, true, n, n, n>(derivative_transposed, g + N, u, n);
+          apply_along<2, true, n, n, n>(derivative_transposed, g + 2 * N, u, n);
+          apply_along<2, false, n, n, n>(from_points, u, u, n);
+          apply_along<1, false, n, n, n>(from_points, u, u, n);
+          apply_along<0, false, n, n, n>(from_points, u, u, n);
+        }
+    }
+
+    /// Gradients of u to what is tested with gradients of v, weights included.
+    template <bool affine>
+    void
+    at_points(const V *metric, const Number lambda, const Number mu, V *g) const
+    {
+      for (int q = 0; q < N; ++q)
+        {
+          V G[dim][dim];
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int e = 0; e < dim; ++e)
+              G[a][e] = affine ? metric[dim * a + e] * root_weights[q] :
+                                 metric[q * n9 + dim * a + e];
+          V h[dim][dim];
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const V g0 = g[(dim * c) * N + q], g1 = g[(dim * c + 1) * N + q],
+                      g2 = g[(dim * c + 2) * N + q];
+              for (unsigned int e = 0; e < dim; ++e)
+                h[c][e] = g0 * G[0][e] + g1 * G[1][e] + g2 * G[2][e];
+            }
+          const V pressure = lambda * (h[0][0] + h[1][1] + h[2][2]);
+          V       s[dim][dim];
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int e = c; e < dim; ++e)
+              s[c][e] = s[e][c] = mu * (h[c][e] + h[e][c]);
+          for (unsigned int c = 0; c < dim; ++c)
+            s[c][c] += pressure;
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int a = 0; a < dim; ++a)
+              g[(dim * c + a) * N + q] =
+                s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
+        }
+    }
+
+    /// sum_e (mu + (lambda + mu) delta_ce) G_ie G_je at all points, twice that
+    /// for i != j.
+    void
+    coefficients(const CellBatches<Number> &cells,
+                 const unsigned int         batch,
+                 const unsigned int         c,
+                 const unsigned int         i,
+                 const unsigned int         j,
+                 V                         *result) const
+    {
+      const V   *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      const bool affine = batch < cells.n_affine;
+      for (int q = 0; q < N; ++q)
+        {
+          const V *G   = affine ? metric : metric + q * n9;
+          V        sum = {};
+          for (unsigned int e = 0; e < dim; ++e)
+            sum += Number(cells.mu + (e == c ? cells.lambda + cells.mu : 0.)) *
+                   G[dim * i + e] * G[dim * j + e];
+          const Number factor =
+            (i == j ? 1 : 2) *
+            (affine ? root_weights[q] * root_weights[q] : Number(1));
+          result[q] = factor * sum;
+        }
+    }
+
+    /// result_k += sum_q a_q dN_k/dxi_i dN_k/dxi_j; @p a is overwritten.
+    void
+    contract(const unsigned int i, const unsigned int j, V *a, V *result) const
+    {
+      const dealii::QGaussLobatto<1>   nodes(n);
+      const dealii::QGauss<1>          points(n);
+      const dealii::FullMatrix<double> values = lagrange_values(nodes, points),
+                                       derivatives =
+                                         lagrange_derivatives(nodes, points);
+      int stride = 1;
+      for (unsigned int d = 0; d < dim; ++d, stride *= n)
+        {
+          const auto &X = i == d ? derivatives : values;
+          const auto &Y = j == d ? derivatives : values;
+          for (int line = 0; line < n * n; ++line)
+            {
+              V *first = a + (line / stride) * stride * n + line % stride;
+              V  out[n];
+              for (int k = 0; k < n; ++k)
+                {
+                  out[k] = V{};
+                  for (int q = 0; q < n; ++q)
+                    out[k] += Number(X(q, k) * Y(q, k)) * first[q * stride];
+                }
+              for (int k = 0; k < n; ++k)
+                first[k * stride] = out[k];
+            }
+        }
+      for (int k = 0; k < N; ++k)
+        result[k] += a[k];
+    }
+
+    Line                          to_points, from_points;
+    Antisymmetric                 derivative, derivative_transposed;
+    Number                        root_weights[N];
+    dealii::AlignedVector<Number> scratch;
+  };
+} // namespace mortise

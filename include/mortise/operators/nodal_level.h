@@ -1,0 +1,102 @@
+// One level of the matrix-free system: its space, where its components stand in
+// vectors, which are held, and the coupling that preconditioners see. It never
+// solves.
+#pragma once
+
+#include <deal.II/base/partitioner.h>
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/mortar/coupling.h>
+#include <mortise/operators/matrix_free_elasticity.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  template <typename Number>
+  using LevelVector = dealii::LinearAlgebra::distributed::Vector<Number>;
+
+  /// The jump penalty sum over interfaces of gamma int [[u]].[[v]], see
+  /// BlockSystem, between the nodes that this rank's slave faces and their
+  /// partners have; the same for each component.
+  struct NodalPenalty
+  {
+    std::vector<unsigned int> rows; ///< place of the first component
+    std::vector<unsigned int> begin;
+    std::vector<unsigned int> columns; ///< places of first components
+    std::vector<double>       values;
+  };
+
+  struct NodalLevel
+  {
+    std::unique_ptr<NodalSpace> space;
+    /// Component c of node n has index 3 n + c. Ghosts: of owned cells, and of
+    /// the faces that the slave faces of this rank meet.
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
+    /// Owned components that are prescribed, places in vectors.
+    std::vector<unsigned int> held;
+    NodalPenalty              penalty;
+  };
+
+  /// Level @p number of the scene on @p space, without its penalty. @p numbering and
+  /// @p constraints are those of the scene, which hold whole faces or nothing.
+  /// Collective.
+  NodalLevel
+  make_nodal_level(std::unique_ptr<NodalSpace>              space,
+                   unsigned int                             number,
+                   const DisplacementNumbering             &numbering,
+                   const dealii::AffineConstraints<double> &constraints,
+                   const std::vector<Coupling>             &couplings,
+                   MPI_Comm                                 comm);
+
+  NodalPenalty
+  make_nodal_penalty(const NodalLevel            &level,
+                     unsigned int                 number,
+                     const std::vector<Coupling> &couplings);
+
+  /// K of one level, or K + J. Vectors are zero where components are held, and
+  /// stay so.
+  template <typename Number>
+  class LevelOperator
+  {
+  public:
+    /// @p level is kept by reference. Collective; throws InputError for tangled
+    /// cells.
+    LevelOperator(const NodalLevel &level, bool with_penalty);
+
+    /// dst = A src. Collective.
+    void
+    vmult(LevelVector<Number> &dst, const LevelVector<Number> &src) const;
+
+    /// As vmult(), without regard to what is held.
+    void
+    vmult_free(LevelVector<Number> &dst, const LevelVector<Number> &src) const;
+
+    /// 1 at held components. Collective.
+    void
+    diagonal(LevelVector<Number> &diagonal) const;
+
+    /// Zero at held components.
+    void
+    clear_held(LevelVector<Number> &v) const;
+
+    void
+    initialize(LevelVector<Number> &v) const
+    {
+      v.reinit(level.layout);
+    }
+
+    const std::vector<CellBatches<Number>> &
+    cells() const
+    {
+      return stiffness.cells();
+    }
+
+  private:
+    const NodalLevel                  &level;
+    const MatrixFreeElasticity<Number> stiffness;
+    std::vector<Number>                penalty; ///< values
+  };
+} // namespace mortise

@@ -1,0 +1,43 @@
+// A smoother: Chebyshev polynomials in the operator scaled by its diagonal. It
+// never coarsens.
+#pragma once
+
+#include <mortise/operators/nodal_level.h>
+
+namespace mortise
+{
+  template <typename Number>
+  class Chebyshev
+  {
+  public:
+    /// Smooths what belongs to eigenvalues of D^{-1} A between a fraction of
+    /// the largest and the largest, which is estimated. @p matrix must stay
+    /// alive. Collective. Not valid when A is not positive definite.
+    Chebyshev(const LevelOperator<Number> &matrix,
+              unsigned int                 degree,
+              double                       range);
+
+    bool
+    is_valid() const
+    {
+      return largest > 0.;
+    }
+
+    /// x += p(A) (b - A x); with @p from_zero x is taken for zero. Collective.
+    void
+    smooth(LevelVector<Number>       &x,
+           const LevelVector<Number> &b,
+           bool                       from_zero) const;
+
+  private:
+    double
+    estimate_largest() const;
+
+    const LevelOperator<Number> &matrix;
+    const unsigned int           degree;
+    const double                 range;
+    LevelVector<Number>          inverse_diagonal;
+    mutable LevelVector<Number>  r, d;
+    double                       largest;
+  };
+} // namespace mortise

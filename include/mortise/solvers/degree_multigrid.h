@@ -1,0 +1,33 @@
+// Multigrid in the degree for a bulk without a matrix: Chebyshev smoothers on
+// the degree, its half, and so on, the vertex functions by algebraic multigrid.
+// It never looks at the multipliers.
+#pragma once
+
+#include <mortise/solvers/bulk_preconditioner.h>
+
+namespace mortise
+{
+  class DegreeMultigrid : public BulkPreconditioner
+  {
+  public:
+    DegreeMultigrid();
+    ~DegreeMultigrid() override;
+
+    bool
+    initialize(const BlockSystem &system) override;
+
+    void
+    vmult(Vector &dst, const Vector &src) const override;
+
+    /// By the diagonal of A.
+    std::unique_ptr<Lifting>
+    make_lifting(const BlockSystem &system) const override;
+
+    std::string
+    description() const override;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace mortise

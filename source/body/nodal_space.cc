@@ -1,0 +1,176 @@
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <deal.II/fe/fe_q.h>
+
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/legendre_basis.h>
+#include <mortise/body/nodal_space.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  NodalSpace::NodalSpace(const std::vector<const Body *> &bodies,
+                         const std::vector<unsigned int> &degrees,
+                         const MPI_Comm                   comm)
+    : scene(bodies)
+    , degrees(degrees)
+  {
+    std::vector<const DoFHandler<dim> *> all;
+    for (const Body *body : scene)
+      {
+        handlers.push_back(
+          std::make_unique<DoFHandler<dim>>(body->triangulation()));
+        handlers.back()->distribute_dofs(FE_Q<dim>(degrees[body->index]));
+        all.push_back(handlers.back().get());
+      }
+    numbering = DisplacementNumbering(all, comm);
+    relevant  = IndexSet(numbering.size());
+    for (const Body *body : scene)
+      {
+        IndexSet active;
+        DoFTools::extract_locally_active_dofs(*handlers[body->index], active);
+        numbering.add_to(body->index, active, relevant);
+      }
+    relevant.compress();
+  }
+
+  bool
+  NodalSpace::represents(const std::vector<const Body *> &bodies)
+  {
+    for (const Body *body : bodies)
+      {
+        const auto &mesh = body->triangulation();
+        if (body->mesh.tetrahedra)
+          return false;
+        bool plain = true;
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              plain = plain && body->degree(cell) == body->max_degree();
+              for (const unsigned int f : cell->face_indices())
+                plain = plain && (cell->at_boundary(f) ||
+                                  (!cell->face(f)->has_children() &&
+                                   !cell->neighbor_is_coarser(f)));
+            }
+        if (Utilities::MPI::min(plain ? 1 : 0, mesh.get_communicator()) == 0)
+          return false;
+      }
+    return true;
+  }
+
+  void
+  NodalSpace::get_nodes(const unsigned int        body,
+                        const Body::CellIterator &cell,
+                        std::vector<Index>       &nodes) const
+  {
+    const auto &handler = *handlers[body];
+    nodes.resize(handler.get_fe().n_dofs_per_cell());
+    DoFHandler<dim>::active_cell_iterator(&handler.get_triangulation(),
+                                          cell->level(),
+                                          cell->index(),
+                                          &handler)
+      ->get_dof_indices(nodes);
+    for (auto &node : nodes)
+      node = numbering(body, node);
+  }
+
+  std::vector<NodalSpace::Index>
+  NodalSpace::face_nodes(const unsigned int        body,
+                         const Body::CellIterator &cell,
+                         const unsigned int        face_number) const
+  {
+    std::vector<Index> nodes, result;
+    get_nodes(body, cell, nodes);
+    for (const unsigned int i : face_dof_indices(degrees[body], face_number))
+      result.push_back(nodes[i]);
+    return result;
+  }
+
+  NodalSpaces
+  make_nodal_spaces(const std::vector<const Body *> &bodies,
+                    const MPI_Comm                   comm)
+  {
+    std::vector<unsigned int> degrees;
+    for (const Body *body : bodies)
+      degrees.push_back(body->max_degree());
+    NodalSpaces levels;
+    levels.push_back(std::make_unique<NodalSpace>(bodies, degrees, comm));
+    while (*std::max_element(degrees.begin(), degrees.end()) > 1)
+      {
+        for (unsigned int &degree : degrees)
+          degree = std::max(1U, degree / 2);
+        levels.push_back(std::make_unique<NodalSpace>(bodies, degrees, comm));
+      }
+    return levels;
+  }
+
+  IndexSet
+  displacement_indices(const IndexSet &nodes)
+  {
+    IndexSet result(dim * nodes.size());
+    for (auto interval = nodes.begin_intervals();
+         interval != nodes.end_intervals();
+         ++interval)
+      result.add_range(dim * *interval->begin(), dim * (interval->last() + 1));
+    result.compress();
+    return result;
+  }
+
+  namespace
+  {
+    struct Tables
+    {
+      Tables()
+        : to_nodes(max_degree + 1)
+        , to_modes(max_degree + 1)
+      {
+        for (unsigned int p = 1; p <= max_degree; ++p)
+          {
+            const QGaussLobatto<1> points(p + 1);
+            std::vector<double>    values(p + 1);
+            to_nodes[p].reinit(p + 1, p + 1);
+            for (unsigned int i = 0; i <= p; ++i)
+              {
+                const unsigned int l = lobatto_to_lexicographic(p, i);
+                evaluate_lobatto(p, points.point(l)[0], values.data());
+                for (unsigned int k = 0; k <= p; ++k)
+                  // exactly so, that nothing leaks from one entity to another
+                  to_nodes[p](i, k) = i < 2 ? (i == k) : values[k];
+              }
+            to_modes[p] = to_nodes[p];
+            to_modes[p].gauss_jordan();
+            for (const unsigned int i : {0U, 1U})
+              for (unsigned int k = 0; k <= p; ++k)
+                to_modes[p](i, k) = (i == k);
+          }
+      }
+
+      std::vector<FullMatrix<double>> to_nodes, to_modes;
+    };
+
+    const Tables &
+    tables()
+    {
+      static const Tables all;
+      return all;
+    }
+  } // namespace
+
+  const FullMatrix<double> &
+  modes_to_nodes(const unsigned int degree)
+  {
+    return tables().to_nodes[degree];
+  }
+
+  const FullMatrix<double> &
+  nodes_to_modes(const unsigned int degree)
+  {
+    return tables().to_modes[degree];
+  }
+} // namespace mortise

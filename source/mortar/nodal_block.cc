@@ -1,0 +1,62 @@
+#include <mortise/body/nodal_space.h>
+#include <mortise/mortar/nodal_block.h>
+
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// F^T A with the two-dimensional F of @p side.
+    FullMatrix<double>
+    transform_rows(const FullMatrix<double> &A, const BlockSide &side)
+    {
+      if (side.nodal == 0)
+        return A;
+      const unsigned int        q = side.nodal, n = q + 1, m = side.modal + 1;
+      const FullMatrix<double> &modes = nodes_to_modes(q); // (mode, node)
+      // first index, then second
+      FullMatrix<double> half(n * n, A.n()), result(n * n, A.n());
+      for (unsigned int l = 0; l < n; ++l)
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int k = 0; k < n; ++k)
+            if (modes(k, i) != 0.)
+              for (unsigned int j = 0; j < A.n(); ++j)
+                half(i + n * l, j) += modes(k, i) * A(k + m * l, j);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int l = 0; l < n; ++l)
+          for (unsigned int k = 0; k < n; ++k)
+            if (modes(k, l) != 0.)
+              for (unsigned int j = 0; j < A.n(); ++j)
+                result(i + n * l, j) += modes(k, l) * half(i + n * k, j);
+      return result;
+    }
+
+    FullMatrix<double>
+    transposed(const FullMatrix<double> &A)
+    {
+      FullMatrix<double> result(A.n(), A.m());
+      result.copy_transposed(A);
+      return result;
+    }
+  } // namespace
+
+  FullMatrix<double>
+  nodal_block(const FullMatrix<double> &modal,
+              const BlockSide          &rows,
+              const BlockSide          &columns)
+  {
+    const FullMatrix<double> half = transform_rows(modal, rows);
+    if (columns.nodal == 0)
+      return half;
+    return transposed(transform_rows(transposed(half), columns));
+  }
+
+  unsigned int
+  level_degree(const std::vector<types::global_dof_index> &nodes)
+  {
+    return static_cast<unsigned int>(std::lround(std::sqrt(nodes.size()))) - 1;
+  }
+} // namespace mortise

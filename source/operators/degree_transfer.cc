@@ -1,0 +1,243 @@
+#include <mortise/operators/degree_transfer.h>
+#include <mortise/operators/matrix_free_kernels.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  template <typename Number>
+  class DegreeTransfer<Number>::Kernel
+  {
+  public:
+    virtual ~Kernel() = default;
+    virtual void
+    prolongate(const CellBatches<Number> &fine_cells,
+               const CellBatches<Number> &coarse_cells,
+               Number                    *fine,
+               const Number              *coarse) const = 0;
+    virtual void
+    restrict_to(const CellBatches<Number> &fine_cells,
+                const CellBatches<Number> &coarse_cells,
+                const Number              *fine,
+                Number                    *coarse) const = 0;
+  };
+
+  template <typename Number>
+  template <int n, int m>
+  class DegreeTransfer<Number>::KernelOfSizes
+    : public DegreeTransfer<Number>::Kernel
+  {
+  public:
+    using V                    = typename Batch<Number>::Vector;
+    static constexpr int width = Batch<Number>::size;
+    static constexpr int N     = n * n * n;
+    static constexpr int M     = m * m * m;
+
+    KernelOfSizes()
+    {
+      const FullMatrix<double> values =
+        lagrange_values(QGaussLobatto<1>(m), QGaussLobatto<1>(n));
+      FullMatrix<double> transposed(m, n);
+      transposed.copy_transposed(values);
+      up   = LineMatrix<Number, n, m>(values);
+      down = LineMatrix<Number, m, n>(transposed);
+    }
+
+    void
+    prolongate(const CellBatches<Number> &fine_cells,
+               const CellBatches<Number> &coarse_cells,
+               Number                    *fine,
+               const Number              *coarse) const override
+    {
+      V u[dim * N], a[dim * M], b[n * n * m];
+      for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
+        {
+          gather<M>(coarse,
+                    &coarse_cells.nodes[std::size_t(batch) * M * width],
+                    a);
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              V *fine_c = u + c * N;
+              // n x m x m stands in the result's place meanwhile
+              apply_along<0, false, m, m, m>(up, a + c * M, fine_c, n);
+              rows(fine_c, b);
+              planes(b, fine_c);
+            }
+          add_real_lanes(fine_cells, batch, u, fine);
+        }
+    }
+
+    void
+    restrict_to(const CellBatches<Number> &fine_cells,
+                const CellBatches<Number> &coarse_cells,
+                const Number              *fine,
+                Number                    *coarse) const override
+    {
+      V u[dim * N], a[dim * M], b[n * n * m], d[n * m * m];
+      for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
+        {
+          gather<N>(fine, &fine_cells.nodes[std::size_t(batch) * N * width], u);
+          clear_idle_lanes(fine_cells, batch, u);
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              const V *fine_c = u + c * N;
+              for (int l = 0; l < n * n; ++l)
+                down.template apply<n * n, n * n, false>(fine_c + l, b + l);
+              for (int k = 0; k < m; ++k)
+                for (int i = 0; i < n; ++i)
+                  down.template apply<n, n, false>(b + k * n * n + i,
+                                                   d + k * n * m + i);
+              for (int l = 0; l < m * m; ++l)
+                down.template apply<1, 1, false>(d + l * n, a + c * M + l * m);
+            }
+          scatter_add<M>(a,
+                         &coarse_cells.nodes[std::size_t(batch) * M * width],
+                         coarse);
+        }
+    }
+
+  private:
+    void
+    rows(const V *in, V *out) const
+    {
+      for (int k = 0; k < m; ++k)
+        for (int i = 0; i < n; ++i)
+          up.template apply<n, n, false>(in + k * n * m + i,
+                                         out + k * n * n + i);
+    }
+
+    void
+    planes(const V *in, V *out) const
+    {
+      for (int l = 0; l < n * n; ++l)
+        up.template apply<n * n, n * n, false>(in + l, out + l);
+    }
+
+    static int
+    n_lanes(const CellBatches<Number> &cells, const unsigned int batch)
+    {
+      return cells.lanes(batch);
+    }
+
+    static void
+    add_real_lanes(const CellBatches<Number> &cells,
+                   const unsigned int         batch,
+                   V                         *u,
+                   Number                    *fine)
+    {
+      clear_idle_lanes(cells, batch, u);
+      scatter_add<N>(u, &cells.nodes[std::size_t(batch) * N * width], fine);
+    }
+
+    static void
+    clear_idle_lanes(const CellBatches<Number> &cells,
+                     const unsigned int         batch,
+                     V                         *u)
+    {
+      for (int l = n_lanes(cells, batch); l < width; ++l)
+        for (unsigned int i = 0; i < dim * N; ++i)
+          u[i][l] = 0;
+    }
+
+    LineMatrix<Number, n, m> up;
+    LineMatrix<Number, m, n> down;
+  };
+
+  template <typename Number>
+  DegreeTransfer<Number>::DegreeTransfer(const LevelOperator<Number> &fine,
+                                         const LevelOperator<Number> &coarse)
+    : fine(fine)
+    , coarse(coarse)
+  {
+    fine.initialize(weights);
+    fine.initialize(weighted);
+    constexpr unsigned int width = Batch<Number>::size;
+    for (const auto &cells : fine.cells())
+      {
+        kernels.push_back(make_kernel(cells.degree));
+        for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+          for (unsigned int i = 0; i < cells.n_nodes(); ++i)
+            for (unsigned int l = 0; l < cells.lanes(batch); ++l)
+              for (unsigned int c = 0; c < dim; ++c)
+                weights.local_element(
+                  cells
+                    .nodes[(std::size_t(batch) * cells.n_nodes() + i) * width +
+                           l] +
+                  c) += 1;
+      }
+    weights.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
+      weights.local_element(i) = 1 / weights.local_element(i);
+  }
+
+  template <typename Number>
+  DegreeTransfer<Number>::~DegreeTransfer() = default;
+
+  template <typename Number>
+  void
+  DegreeTransfer<Number>::prolongate_add(LevelVector<Number>       &to,
+                                         const LevelVector<Number> &from) const
+  {
+    from.update_ghost_values();
+    weighted = 0;
+    for (unsigned int b = 0; b < kernels.size(); ++b)
+      kernels[b]->prolongate(fine.cells()[b],
+                             coarse.cells()[b],
+                             weighted.begin(),
+                             from.begin());
+    from.zero_out_ghost_values();
+    weighted.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < to.locally_owned_size(); ++i)
+      to.local_element(i) +=
+        weights.local_element(i) * weighted.local_element(i);
+  }
+
+  template <typename Number>
+  void
+  DegreeTransfer<Number>::restrict_to(LevelVector<Number>       &to,
+                                      const LevelVector<Number> &from) const
+  {
+    for (unsigned int i = 0; i < from.locally_owned_size(); ++i)
+      weighted.local_element(i) =
+        weights.local_element(i) * from.local_element(i);
+    weighted.update_ghost_values();
+    to = 0;
+    for (unsigned int b = 0; b < kernels.size(); ++b)
+      kernels[b]->restrict_to(fine.cells()[b],
+                              coarse.cells()[b],
+                              weighted.begin(),
+                              to.begin());
+    weighted.zero_out_ghost_values();
+    to.compress(VectorOperation::add);
+    coarse.clear_held(to);
+  }
+
+  template <typename Number>
+  std::unique_ptr<typename DegreeTransfer<Number>::Kernel>
+  DegreeTransfer<Number>::make_kernel(const unsigned int fine_degree)
+  {
+    switch (fine_degree)
+      {
+        case 1: // degree one in this body, more in others
+          return std::make_unique<KernelOfSizes<2, 2>>();
+        case 2:
+          return std::make_unique<KernelOfSizes<3, 2>>();
+        case 3:
+          return std::make_unique<KernelOfSizes<4, 2>>();
+        case 4:
+          return std::make_unique<KernelOfSizes<5, 3>>();
+        case 5:
+          return std::make_unique<KernelOfSizes<6, 3>>();
+        case 6:
+          return std::make_unique<KernelOfSizes<7, 4>>();
+        case 7:
+          return std::make_unique<KernelOfSizes<8, 4>>();
+        default:
+          AssertThrow(fine_degree == 8, ExcInternalError());
+          return std::make_unique<KernelOfSizes<9, 5>>();
+      }
+  }
+
+  template class DegreeTransfer<float>;
+  template class DegreeTransfer<double>;
+} // namespace mortise

@@ -1,0 +1,282 @@
+#include <deal.II/base/polynomial.h>
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
+
+#include <mortise/base/error.h>
+#include <mortise/operators/cell_geometry.h>
+#include <mortise/operators/matrix_free_elasticity.h>
+#include <mortise/operators/matrix_free_kernels.h>
+
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::vector<Polynomials::Polynomial<double>>
+    lagrange(const Quadrature<1> &nodes)
+    {
+      return Polynomials::generate_complete_Lagrange_basis(nodes.get_points());
+    }
+  } // namespace
+
+  FullMatrix<double>
+  lagrange_values(const Quadrature<1> &from, const Quadrature<1> &to)
+  {
+    const auto         basis = lagrange(from);
+    FullMatrix<double> values(to.size(), from.size());
+    for (unsigned int q = 0; q < to.size(); ++q)
+      for (unsigned int i = 0; i < from.size(); ++i)
+        values(q, i) = basis[i].value(to.point(q)[0]);
+    return values;
+  }
+
+  FullMatrix<double>
+  lagrange_derivatives(const Quadrature<1> &from, const Quadrature<1> &to)
+  {
+    const auto          basis = lagrange(from);
+    FullMatrix<double>  derivatives(to.size(), from.size());
+    std::vector<double> value_and_slope(2);
+    for (unsigned int q = 0; q < to.size(); ++q)
+      for (unsigned int i = 0; i < from.size(); ++i)
+        {
+          basis[i].value(to.point(q)[0], value_and_slope);
+          derivatives(q, i) = value_and_slope[1];
+        }
+    return derivatives;
+  }
+
+  namespace
+  {
+    /// Owned cells, those with constant Jacobians first.
+    struct SortedCells
+    {
+      SortedCells(const Body &body, const CellGeometry &geometry)
+      {
+        std::vector<Body::CellIterator> curved;
+        for (const auto &cell : body.dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            (geometry.constant_jacobian(cell) ? all : curved).push_back(cell);
+        n_affine = all.size();
+        all.insert(all.end(), curved.begin(), curved.end());
+      }
+
+      std::vector<Body::CellIterator> all;
+      unsigned int                    n_affine;
+    };
+
+    /// Fills the batches of one body.
+    template <typename Number>
+    class BatchBuilder
+    {
+    public:
+      static constexpr unsigned int width = Batch<Number>::size;
+
+      BatchBuilder(const NodalSpace                  &space,
+                   const Body                        &body,
+                   const Utilities::MPI::Partitioner &layout)
+        : space(space)
+        , body(body)
+        , layout(layout)
+        , quadrature(space.degree(body.index) + 1)
+        , geometry(body, ReferenceCells::Hexahedron, quadrature)
+      {
+        batches.body   = body.index;
+        batches.degree = space.degree(body.index);
+        batches.lambda = body.material.lame_lambda();
+        batches.mu     = body.material.lame_mu();
+        lexicographic =
+          FETools::lexicographic_to_hierarchic_numbering<dim>(batches.degree);
+      }
+
+      /// What is wrong, if anything.
+      std::string
+      build()
+      {
+        const SortedCells  cells(body, geometry);
+        const unsigned int n_curved = cells.all.size() - cells.n_affine;
+        batches.n_cells             = cells.all.size();
+        batches.n_affine_cells      = cells.n_affine;
+        batches.n_affine            = (cells.n_affine + width - 1) / width;
+        batches.n_batches = batches.n_affine + (n_curved + width - 1) / width;
+        const std::size_t point = dim * dim * width;
+        batches.nodes.resize(std::size_t(batches.n_batches) *
+                             batches.n_nodes() * width);
+        batches.metric.resize(batches.n_affine * point +
+                              (batches.n_batches - batches.n_affine) *
+                                quadrature.size() * point);
+        for (unsigned int i = 0; i < cells.all.size(); ++i)
+          {
+            const bool         affine = i < cells.n_affine;
+            const unsigned int place  = affine ? i : i - cells.n_affine;
+            const unsigned int batch =
+              (affine ? 0 : batches.n_affine) + place / width;
+            set_nodes(cells.all[i], batch, place % width);
+            if (!set_metric(cells.all[i], affine, batch, place % width))
+              return tangled_message(body, cells.all[i]);
+          }
+        return "";
+      }
+
+      CellBatches<Number> batches;
+
+    private:
+      void
+      set_nodes(const Body::CellIterator &cell,
+                const unsigned int        batch,
+                const unsigned int        lane)
+      {
+        space.get_nodes(body.index, cell, nodes);
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          {
+            unsigned int *place =
+              &batches.nodes[(std::size_t(batch) * nodes.size() + i) * width];
+            place[lane] = layout.global_to_local(dim * nodes[lexicographic[i]]);
+            if (lane == 0)
+              std::fill(place + 1, place + width, place[0]);
+          }
+      }
+
+      bool
+      set_metric(const Body::CellIterator &cell,
+                 const bool                affine,
+                 const unsigned int        batch,
+                 const unsigned int        lane)
+      {
+        Number *place  = const_cast<Number *>(batches.metric_of(batch)) + lane;
+        const auto set = [&](const CellGeometry::Jacobian &jacobian,
+                             const double                  weight) {
+          const double det = determinant(jacobian);
+          if (!(det > 0.))
+            return false;
+          const CellGeometry::Jacobian inverse =
+            std::sqrt(weight * det) * invert(jacobian);
+          for (unsigned int a = 0; a < dim; ++a)
+            for (unsigned int e = 0; e < dim; ++e, place += width)
+              *place = inverse[e][a];
+          return true;
+        };
+        if (affine)
+          return set(*geometry.constant_jacobian(cell), 1.);
+        const auto &jacobians = geometry.jacobians(cell);
+        for (unsigned int q = 0; q < quadrature.size(); ++q)
+          if (!set(jacobians[q], quadrature.weight(q)))
+            return false;
+        return true;
+      }
+
+      const NodalSpace                  &space;
+      const Body                        &body;
+      const Utilities::MPI::Partitioner &layout;
+      const QGauss<dim>                  quadrature;
+      CellGeometry                       geometry;
+      std::vector<unsigned int>          lexicographic;
+      std::vector<NodalSpace::Index>     nodes;
+    };
+  } // namespace
+
+  template <typename Number>
+  unsigned int
+  CellBatches<Number>::lanes(const unsigned int batch) const
+  {
+    constexpr unsigned int width = Batch<Number>::size;
+    return batch < n_affine ?
+             std::min(width, n_affine_cells - batch * width) :
+             std::min(width,
+                      n_cells - n_affine_cells - (batch - n_affine) * width);
+  }
+
+  template <typename Number>
+  const Number *
+  CellBatches<Number>::metric_of(const unsigned int batch) const
+  {
+    const std::size_t point = dim * dim * Batch<Number>::size;
+    return metric.data() +
+           (batch < n_affine ?
+              batch * point :
+              (n_affine + std::size_t(batch - n_affine) * n_nodes()) * point);
+  }
+
+  template <typename Number>
+  MatrixFreeElasticity<Number>::MatrixFreeElasticity(
+    const NodalSpace                  &space,
+    const Utilities::MPI::Partitioner &layout)
+  {
+    std::string tangled;
+    for (const Body *body : space.bodies())
+      {
+        BatchBuilder<Number> builder(space, *body, layout);
+        if (tangled.empty())
+          tangled = builder.build();
+        bodies.push_back(std::move(builder.batches));
+        kernels.push_back(make_kernel(bodies.back().degree));
+      }
+    throw_if_any(tangled, layout.get_mpi_communicator());
+  }
+
+  template <typename Number>
+  MatrixFreeElasticity<Number>::~MatrixFreeElasticity() = default;
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_product(const Number *src,
+                                            Number       *dst) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      kernels[b]->add_product(bodies[b], src, dst);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_diagonal(Number *dst) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      kernels[b]->add_diagonal(bodies[b], dst);
+  }
+
+  template <typename Number>
+  std::size_t
+  MatrixFreeElasticity<Number>::memory_consumption() const
+  {
+    std::size_t bytes = 0;
+    for (const auto &body : bodies)
+      bytes +=
+        body.nodes.memory_consumption() + body.metric.memory_consumption();
+    return bytes;
+  }
+
+  template <typename Number>
+  std::unique_ptr<typename MatrixFreeElasticity<Number>::Kernel>
+  MatrixFreeElasticity<Number>::make_kernel(const unsigned int degree)
+  {
+    switch (degree)
+      {
+        case 1:
+          return std::make_unique<KernelOfSize<2>>();
+        case 2:
+          return std::make_unique<KernelOfSize<3>>();
+        case 3:
+          return std::make_unique<KernelOfSize<4>>();
+        case 4:
+          return std::make_unique<KernelOfSize<5>>();
+        case 5:
+          return std::make_unique<KernelOfSize<6>>();
+        case 6:
+          return std::make_unique<KernelOfSize<7>>();
+        case 7:
+          return std::make_unique<KernelOfSize<8>>();
+        default:
+          AssertThrow(degree == 8, ExcInternalError());
+          return std::make_unique<KernelOfSize<9>>();
+      }
+  }
+
+  template struct CellBatches<float>;
+  template struct CellBatches<double>;
+  template class MatrixFreeElasticity<float>;
+  template class MatrixFreeElasticity<double>;
+} // namespace mortise

@@ -1,0 +1,214 @@
+#include <mortise/body/fe_legendre.h>
+#include <mortise/operators/nodal_system.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// One component on one cell, in the order of cell_dof_indices(), times a
+    /// matrix or its transpose along each direction.
+    void
+    transform(const FullMatrix<double> &matrix,
+              const bool                transposed,
+              std::vector<double>      &values)
+    {
+      const unsigned int  n = matrix.m();
+      std::vector<double> line(n);
+      for (unsigned int d = 0, stride = 1; d < dim; ++d, stride *= n)
+        for (unsigned int l = 0; l < n * n; ++l)
+          {
+            double *first =
+              values.data() + (l / stride) * stride * n + l % stride;
+            for (unsigned int i = 0; i < n; ++i)
+              line[i] = first[i * stride];
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                double sum = 0.;
+                for (unsigned int j = 0; j < n; ++j)
+                  sum += (transposed ? matrix(j, i) : matrix(i, j)) * line[j];
+                first[i * stride] = sum;
+              }
+          }
+    }
+
+    /// What a cell of one degree needs to go from one basis to the other.
+    struct CellOrder
+    {
+      CellOrder(const FiniteElement<dim> &system)
+        : scalar(cell_dof_indices(system.degree))
+        , values(scalar.size())
+      {
+        for (unsigned int c = 0; c < dim; ++c)
+          for (const unsigned int i : scalar)
+            modes[c].push_back(system.component_to_system_index(c, i));
+      }
+
+      std::vector<unsigned int>                  scalar;
+      std::array<std::vector<unsigned int>, dim> modes;
+      std::vector<double>                        values;
+    };
+  } // namespace
+
+  NodalSystem::NodalSystem(NodalSpaces    spaces,
+                           const Scene   &scene,
+                           const MPI_Comm comm)
+  {
+    for (unsigned int number = 0; number < spaces.size(); ++number)
+      {
+        all_levels.push_back(make_nodal_level(std::move(spaces[number]),
+                                              number,
+                                              scene.numbering,
+                                              scene.constraints,
+                                              scene.couplings,
+                                              comm));
+        all_levels.back().penalty =
+          make_nodal_penalty(all_levels.back(), number, scene.couplings);
+      }
+    stiffness =
+      std::make_unique<LevelOperator<double>>(all_levels.front(), false);
+    stiffness->initialize(in);
+    stiffness->initialize(out);
+  }
+
+  void
+  NodalSystem::apply_stiffness(Vector &dst, const Vector &src) const
+  {
+    std::copy_n(src.begin(), in.locally_owned_size(), in.begin());
+    stiffness->clear_held(in);
+    stiffness->vmult(out, in);
+    std::copy_n(out.begin(), out.locally_owned_size(), dst.begin());
+  }
+
+  void
+  NodalSystem::diagonal(double *owned) const
+  {
+    stiffness->diagonal(out);
+    std::copy_n(out.begin(), out.locally_owned_size(), owned);
+  }
+
+  void
+  NodalSystem::assemble_load(const std::vector<Loads> &loads,
+                             const Scene              &scene,
+                             Vector                   &load) const
+  {
+    const NodalLevel   &level = all_levels.front();
+    LevelVector<double> sum;
+    stiffness->initialize(sum);
+    std::vector<NodalSpace::Index> nodes;
+    for (const Body *body : level.space->bodies())
+      {
+        CellOrder                 order(body->fe[0]);
+        const FullMatrix<double> &modes = nodes_to_modes(body->max_degree());
+        for_each_loaded_cell(
+          *body, loads[body->index], [&](const auto &cell, const auto &local) {
+            level.space->get_nodes(body->index, cell, nodes);
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                for (unsigned int i = 0; i < order.values.size(); ++i)
+                  order.values[i] = local(order.modes[c][i]);
+                transform(modes, true, order.values);
+                for (unsigned int i = 0; i < order.values.size(); ++i)
+                  sum.local_element(level.layout->global_to_local(
+                    dim * nodes[order.scalar[i]] + c)) += order.values[i];
+              }
+          });
+      }
+    sum.compress(VectorOperation::add);
+    subtract_prescribed(scene, sum);
+    stiffness->clear_held(sum);
+    load.reinit(level.layout->locally_owned_range(),
+                level.layout->get_mpi_communicator());
+    std::copy_n(sum.begin(), sum.locally_owned_size(), load.begin());
+  }
+
+  void
+  NodalSystem::subtract_prescribed(const Scene         &scene,
+                                   LevelVector<double> &load) const
+  {
+    const NodalLevel &level = all_levels.front();
+    bool              any   = false;
+    for (const auto &line : scene.constraints.get_lines())
+      any = any || line.inhomogeneity != 0.;
+    if (Utilities::MPI::max(any ? 1 : 0,
+                            level.layout->get_mpi_communicator()) == 0)
+      return;
+    // The function with these coefficients and zero for all others. What it is
+    // at a node follows from the entity that has the node, so all cells agree.
+    in = 0.;
+    std::vector<types::global_dof_index> dofs;
+    std::vector<NodalSpace::Index>       nodes;
+    for (const Body *body : level.space->bodies())
+      {
+        CellOrder                 order(body->fe[0]);
+        const FullMatrix<double> &matrix = modes_to_nodes(body->max_degree());
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              dofs.resize(cell->get_fe().n_dofs_per_cell());
+              cell->get_dof_indices(dofs);
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  bool present = false;
+                  for (unsigned int i = 0; i < order.values.size(); ++i)
+                    {
+                      order.values[i] = scene.constraints.get_inhomogeneity(
+                        scene.numbering(body->index, dofs[order.modes[c][i]]));
+                      present = present || order.values[i] != 0.;
+                    }
+                  if (!present)
+                    continue;
+                  level.space->get_nodes(body->index, cell, nodes);
+                  transform(matrix, false, order.values);
+                  for (unsigned int i = 0; i < order.values.size(); ++i)
+                    if (const auto index = dim * nodes[order.scalar[i]] + c;
+                        level.layout->in_local_range(index))
+                      in.local_element(level.layout->global_to_local(index)) =
+                        order.values[i];
+                }
+            }
+      }
+    stiffness->vmult_free(out, in);
+    load -= out;
+  }
+
+  void
+  NodalSystem::for_each_coefficient(
+    const Vector                            &displacement,
+    const std::function<void(unsigned int                    body,
+                             dealii::types::global_dof_index dof,
+                             double                          value)> &set) const
+  {
+    const NodalLevel &level = all_levels.front();
+    std::copy_n(displacement.begin(), in.locally_owned_size(), in.begin());
+    in.update_ghost_values();
+    std::vector<types::global_dof_index> dofs;
+    std::vector<NodalSpace::Index>       nodes;
+    for (const Body *body : level.space->bodies())
+      {
+        CellOrder                 order(body->fe[0]);
+        const FullMatrix<double> &modes = nodes_to_modes(body->max_degree());
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              dofs.resize(cell->get_fe().n_dofs_per_cell());
+              cell->get_dof_indices(dofs);
+              level.space->get_nodes(body->index, cell, nodes);
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  for (unsigned int i = 0; i < order.values.size(); ++i)
+                    order.values[i] =
+                      in.local_element(level.layout->global_to_local(
+                        dim * nodes[order.scalar[i]] + c));
+                  transform(modes, false, order.values);
+                  for (unsigned int i = 0; i < order.values.size(); ++i)
+                    set(body->index, dofs[order.modes[c][i]], order.values[i]);
+                }
+            }
+      }
+    in.zero_out_ghost_values();
+  }
+} // namespace mortise

@@ -1,0 +1,146 @@
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
+#include <mortise/operators/cell_kernel.h>
+#include <mortise/operators/vertex_matrix.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Index = types::global_dof_index;
+
+    /// Calls visit(body, cell, indices by [vertex][component]).
+    template <typename Visit>
+    void
+    for_each_cell(const NodalLevel &level, const Visit &visit)
+    {
+      std::vector<NodalSpace::Index> nodes;
+      std::vector<Index>             indices;
+      for (const Body *body : level.space->bodies())
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              level.space->get_nodes(body->index, cell, nodes);
+              indices.clear();
+              for (const auto node : nodes)
+                for (unsigned int c = 0; c < dim; ++c)
+                  indices.push_back(dim * node + c);
+              visit(*body, cell, indices);
+            }
+    }
+
+    /// Drops what is held, in rows and columns.
+    class HeldIndices
+    {
+    public:
+      explicit HeldIndices(const NodalLevel &level)
+        : held(level.layout)
+      {
+        for (const unsigned int place : level.held)
+          held.local_element(place) = 1.;
+        held.update_ghost_values();
+      }
+
+      bool
+      operator()(const unsigned int place) const
+      {
+        return held.local_element(place) != 0.;
+      }
+
+    private:
+      LevelVector<double> held;
+    };
+  } // namespace
+
+  void
+  assemble_vertex_matrix(const NodalLevel &level, VertexMatrix &result)
+  {
+    const auto &layout = *level.layout;
+    const auto &owned  = layout.locally_owned_range();
+    IndexSet    local  = owned;
+    local.add_indices(layout.ghost_indices());
+    const HeldIndices held(level);
+    const auto        is_held = [&](const Index index) {
+      return held(layout.global_to_local(index));
+    };
+
+    DynamicSparsityPattern sparsity(owned.size(), owned.size(), local);
+    const auto             keep_free = [&](std::vector<Index> &indices) {
+      indices.erase(std::remove_if(indices.begin(), indices.end(), is_held),
+                    indices.end());
+    };
+    for_each_cell(level,
+                  [&](const Body &, const auto &, std::vector<Index> &all) {
+                    for (const Index index : all)
+                      if (is_held(index))
+                        sparsity.add(index, index);
+                    keep_free(all);
+                    std::sort(all.begin(), all.end());
+                    for (const Index row : all)
+                      sparsity.add_entries(row, all.begin(), all.end(), true);
+                  });
+    const NodalPenalty &J                = level.penalty;
+    const auto          for_each_penalty = [&](const auto &visit) {
+      for (unsigned int r = 0; r < J.rows.size(); ++r)
+        for (unsigned int k = J.begin[r]; k < J.begin[r + 1]; ++k)
+          for (unsigned int c = 0; c < dim; ++c)
+            if (!held(J.rows[r] + c) && !held(J.columns[k] + c))
+              visit(layout.local_to_global(J.rows[r] + c),
+                    layout.local_to_global(J.columns[k] + c),
+                    J.values[k]);
+    };
+    for_each_penalty([&](const Index row, const Index column, const double) {
+      sparsity.add(row, column);
+    });
+
+    result.matrix.reinit(
+      owned, owned, sparsity, layout.get_mpi_communicator(), true);
+    const FESystem<dim> system(FE_Q<dim>(1), dim);
+    std::map<unsigned int, std::unique_ptr<CellKernel>> kernels;
+    FullMatrix<double>                                  local_matrix(24);
+    std::vector<Point<dim>> points(owned.n_elements() / dim);
+    for_each_cell(
+      level,
+      [&](const Body &body, const auto &cell, const std::vector<Index> &all) {
+        auto &kernel = kernels[body.index];
+        if (!kernel)
+          kernel = std::make_unique<CellKernel>(body, system);
+        kernel->compute(cell, local_matrix);
+        std::array<double, 24> values;
+        std::array<Index, 24>  columns;
+        for (unsigned int i = 0; i < 24; ++i)
+          {
+            if (is_held(all[i]))
+              {
+                result.matrix.add(all[i], all[i], local_matrix(i, i));
+                continue;
+              }
+            unsigned int n = 0;
+            for (unsigned int j = 0; j < 24; ++j)
+              if (!is_held(all[j]))
+                {
+                  columns[n]  = all[j];
+                  values[n++] = local_matrix(i, j);
+                }
+            result.matrix.add(all[i], n, columns.data(), values.data(), false);
+          }
+        for (const unsigned int v : cell->vertex_indices())
+          if (layout.in_local_range(all[dim * v]))
+            points[layout.global_to_local(all[dim * v]) / dim] =
+              cell->vertex(v);
+      });
+    for_each_penalty(
+      [&](const Index row, const Index column, const double value) {
+        result.matrix.add(row, column, value);
+      });
+    result.matrix.compress(VectorOperation::add);
+    result.points = std::move(points);
+    for (const auto index : owned)
+      result.rows.push_back(index);
+  }
+} // namespace mortise

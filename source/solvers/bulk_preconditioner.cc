@@ -1,0 +1,14 @@
+#include <mortise/solvers/bulk_preconditioner.h>
+#include <mortise/solvers/degree_multigrid.h>
+#include <mortise/solvers/hierarchical_preconditioner.h>
+
+namespace mortise
+{
+  std::unique_ptr<BulkPreconditioner>
+  make_bulk_preconditioner(const BlockSystem &system)
+  {
+    if (system.nodal)
+      return std::make_unique<DegreeMultigrid>();
+    return std::make_unique<HierarchicalPreconditioner>();
+  }
+} // namespace mortise
