@@ -19,11 +19,22 @@ namespace mortise
     }
   } // namespace
 
+  void
+  announce_stage(const std::string &name)
+  {
+    int running = 0;
+    MPI_Initialized(&running);
+    if (running)
+      MPI_Pcontrol(1, name.c_str());
+  }
+
   Timers::Scope::Scope(Timers &timers, const std::string &name)
     : timers(timers)
     , name(name)
     , start(Clock::now())
-  {}
+  {
+    announce_stage(name);
+  }
 
   Timers::Scope::~Scope()
   {

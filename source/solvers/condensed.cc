@@ -1,6 +1,7 @@
 // See condensed.h.
 #include <deal.II/base/timer.h>
 
+#include <mortise/base/timers.h>
 #include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/constraint_projector.h>
@@ -114,6 +115,7 @@ namespace mortise
   {
     SolveReport report;
     report.method = "condensed";
+    announce_stage("solver_setup");
     Timer                    timer;
     const auto               preconditioner = make_bulk_preconditioner(system);
     bool                     valid = preconditioner->initialize(system);
@@ -128,6 +130,7 @@ namespace mortise
     const ScaledResidual residual(system);
     report.preconditioner = preconditioner->description();
     report.setup_seconds  = timer.wall_time();
+    announce_stage("solve");
     timer.restart();
 
     u.reinit(system.owned_displacement, system.communicator);

@@ -4,6 +4,7 @@
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
+#include <mortise/base/timers.h>
 #include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/constraint_projector.h>
@@ -150,12 +151,14 @@ namespace mortise
     constexpr unsigned int max_basis = 60;
     SolveReport            report;
     report.method = "saddle point";
+    announce_stage("solver_setup");
     Timer                     timer;
     const ScaledResidual      residual(system);
     const ScaledOperator      matrix(system, residual);
     const BlockPreconditioner preconditioner(system, matrix);
     report.preconditioner = preconditioner.description();
     report.setup_seconds  = timer.wall_time();
+    announce_stage("solve");
     timer.restart();
 
     u.reinit(system.owned_displacement, system.communicator);

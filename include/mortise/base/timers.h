@@ -12,6 +12,11 @@
 
 namespace mortise
 {
+  /// Tell a profiler of MPI which stage of a run begins: MPI_Pcontrol(1, name),
+  /// which does nothing by itself.
+  void
+  announce_stage(const std::string &name);
+
   /// Accumulated wall times by name. Scopes may be entered many times; a name
   /// that was never entered is absent.
   class Timers
@@ -19,7 +24,8 @@ namespace mortise
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// Adds the time of its life to a name, also when it ends by an exception.
+    /// Adds the time of its life to a name, also when it ends by an exception;
+    /// announces the stage.
     class Scope
     {
     public:
