@@ -3,11 +3,11 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
-#include <deal.II/fe/mapping_q_cache.h>
 
 #include <mortise/base/error.h>
 #include <mortise/body/body.h>
 #include <mortise/body/fe_legendre.h>
+#include <mortise/body/hexahedral_mapping.h>
 #include <mortise/body/simplex_elements.h>
 #include <mortise/body/simplex_mapping.h>
 
@@ -105,7 +105,7 @@ namespace mortise
             std::make_unique<SimplexMapping>(mapping_degree, triangulation());
         return;
       }
-    auto cache = std::make_unique<MappingQCache<dim>>(mapping_degree);
+    auto cache = std::make_unique<HexahedralMapping>(mapping_degree);
     if (mesh.geometry != nullptr)
       {
         const auto unit = FE_Q<dim>(mapping_degree).get_unit_support_points();

@@ -1,4 +1,10 @@
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/fe/fe_tools.h>
+
 #include <Teuchos_BLAS.hpp>
+#include <mortise/base/lagrange.h>
+#include <mortise/body/hexahedral_mapping.h>
 #include <mortise/body/simplex_mapping.h>
 #include <mortise/body/vertex_order.h>
 #include <mortise/operators/cell_geometry.h>
@@ -43,16 +49,22 @@ namespace mortise
                              const Quadrature<dim> &quadrature)
     : mapping_degree(body.mapping_degree)
     , simplices(dynamic_cast<const SimplexMapping *>(body.mapping.get()))
+    , hexahedra(dynamic_cast<const HexahedralMapping *>(body.mapping.get()))
     , result(quadrature.size())
   {
     Assert((simplices != nullptr) == shape.is_simplex(), ExcInternalError());
     (void)shape;
     if (simplices == nullptr)
       {
-        values = std::make_unique<FEValues<dim>>(*body.mapping,
-                                                 constants,
-                                                 quadrature,
-                                                 update_jacobians);
+        Assert(hexahedra != nullptr && quadrature.is_tensor_product(),
+               ExcInternalError());
+        const Quadrature<1>   &points = quadrature.get_tensor_basis()[0];
+        const QGaussLobatto<1> nodes(mapping_degree + 1);
+        line_values = lagrange_values(nodes, points);
+        line_slopes = lagrange_derivatives(nodes, points);
+        lexicographic =
+          FETools::lexicographic_to_hierarchic_numbering<dim>(mapping_degree);
+        points_in_space.resize(quadrature.size());
         return;
       }
     for (const Point<dim> &x : simplices->reference_nodes())
@@ -105,9 +117,18 @@ namespace mortise
   {
     if (simplices == nullptr)
       {
-        values->reinit(typename Triangulation<dim>::cell_iterator(cell));
-        for (unsigned int q = 0; q < result.size(); ++q)
-          result[q] = transpose(Tensor<2, dim>(values->jacobian(q)));
+        const auto nodes = lexicographic_nodes(cell);
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int a = 0; a < dim; ++a)
+            {
+              const auto slope =
+                apply_product(a == 0 ? line_slopes : line_values,
+                              a == 1 ? line_slopes : line_values,
+                              a == 2 ? line_slopes : line_values,
+                              nodes[c]);
+              for (unsigned int q = 0; q < result.size(); ++q)
+                result[q][a][c] = slope.values[q];
+            }
         return result;
       }
     // J[q][a] = sum_k dN_k/dxi_a x_k: (dim x n) times (n x dim Q), all column
@@ -131,6 +152,36 @@ namespace mortise
               &result[0][0][0],
               dim);
     return result;
+  }
+
+  std::array<TensorArray, dim>
+  CellGeometry::lexicographic_nodes(const Body::CellIterator &cell) const
+  {
+    const auto nodes =
+      hexahedra->nodes(Triangulation<dim>::cell_iterator(cell));
+    const unsigned int           n = mapping_degree + 1;
+    std::array<TensorArray, dim> by_component;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        by_component[c].n = {{n, n, n}};
+        for (const unsigned int i : lexicographic)
+          by_component[c].values.push_back(nodes[i][c]);
+      }
+    return by_component;
+  }
+
+  const std::vector<Point<dim>> &
+  CellGeometry::points(const Body::CellIterator &cell)
+  {
+    const auto nodes = lexicographic_nodes(cell);
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const auto x =
+          apply_product(line_values, line_values, line_values, nodes[c]);
+        for (unsigned int q = 0; q < points_in_space.size(); ++q)
+          points_in_space[q][c] = x.values[q];
+      }
+    return points_in_space;
   }
 
   std::string

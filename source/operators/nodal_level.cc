@@ -1,7 +1,9 @@
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/operators/nodal_level.h>
+#include <mortise/operators/tensor_kernel.h>
 
 #include <algorithm>
+#include <map>
 
 namespace mortise
 {
@@ -184,31 +186,36 @@ namespace mortise
                        record(more, rows);
                    });
 
-    NodalPenalty              penalty;
-    std::vector<unsigned int> row_of_node(n_nodes);
+    NodalPenalty                   penalty;
+    std::map<Places, unsigned int> group_of_columns;
+    /// group and row in it
+    std::vector<std::pair<unsigned int, unsigned int>> place_of_node(n_nodes);
     for (unsigned int node = 0; node < n_nodes; ++node)
       if (auto &list = columns[node]; !list.empty())
         {
           std::sort(list.begin(), list.end());
           list.erase(std::unique(list.begin(), list.end()), list.end());
-          row_of_node[node] = penalty.rows.size();
-          penalty.rows.push_back(dim * node);
-          penalty.begin.push_back(penalty.columns.size());
-          penalty.columns.insert(penalty.columns.end(),
-                                 list.begin(),
-                                 list.end());
+          const auto [found, is_new] =
+            group_of_columns.emplace(list, penalty.groups.size());
+          if (is_new)
+            penalty.groups.push_back({{}, list, {}});
+          auto &group         = penalty.groups[found->second];
+          place_of_node[node] = {found->second, group.rows.size()};
+          group.rows.push_back(dim * node);
+          list = Places();
         }
-    penalty.begin.push_back(penalty.columns.size());
-    penalty.values.resize(penalty.columns.size());
+    for (auto &group : penalty.groups)
+      group.values.resize(group.rows.size() * group.columns.size());
 
     const auto add = [&](const unsigned int row,
                          const unsigned int column,
                          const double       value) {
-      const unsigned int r     = row_of_node[row / dim];
-      const auto         begin = penalty.columns.begin() + penalty.begin[r],
-                 end           = penalty.columns.begin() + penalty.begin[r + 1];
-      penalty.values[std::lower_bound(begin, end, column) -
-                     penalty.columns.begin()] += value;
+      const auto [g, r] = place_of_node[row / dim];
+      auto &group       = penalty.groups[g];
+      group.values[r * group.columns.size() +
+                   (std::lower_bound(
+                      group.columns.begin(), group.columns.end(), column) -
+                    group.columns.begin())] += value;
     };
     for_each_block(couplings,
                    [&](const FaceTrace          &row,
@@ -231,14 +238,76 @@ namespace mortise
     return penalty;
   }
 
+  namespace
+  {
+    template <typename Number>
+    std::size_t
+    padded(const std::size_t n)
+    {
+      constexpr std::size_t width = Batch<Number>::size;
+      return (n + width - 1) / width * width;
+    }
+  } // namespace
+
   template <typename Number>
   LevelOperator<Number>::LevelOperator(const NodalLevel &level,
                                        const bool        with_penalty)
     : level(level)
     , stiffness(*level.space, *level.layout)
   {
-    if (with_penalty)
-      penalty.assign(level.penalty.values.begin(), level.penalty.values.end());
+    if (!with_penalty)
+      return;
+    // rows are filled with zeros to whole vectors of the processor
+    std::size_t size = 0, widest = 0;
+    for (const auto &group : level.penalty.groups)
+      {
+        const std::size_t n = padded<Number>(group.columns.size());
+        size += group.rows.size() * n;
+        widest = std::max(widest, n);
+      }
+    penalty.resize(size);
+    workspace.resize(dim * widest);
+    Number *place = penalty.data();
+    for (const auto &group : level.penalty.groups)
+      for (unsigned int r = 0; r < group.rows.size(); ++r)
+        {
+          const unsigned int n = group.columns.size();
+          std::copy_n(&group.values[r * n], n, place);
+          place += padded<Number>(n);
+        }
+  }
+
+  template <typename Number>
+  void
+  LevelOperator<Number>::add_penalty(const Number *src, Number *dst) const
+  {
+    using V                   = typename Batch<Number>::Vector;
+    const unsigned int width  = Batch<Number>::size;
+    const V           *values = reinterpret_cast<const V *>(penalty.data());
+    for (const auto &group : level.penalty.groups)
+      {
+        const unsigned int n = group.columns.size(), m = padded<Number>(n);
+        std::array<Number *, dim> gathered;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            gathered[c] = workspace.data() + c * m;
+            std::fill(gathered[c] + n, gathered[c] + m, Number());
+          }
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int c = 0; c < dim; ++c)
+            gathered[c][j] = src[group.columns[j] + c];
+        for (const unsigned int row : group.rows)
+          {
+            V sums[dim] = {};
+            for (unsigned int j = 0; j < m / width; ++j, ++values)
+              for (unsigned int c = 0; c < dim; ++c)
+                sums[c] +=
+                  *values * reinterpret_cast<const V *>(gathered[c])[j];
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int l = 0; l < width; ++l)
+                dst[row + c] += sums[c][l];
+          }
+      }
   }
 
   template <typename Number>
@@ -247,23 +316,10 @@ namespace mortise
                                     const LevelVector<Number> &src) const
   {
     src.update_ghost_values();
-    dst               = 0;
-    const Number *in  = src.begin();
-    Number       *out = dst.begin();
-    stiffness.add_product(in, out);
+    dst = 0;
+    stiffness.add_product(src.begin(), dst.begin());
     if (!penalty.empty())
-      {
-        const NodalPenalty &J = level.penalty;
-        for (unsigned int r = 0; r < J.rows.size(); ++r)
-          {
-            Number sum[dim] = {};
-            for (unsigned int k = J.begin[r]; k < J.begin[r + 1]; ++k)
-              for (unsigned int c = 0; c < dim; ++c)
-                sum[c] += penalty[k] * in[J.columns[k] + c];
-            for (unsigned int c = 0; c < dim; ++c)
-              out[J.rows[r] + c] += sum[c];
-          }
-      }
+      add_penalty(src.begin(), dst.begin());
     src.zero_out_ghost_values();
     dst.compress(VectorOperation::add);
   }
@@ -292,15 +348,17 @@ namespace mortise
     initialize(diagonal);
     Number *out = diagonal.begin();
     stiffness.add_diagonal(out);
+    const Number *values = penalty.data();
     if (!penalty.empty())
-      {
-        const NodalPenalty &J = level.penalty;
-        for (unsigned int r = 0; r < J.rows.size(); ++r)
-          for (unsigned int k = J.begin[r]; k < J.begin[r + 1]; ++k)
-            if (J.columns[k] == J.rows[r])
-              for (unsigned int c = 0; c < dim; ++c)
-                out[J.rows[r] + c] += penalty[k];
-      }
+      for (const auto &group : level.penalty.groups)
+        for (const unsigned int row : group.rows)
+          {
+            for (unsigned int k = 0; k < group.columns.size(); ++k)
+              if (group.columns[k] == row)
+                for (unsigned int c = 0; c < dim; ++c)
+                  out[row + c] += values[k];
+            values += padded<Number>(group.columns.size());
+          }
     diagonal.compress(VectorOperation::add);
     for (const unsigned int place : level.held)
       diagonal.local_element(place) = 1;

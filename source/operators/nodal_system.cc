@@ -1,3 +1,4 @@
+#include <mortise/base/tensor_product.h>
 #include <mortise/body/fe_legendre.h>
 #include <mortise/operators/nodal_system.h>
 
@@ -9,30 +10,23 @@ namespace mortise
 
   namespace
   {
-    /// One component on one cell, in the order of cell_dof_indices(), times a
-    /// matrix or its transpose along each direction.
-    void
-    transform(const FullMatrix<double> &matrix,
-              const bool                transposed,
-              std::vector<double>      &values)
+    FullMatrix<double>
+    transposed(const FullMatrix<double> &matrix)
     {
-      const unsigned int  n = matrix.m();
-      std::vector<double> line(n);
-      for (unsigned int d = 0, stride = 1; d < dim; ++d, stride *= n)
-        for (unsigned int l = 0; l < n * n; ++l)
-          {
-            double *first =
-              values.data() + (l / stride) * stride * n + l % stride;
-            for (unsigned int i = 0; i < n; ++i)
-              line[i] = first[i * stride];
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                double sum = 0.;
-                for (unsigned int j = 0; j < n; ++j)
-                  sum += (transposed ? matrix(j, i) : matrix(i, j)) * line[j];
-                first[i * stride] = sum;
-              }
-          }
+      FullMatrix<double> result(matrix.n(), matrix.m());
+      result.copy_transposed(matrix);
+      return result;
+    }
+
+    /// One component on one cell, in the order of cell_dof_indices(), times a
+    /// matrix along each direction.
+    void
+    transform(const FullMatrix<double> &matrix, std::vector<double> &values)
+    {
+      const unsigned int n = matrix.n();
+      values =
+        apply_product(matrix, matrix, matrix, {{{n, n, n}}, std::move(values)})
+          .values;
     }
 
     /// What a cell of one degree needs to go from one basis to the other.
@@ -101,8 +95,9 @@ namespace mortise
     std::vector<NodalSpace::Index> nodes;
     for (const Body *body : level.space->bodies())
       {
-        CellOrder                 order(body->fe[0]);
-        const FullMatrix<double> &modes = nodes_to_modes(body->max_degree());
+        CellOrder                order(body->fe[body->fe.size() - 1]);
+        const FullMatrix<double> to_nodes =
+          transposed(nodes_to_modes(body->max_degree()));
         for_each_loaded_cell(
           *body, loads[body->index], [&](const auto &cell, const auto &local) {
             level.space->get_nodes(body->index, cell, nodes);
@@ -110,7 +105,7 @@ namespace mortise
               {
                 for (unsigned int i = 0; i < order.values.size(); ++i)
                   order.values[i] = local(order.modes[c][i]);
-                transform(modes, true, order.values);
+                transform(to_nodes, order.values);
                 for (unsigned int i = 0; i < order.values.size(); ++i)
                   sum.local_element(level.layout->global_to_local(
                     dim * nodes[order.scalar[i]] + c)) += order.values[i];
@@ -143,7 +138,7 @@ namespace mortise
     std::vector<NodalSpace::Index>       nodes;
     for (const Body *body : level.space->bodies())
       {
-        CellOrder                 order(body->fe[0]);
+        CellOrder                 order(body->fe[body->fe.size() - 1]);
         const FullMatrix<double> &matrix = modes_to_nodes(body->max_degree());
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
@@ -162,7 +157,7 @@ namespace mortise
                   if (!present)
                     continue;
                   level.space->get_nodes(body->index, cell, nodes);
-                  transform(matrix, false, order.values);
+                  transform(matrix, order.values);
                   for (unsigned int i = 0; i < order.values.size(); ++i)
                     if (const auto index = dim * nodes[order.scalar[i]] + c;
                         level.layout->in_local_range(index))
@@ -189,7 +184,7 @@ namespace mortise
     std::vector<NodalSpace::Index>       nodes;
     for (const Body *body : level.space->bodies())
       {
-        CellOrder                 order(body->fe[0]);
+        CellOrder                 order(body->fe[body->fe.size() - 1]);
         const FullMatrix<double> &modes = nodes_to_modes(body->max_degree());
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
@@ -203,7 +198,7 @@ namespace mortise
                     order.values[i] =
                       in.local_element(level.layout->global_to_local(
                         dim * nodes[order.scalar[i]] + c));
-                  transform(modes, false, order.values);
+                  transform(modes, order.values);
                   for (unsigned int i = 0; i < order.values.size(); ++i)
                     set(body->index, dofs[order.modes[c][i]], order.values[i]);
                 }

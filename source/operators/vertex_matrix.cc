@@ -84,15 +84,15 @@ namespace mortise
                     for (const Index row : all)
                       sparsity.add_entries(row, all.begin(), all.end(), true);
                   });
-    const NodalPenalty &J                = level.penalty;
-    const auto          for_each_penalty = [&](const auto &visit) {
-      for (unsigned int r = 0; r < J.rows.size(); ++r)
-        for (unsigned int k = J.begin[r]; k < J.begin[r + 1]; ++k)
-          for (unsigned int c = 0; c < dim; ++c)
-            if (!held(J.rows[r] + c) && !held(J.columns[k] + c))
-              visit(layout.local_to_global(J.rows[r] + c),
-                    layout.local_to_global(J.columns[k] + c),
-                    J.values[k]);
+    const auto for_each_penalty = [&](const auto &visit) {
+      for (const auto &group : level.penalty.groups)
+        for (unsigned int r = 0; r < group.rows.size(); ++r)
+          for (unsigned int k = 0; k < group.columns.size(); ++k)
+            for (unsigned int c = 0; c < dim; ++c)
+              if (!held(group.rows[r] + c) && !held(group.columns[k] + c))
+                visit(layout.local_to_global(group.rows[r] + c),
+                      layout.local_to_global(group.columns[k] + c),
+                      group.values[r * group.columns.size() + k]);
     };
     for_each_penalty([&](const Index row, const Index column, const double) {
       sparsity.add(row, column);

@@ -3,7 +3,7 @@
 #include <mortise/body/boundary_faces.h>
 #include <mortise/body/cell_face.h>
 #include <mortise/body/simplex_quadrature.h>
-#include <mortise/output/cell_values.h>
+#include <mortise/output/cell_fields.h>
 #include <mortise/output/errors.h>
 
 #include <cmath>
@@ -36,30 +36,21 @@ namespace mortise
       sums{}; // squares: L2 error, L2 norm, energy error, energy norm
     for (const auto &body : bodies)
       {
-        ValuesByElement<FEValues<dim>> by_element(*body,
-                                                  rule<dim>(3),
-                                                  update_values |
-                                                    update_gradients |
-                                                    update_quadrature_points |
-                                                    update_JxW_values);
+        CellFields fields(*body, 3);
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
-              auto &values = by_element(cell);
-              values.reinit(TriaCell(cell));
-              const auto coefficients =
-                cell_coefficients(cell, displacements[body->index]);
-              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+              fields.reinit(cell, displacements[body->index]);
+              for (unsigned int q = 0; q < fields.points.size(); ++q)
                 {
-                  const Point<dim>    &x = values.quadrature_point(q);
+                  const Point<dim>    &x = fields.points[q];
                   const Tensor<1, dim> u = exact.displacement(x, body->index);
                   const auto           strain =
                     symmetrize(exact.gradient(x, body->index));
                   const auto strain_error =
-                    symmetrize(gradient(values, coefficients, q)) - strain;
-                  const double weight = values.JxW(q);
-                  sums[0] +=
-                    weight * (value(values, coefficients, q) - u).norm_square();
+                    symmetrize(fields.gradients[q]) - strain;
+                  const double weight = fields.weights[q];
+                  sums[0] += weight * (fields.values[q] - u).norm_square();
                   sums[1] += weight * u.norm_square();
                   sums[2] += weight * (body->material.stress(strain_error) *
                                        strain_error);

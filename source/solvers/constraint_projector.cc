@@ -13,7 +13,8 @@ namespace mortise
     , force(system.owned_displacement, system.communicator)
     , correction(force)
   {
-    valid = inner.initialize(lifting.schur_complement());
+    valid = inner.initialize(lifting.schur_complement(),
+                             MatrixKind::positive_definite);
   }
 
   void
@@ -21,7 +22,8 @@ namespace mortise
   {
     lifting.vmult(correction, r);
     system.coupling.vmult(jump, correction);
-    inner.solve(epetra(multiplier), epetra(jump));
+    Epetra_Vector y = epetra_view(multiplier);
+    inner.solve(y, epetra_view(jump));
     lambda += multiplier;
     multiplier *= -1.;
     system.coupling.Tvmult_add(r, multiplier);
@@ -33,7 +35,8 @@ namespace mortise
     system.coupling.vmult(jump, u);
     if (g != nullptr)
       jump -= *g;
-    inner.solve(epetra(multiplier), epetra(jump));
+    Epetra_Vector y = epetra_view(multiplier);
+    inner.solve(y, epetra_view(jump));
     system.coupling.Tvmult(force, multiplier);
     lifting.vmult(correction, force);
     u -= correction;

@@ -201,8 +201,9 @@ namespace mortise
     matrix->RightScale(scale);
 
     SparseFactorization factorization;
-    const bool          factorized = factorization.initialize(*matrix);
-    report.preconditioner = "factorisation (" + factorization.backend() + ")";
+    const bool          factorized =
+      factorization.initialize(*matrix, MatrixKind::general);
+    report.preconditioner = "factorisation (MUMPS)";
     report.setup_seconds  = timer.wall_time();
     timer.restart();
 

@@ -182,13 +182,9 @@ namespace mortise
                               goal,
                               false,
                               false);
-        // flexible, since multigrid in single precision is linear to seven
-        // digits only
-        SolverFGMRES<BlockVector> solver(
-          control, SolverFGMRES<BlockVector>::AdditionalData(max_basis));
-        solver.connect([&](const unsigned int iteration,
-                           const double       value,
-                           const BlockVector &) {
+        const auto    note = [&](const unsigned int iteration,
+                              const double       value,
+                              const BlockVector &) {
           if (iteration > 0)
             {
               report.history.push_back(value / rhs_norm);
@@ -197,13 +193,24 @@ namespace mortise
                                 value / rhs_norm);
             }
           return SolverControl::success;
-        });
-        try
-          {
-            solver.solve(matrix, x, r, preconditioner);
-          }
-        catch (const SolverControl::NoConvergence &)
-          {}
+        };
+        const auto run = [&](auto &&solver) {
+          solver.connect(note);
+          try
+            {
+              solver.solve(matrix, x, r, preconditioner);
+            }
+          catch (const SolverControl::NoConvergence &)
+            {}
+        };
+        using GMRES  = SolverGMRES<BlockVector>;
+        using FGMRES = SolverFGMRES<BlockVector>;
+        // flexible where multigrid in single precision is linear to seven
+        // digits only
+        if (system.nodal)
+          run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
+        else
+          run(GMRES(control, GMRES::AdditionalData(max_basis + 2, true)));
         report.iterations += control.last_step();
         x.scale(matrix.weight);
         u += x.block(0);

@@ -1,84 +1,157 @@
-// See sparse_factorization.h.
-#include <Amesos.h>
-#include <Amesos_BaseSolver.h>
-#include <Amesos_config.h>
-#include <Teuchos_ParameterList.hpp>
+#include <Epetra_MpiComm.h>
+#include <dmumps_c.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/sparse_factorization.h>
-#ifdef HAVE_AMESOS_MUMPS
-#  include <Amesos_Mumps.h>
-#endif
 
 namespace mortise
 {
   namespace
   {
-#ifdef HAVE_AMESOS_MUMPS
-    void
-    set_mumps_controls(Amesos_BaseSolver &solver, const int workspace)
+    enum Job
     {
-      if (auto *mumps = dynamic_cast<Amesos_Mumps *>(&solver))
-        {
-          mumps->SetICNTL(
-            6,
-            0); // no column permutation: it would spoil the symmetric structure
-          mumps->SetICNTL(
-            14, workspace); // per cent beyond the estimate, for pivoting
-        }
+      initialise             = -1,
+      terminate              = -2,
+      analyse_and_factorise  = 4,
+      solve_with_the_factors = 3
+    };
+
+    /// Number @p i of the manual, which counts from one.
+    MUMPS_INT &
+    control(DMUMPS_STRUC_C &mumps, const int i)
+    {
+      return mumps.icntl[i - 1];
     }
-#else
-    void
-    set_mumps_controls(Amesos_BaseSolver &, int)
-    {}
-#endif
   } // namespace
+
+  struct SparseFactorization::Implementation
+  {
+    Implementation(const Epetra_CrsMatrix &matrix, const MatrixKind kind)
+      : comm(dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm())
+      , symmetric(kind == MatrixKind::positive_definite)
+    {
+      mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm));
+      mumps.par          = 1;
+      mumps.sym          = symmetric ? 1 : 0;
+      run(initialise);
+      for (const int stream : {1, 2, 3})
+        control(mumps, stream) = -1;
+      control(mumps, 4)  = 0; // no messages
+      control(mumps, 6)  = 0; // no column permutation: it would spoil symmetry
+      control(mumps, 18) = 3; // each rank has its rows
+      if (symmetric)
+        control(mumps, 8) = 0; // no scaling
+
+      MPI_Comm_rank(comm, &rank);
+      int n_ranks = 0, mine = matrix.NumMyRows();
+      MPI_Comm_size(comm, &n_ranks);
+      counts.resize(n_ranks);
+      starts.resize(n_ranks);
+      MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+      for (int r = 1; r < n_ranks; ++r)
+        starts[r] = starts[r - 1] + counts[r - 1];
+
+      for (int i = 0; i < mine; ++i)
+        {
+          const EpetraRow row(matrix, i);
+          const int       number = matrix.GRID(i);
+          for (int k = 0; k < row.length; ++k)
+            if (const int column = matrix.GCID(row.columns[k]);
+                !symmetric || column <= number)
+              {
+                rows.push_back(number + 1);
+                columns.push_back(column + 1);
+                values.push_back(row.values[k]);
+              }
+        }
+      mumps.n       = matrix.NumGlobalRows();
+      mumps.nnz_loc = static_cast<MUMPS_INT8>(values.size());
+      mumps.irn_loc = rows.data();
+      mumps.jcn_loc = columns.data();
+      mumps.a_loc   = values.data();
+      if (rank == 0)
+        on_first.resize(mumps.n);
+      mumps.rhs = on_first.data();
+    }
+
+    ~Implementation()
+    {
+      run(terminate);
+    }
+
+    bool
+    run(const Job job)
+    {
+      mumps.job = job;
+      dmumps_c(&mumps);
+      return mumps.infog[0] >= 0;
+    }
+
+    bool
+    factorise()
+    {
+      constexpr int workspace_too_small = -9, estimate_too_small = -8;
+      // delayed pivots of a saddle point may need much more room than estimated
+      for (const int workspace : {50, 1000, 5000})
+        {
+          control(mumps, 14) = workspace; // per cent
+          if (run(analyse_and_factorise))
+            {
+              const bool negative_pivots = symmetric && mumps.infog[11] > 0;
+              for (auto *entries : {&rows, &columns})
+                *entries = std::vector<MUMPS_INT>();
+              values = std::vector<double>();
+              return !negative_pivots;
+            }
+          if (mumps.infog[0] != workspace_too_small &&
+              mumps.infog[0] != estimate_too_small)
+            return false;
+        }
+      return false;
+    }
+
+    MPI_Comm               comm;
+    const bool             symmetric;
+    int                    rank = 0;
+    DMUMPS_STRUC_C         mumps{};
+    std::vector<int>       counts, starts; ///< rows by rank
+    std::vector<MUMPS_INT> rows, columns;
+    std::vector<double>    values, on_first; ///< on the first rank: a vector
+  };
 
   SparseFactorization::SparseFactorization()  = default;
   SparseFactorization::~SparseFactorization() = default;
 
   bool
-  SparseFactorization::initialize(const Epetra_CrsMatrix &matrix)
+  SparseFactorization::initialize(const Epetra_CrsMatrix &matrix,
+                                  const MatrixKind        kind)
   {
-    Amesos     factory;
-    const bool has_mumps = factory.Query("Mumps");
-    // delayed pivots of a saddle point may need much more room than MUMPS
-    // estimates
-    for (const int workspace : {100, 1000, 5000})
-      if (has_mumps && factorize(factory, "Mumps", workspace, matrix))
-        {
-          name = "MUMPS";
-          return true;
-        }
-    name = "KLU";
-    return factorize(factory, "Klu", 0, matrix);
+    implementation = std::make_unique<Implementation>(matrix, kind);
+    return implementation->factorise();
   }
 
   bool
-  SparseFactorization::factorize(Amesos                 &factory,
-                                 const std::string      &type,
-                                 const int               workspace,
-                                 const Epetra_CrsMatrix &matrix)
+  SparseFactorization::solve(Epetra_Vector &x, const Epetra_Vector &b) const
   {
-    solver.reset();
-    problem = std::make_unique<Epetra_LinearProblem>();
-    problem->SetOperator(const_cast<Epetra_CrsMatrix *>(&matrix));
-    solver.reset(factory.Create(type, *problem));
-
-    Teuchos::ParameterList parameters;
-    parameters.set("PrintTiming", false);
-    parameters.set("PrintStatus", false);
-    parameters.set("MaxProcs", -3); // all ranks
-    solver->SetParameters(parameters);
-    set_mumps_controls(*solver, workspace);
-    return solver->SymbolicFactorization() == 0 &&
-           solver->NumericFactorization() == 0;
-  }
-
-  bool
-  SparseFactorization::solve(Epetra_MultiVector       &x,
-                             const Epetra_MultiVector &b) const
-  {
-    problem->SetLHS(&x);
-    problem->SetRHS(const_cast<Epetra_MultiVector *>(&b));
-    return solver->Solve() == 0;
+    Implementation &data = *implementation;
+    MPI_Gatherv(b.Values(),
+                b.MyLength(),
+                MPI_DOUBLE,
+                data.on_first.data(),
+                data.counts.data(),
+                data.starts.data(),
+                MPI_DOUBLE,
+                0,
+                data.comm);
+    const bool solved = data.run(solve_with_the_factors);
+    MPI_Scatterv(data.on_first.data(),
+                 data.counts.data(),
+                 data.starts.data(),
+                 MPI_DOUBLE,
+                 x.Values(),
+                 x.MyLength(),
+                 MPI_DOUBLE,
+                 0,
+                 data.comm);
+    return solved;
   }
 } // namespace mortise

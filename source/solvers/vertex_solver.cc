@@ -33,7 +33,8 @@ namespace mortise
     if (coarse->NumGlobalRows() <= max_direct_size)
       {
         factorization = std::make_unique<SparseFactorization>();
-        return factorization->initialize(*coarse);
+        return factorization->initialize(*coarse,
+                                         MatrixKind::positive_definite);
       }
     compute_rigid_modes(vertices);
     Teuchos::ParameterList parameters;
@@ -173,8 +174,7 @@ namespace mortise
   std::string
   VertexSolver::description() const
   {
-    return factorization ?
-             "vertices factorised (" + factorization->backend() + ")" :
-             "vertices by smoothed aggregation (ML)";
+    return factorization ? "vertices factorised (MUMPS)" :
+                           "vertices by smoothed aggregation (ML)";
   }
 } // namespace mortise

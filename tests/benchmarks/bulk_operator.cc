@@ -1,5 +1,5 @@
-// Products with the stiffness of hexahedra without a matrix, beside what memory
-// and the processor allow. Not a test.
+// Products with the stiffness of hexahedra without a matrix. Not a test: it
+// serves bulk_operator.py.
 //
 //   bulk_operator [DOFS]
 //
@@ -78,7 +78,7 @@ namespace
                  std::cbrt(n_dofs / 3. / (source == "box" ? 1. : 1.5)) / p));
     if (source == "box")
       {
-        mesh.extent       = {0., 1., 0., 1., 0., 1.};
+        mesh.extent       = {0., 0., 0., 1., 1., 1.};
         mesh.subdivisions = {n, n, n};
       }
     else
@@ -103,7 +103,7 @@ main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const double n_dofs = argc > 1 ? std::atof(argv[1]) : 3e5;
-  for (const std::string &source : {"shell octant", "box"})
+  for (const std::string source : {"shell octant", "box"})
     for (unsigned int p = 1; p <= max_degree; ++p)
       report(source, p, n_dofs);
 }

@@ -4,9 +4,7 @@
 
 #include <deal.II/base/quadrature.h>
 
-#include <deal.II/fe/fe_dgq.h>
-#include <deal.II/fe/fe_values.h>
-
+#include <mortise/base/tensor_product.h>
 #include <mortise/base/types.h>
 #include <mortise/body/body.h>
 
@@ -18,6 +16,7 @@
 
 namespace mortise
 {
+  class HexahedralMapping;
   class SimplexMapping;
 
   class CellGeometry
@@ -26,7 +25,8 @@ namespace mortise
     /// dx_c/dxi_a as [a][c].
     using Jacobian = dealii::Tensor<2, dim>;
 
-    /// For the cells of @p body of one shape, whose mapping is kept by reference.
+    /// For the cells of @p body of one shape, whose mapping is kept by
+    /// reference; @p quadrature is a tensor product for hexahedra.
     CellGeometry(const Body                    &body,
                  const dealii::ReferenceCell   &shape,
                  const dealii::Quadrature<dim> &quadrature);
@@ -36,9 +36,13 @@ namespace mortise
     std::optional<Jacobian>
     constant_jacobian(const Body::CellIterator &cell) const;
 
-    /// At all points, by x(xi) = sum_k N_k(xi) x_k on tetrahedra.
+    /// At all points, by x(xi) = sum_k N_k(xi) x_k.
     const std::vector<Jacobian> &
     jacobians(const Body::CellIterator &cell);
+
+    /// The points of the rule in space; hexahedra only.
+    const std::vector<dealii::Point<dim>> &
+    points(const Body::CellIterator &cell);
 
   private:
     const unsigned int    mapping_degree;
@@ -47,11 +51,16 @@ namespace mortise
     /// Barycentric coordinates of the nodes of a tetrahedron.
     std::vector<std::array<double, dim + 1>> barycentric;
     std::vector<double>                      nodal_gradients; ///< [q][a][k]
-    /// for hexahedra
-    const dealii::FE_DGQ<dim>              constants{0};
-    std::unique_ptr<dealii::FEValues<dim>> values;
+    /// Nodes of a hexahedron in lexicographic order, by component.
+    std::array<TensorArray, dim>
+    lexicographic_nodes(const Body::CellIterator &cell) const;
 
-    std::vector<Jacobian> result;
+    const HexahedralMapping   *hexahedra; ///< none for tetrahedra
+    std::vector<unsigned int>  lexicographic;
+    dealii::FullMatrix<double> line_values, line_slopes; ///< (point, node)
+
+    std::vector<Jacobian>           result;
+    std::vector<dealii::Point<dim>> points_in_space;
   };
 
   /// What to tell a user whose @p cell has a Jacobian that is not positive.

@@ -4,8 +4,7 @@
 
 #include <deal.II/base/quadrature_lib.h>
 
-#include <deal.II/lac/lapack_full_matrix.h>
-
+#include <mortise/base/lagrange.h>
 #include <mortise/operators/matrix_free_elasticity.h>
 #include <mortise/operators/tensor_kernel.h>
 
@@ -13,16 +12,6 @@
 
 namespace mortise
 {
-  /// Values at @p to of the Lagrange polynomials on @p from: entry (to, from).
-  dealii::FullMatrix<double>
-  lagrange_values(const dealii::Quadrature<1> &from,
-                  const dealii::Quadrature<1> &to);
-
-  /// Derivatives.
-  dealii::FullMatrix<double>
-  lagrange_derivatives(const dealii::Quadrature<1> &from,
-                       const dealii::Quadrature<1> &to);
-
   template <typename Number>
   class MatrixFreeElasticity<Number>::Kernel
   {
@@ -62,6 +51,15 @@ namespace mortise
       derivative  = Antisymmetric(derivatives);
       transposed.copy_transposed(derivatives);
       derivative_transposed = Antisymmetric(transposed);
+      const dealii::FullMatrix<double> slopes =
+        lagrange_derivatives(nodes, points);
+      for (unsigned int q = 0; q < n; ++q)
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            squares[0][q][k] = values(q, k) * values(q, k);
+            squares[1][q][k] = values(q, k) * slopes(q, k);
+            squares[2][q][k] = slopes(q, k) * slopes(q, k);
+          }
       const dealii::QGauss<dim> all(n);
       for (unsigned int q = 0; q < N; ++q)
         root_weights[q] = std::sqrt(all.weight(q));
@@ -210,16 +208,10 @@ namespace mortise
     void
     contract(const unsigned int i, const unsigned int j, V *a, V *result) const
     {
-      const dealii::QGaussLobatto<1>   nodes(n);
-      const dealii::QGauss<1>          points(n);
-      const dealii::FullMatrix<double> values = lagrange_values(nodes, points),
-                                       derivatives =
-                                         lagrange_derivatives(nodes, points);
       int stride = 1;
       for (unsigned int d = 0; d < dim; ++d, stride *= n)
         {
-          const auto &X = i == d ? derivatives : values;
-          const auto &Y = j == d ? derivatives : values;
+          const Number(&XY)[n][n] = squares[(i == d) + (j == d)];
           for (int line = 0; line < n * n; ++line)
             {
               V *first = a + (line / stride) * stride * n + line % stride;
@@ -228,7 +220,7 @@ namespace mortise
                 {
                   out[k] = V{};
                   for (int q = 0; q < n; ++q)
-                    out[k] += Number(X(q, k) * Y(q, k)) * first[q * stride];
+                    out[k] += XY[q][k] * first[q * stride];
                 }
               for (int k = 0; k < n; ++k)
                 first[k * stride] = out[k];
@@ -238,8 +230,10 @@ namespace mortise
         result[k] += a[k];
     }
 
-    Line                          to_points, from_points;
-    Antisymmetric                 derivative, derivative_transposed;
+    Line          to_points, from_points;
+    Antisymmetric derivative, derivative_transposed;
+    /// N N, N N' and N' N' of one direction, [point][node].
+    Number                        squares[3][n][n];
     Number                        root_weights[N];
     dealii::AlignedVector<Number> scratch;
   };

@@ -23,10 +23,14 @@ namespace mortise
   /// partners have; the same for each component.
   struct NodalPenalty
   {
-    std::vector<unsigned int> rows; ///< place of the first component
-    std::vector<unsigned int> begin;
-    std::vector<unsigned int> columns; ///< places of first components
-    std::vector<double>       values;
+    /// Nodes that couple with the same others, as those inside a face do.
+    struct Group
+    {
+      std::vector<unsigned int> rows;    ///< places of first components
+      std::vector<unsigned int> columns; ///< places of first components
+      std::vector<double>       values;  ///< row by row
+    };
+    std::vector<Group> groups;
   };
 
   struct NodalLevel
@@ -97,6 +101,10 @@ namespace mortise
   private:
     const NodalLevel                  &level;
     const MatrixFreeElasticity<Number> stiffness;
-    std::vector<Number>                penalty; ///< values
+    void
+    add_penalty(const Number *src, Number *dst) const;
+
+    dealii::AlignedVector<Number>         penalty; ///< of all groups
+    mutable dealii::AlignedVector<Number> workspace;
   };
 } // namespace mortise

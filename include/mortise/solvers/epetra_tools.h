@@ -48,6 +48,13 @@ namespace mortise
     return const_cast<Epetra_FEVector &>(v.trilinos_vector());
   }
 
+  /// A view of it.
+  inline Epetra_Vector
+  epetra_view(Vector &v)
+  {
+    return Epetra_Vector(View, v.trilinos_partitioner(), v.begin());
+  }
+
   /// The transposed matrix with its rows on @p rows. Collective.
   std::unique_ptr<Epetra_CrsMatrix>
   transpose(const Epetra_CrsMatrix &matrix, const Epetra_Map &rows);

@@ -1,0 +1,43 @@
+// A displacement and its gradient at the quadrature points of cells, by sum
+// factorisation on hexahedra. It never integrates and never writes.
+#pragma once
+
+#include <mortise/operators/cell_geometry.h>
+#include <mortise/output/cell_values.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  class CellFields
+  {
+  public:
+    /// Gauss rules with @p extra_points more per direction than the degree. The
+    /// body is kept by reference.
+    CellFields(const Body &body, unsigned int extra_points);
+    ~CellFields();
+
+    /// Evaluate @p displacement on @p cell: fills the members below.
+    void
+    reinit(const Body::CellIterator &cell, const BodyVector &displacement);
+
+    std::vector<dealii::Point<dim>>     points;
+    std::vector<double>                 weights; ///< JxW
+    std::vector<dealii::Tensor<1, dim>> values;
+    std::vector<dealii::Tensor<2, dim>> gradients; ///< du_c/dx_e as [c][e]
+
+  private:
+    struct Hexahedra; ///< of one degree
+
+    void
+    evaluate_hexahedron(const Body::CellIterator &cell,
+                        const BodyVector         &displacement);
+
+    const Body                                        &body;
+    const unsigned int                                 extra_points;
+    std::map<unsigned int, std::unique_ptr<Hexahedra>> hexahedra;
+    ValuesByElement<dealii::FEValues<dim>>             tetrahedra;
+  };
+} // namespace mortise
