@@ -1,13 +1,16 @@
-/* What each rank sends, receives and computes in each stage of a program that announces its stages
-   by MPI_Pcontrol(1, "name"): a library between the program and MPI, for tests/benchmarks/scaling.py.
+/* What each rank sends, receives and computes in each stage of a program that
+   announces its stages by MPI_Pcontrol(1, "name"): a library between the
+   program and MPI, for tests/benchmarks/scaling.py.
 
    mpicc -O2 -shared -fPIC -o mpi_counts.so mpi_counts.c
-   MPI_COUNTS=DIRECTORY mpirun -n 8 -x LD_PRELOAD=./mpi_counts.so -x MPI_COUNTS program
+   MPI_COUNTS=DIRECTORY mpirun -n 8 -x LD_PRELOAD=./mpi_counts.so -x MPI_COUNTS
+   program
 
-   At MPI_Finalize rank r writes DIRECTORY/r.csv with one line per stage. Calls from C and those from
-   Fortran that MUMPS makes are counted; persistent communication ends the program, so that
-   it is not missed in silence; one-sided communication is not looked for. CPU time is that outside of MPI, where ranks that
-   share a core only wait. */
+   At MPI_Finalize rank r writes DIRECTORY/r.csv with one line per stage. Calls
+   from C and those from Fortran that MUMPS makes are counted; persistent
+   communication ends the program, so that it is not missed in silence;
+   one-sided communication is not looked for. CPU time is that outside of MPI,
+   where ranks that share a core only wait. */
 #define _GNU_SOURCE
 #include <mpi.h>
 #include <stdarg.h>
@@ -17,7 +20,10 @@
 #include <sys/resource.h>
 #include <time.h>
 
-enum { max_stages = 64 };
+enum
+{
+  max_stages = 64
+};
 
 struct Stage
 {
@@ -26,7 +32,7 @@ struct Stage
   double *messages_to, *bytes_to;        /* the same by rank of the world */
   double  collectives, collective_bytes; /* given and got by this rank */
   double  cpu, wall, wall_mpi;           /* cpu: outside of MPI */
-  long    peak_kib;                      /* of the process when the stage was left last */
+  long    peak_kib; /* of the process when the stage was left last */
 };
 
 static struct Stage stages[max_stages];
@@ -54,7 +60,8 @@ leave_stage(void)
 static void
 enter_stage(const char *name)
 {
-  for (current = 0; current < n_stages && strcmp(stages[current].name, name) != 0;)
+  for (current = 0;
+       current < n_stages && strcmp(stages[current].name, name) != 0;)
     ++current;
   if (current == max_stages)
     PMPI_Abort(MPI_COMM_WORLD, 1);
@@ -175,6 +182,7 @@ total(const int *counts, MPI_Comm comm)
   return sum;
 }
 
+/* clang-format off */
 /* One C call: its declaration, its arguments, what is counted before it. */
 #define WRAP(name, declaration, arguments, count) \
   int MPI_##name declaration                      \
@@ -279,15 +287,23 @@ FORTRAN(comm_dup, (Int *c, Int *d, Int *e), (c, d, e), collective(4))
 FORTRAN(comm_split, (Int *c, Int *color, Int *key, Int *d, Int *e), (c, color, key, d, e), collective(8. * size(COMM)))
 FORTRAN(comm_free, (Int *c, Int *e), (c, e), collective(0))
 
-/* Not counted: so it had better not happen. */
-static int
-refuse(const char *name)
+  /* clang-format on */
+  /* Not counted: so it had better not happen. */
+  static int refuse(const char *name)
 {
   fprintf(stderr, "mpi_counts: %s is not counted\n", name);
   return PMPI_Abort(MPI_COMM_WORLD, 1);
 }
-int MPI_Start(MPI_Request *r) { return refuse("MPI_Start"), (void)r, 1; }
-int MPI_Startall(int n, MPI_Request r[]) { return refuse("MPI_Startall"), (void)n, (void)r, 1; }
+int
+MPI_Start(MPI_Request *r)
+{
+  return refuse("MPI_Start"), (void)r, 1;
+}
+int
+MPI_Startall(int n, MPI_Request r[])
+{
+  return refuse("MPI_Startall"), (void)n, (void)r, 1;
+}
 
 /* Sums of what all ranks sent to this one. */
 static void
@@ -317,7 +333,9 @@ MPI_Finalize(void)
   snprintf(path, sizeof path, "%s/%d.csv", directory ? directory : ".", rank);
   FILE *file = fopen(path, "w");
   if (file)
-    fprintf(file, "rank,stage,sent,bytes_sent,received,bytes_received,partners,collectives,collective_bytes,cpu,wall,wall_mpi,peak_kib\n");
+    fprintf(
+      file,
+      "rank,stage,sent,bytes_sent,received,bytes_received,partners,collectives,collective_bytes,cpu,wall,wall_mpi,peak_kib\n");
   for (int i = 0; i < n_stages; ++i)
     {
       const struct Stage *s = &stages[i];
@@ -326,8 +344,21 @@ MPI_Finalize(void)
       received(s->bytes_to, &bytes, &unused);
       received(s->messages_to, &messages, &partners);
       if (file)
-        fprintf(file, "%d,%s,%.0f,%.0f,%.0f,%.0f,%d,%.0f,%.0f,%.6f,%.6f,%.6f,%ld\n", rank, s->name, s->sent, s->bytes_sent, messages,
-                bytes, partners, s->collectives, s->collective_bytes, s->cpu, s->wall, s->wall_mpi, s->peak_kib);
+        fprintf(file,
+                "%d,%s,%.0f,%.0f,%.0f,%.0f,%d,%.0f,%.0f,%.6f,%.6f,%.6f,%ld\n",
+                rank,
+                s->name,
+                s->sent,
+                s->bytes_sent,
+                messages,
+                bytes,
+                partners,
+                s->collectives,
+                s->collective_bytes,
+                s->cpu,
+                s->wall,
+                s->wall_mpi,
+                s->peak_kib);
     }
   if (file)
     fclose(file);

@@ -28,7 +28,7 @@ STUDIES = {"strong": (("p4", (1, 2)), ("p2", (1, 2))), "weak": (("p4 half", (1,)
            "counts": (("p4 small", (1, 2, 4, 8, 16, 32, 64)), ("p2 small", (1, 2, 4, 8, 16, 32, 64)),
                       ("p4 large", (1, 4, 16, 64)), ("p2 large", (1, 4, 16, 64)))}
 REPEATS = {"strong": 5, "weak": 5, "counts": 1}
-QUIET, PATIENCE = 0.1, 8  # cores that others may take during a run that is timed; runs until the best of them have to do
+SLACK, PATIENCE = 0.1, 8  # cores that others may take from a run that is timed; runs until the best of them have to do
 COLUMNS = ("sent", "received", "bytes_sent", "bytes_received", "partners", "collectives", "collective_bytes", "cpu",
            "wall", "wall_mpi", "peak_kib")
 
@@ -48,12 +48,17 @@ def busy():
     return (sum(ticks) - ticks[3] - ticks[4]) / os.sysconf("SC_CLK_TCK"), children.ru_utime + children.ru_stime
 
 
-def wait_for_quiet(limit=60):
-    """Until others have left the cores alone for two seconds, or for so many seconds."""
+def is_quiet(others, ranks):
+    """Do others on so many cores leave a core for each rank?"""
+    return others <= max(os.cpu_count() - ranks, 0) + SLACK
+
+
+def wait_for_quiet(ranks, limit=60):
+    """Until it has been quiet for two seconds, or for so many seconds."""
     for _ in range(limit // 2):
         before = busy()[0]
         time.sleep(2)
-        if busy()[0] - before < 2 * QUIET:
+        if is_quiet((busy()[0] - before) / 2, ranks):
             return
 
 
@@ -85,13 +90,14 @@ def run(mortise, library, scene, ranks):
             return json.load(file), {name: np.array(values) for name, values in stages.items()}, others
 
 
-def rows_of(study, scene, ranks, summary, stages):
+def rows_of(study, scene, ranks, summary, stages, others):
     """One row per stage: the largest over the ranks and the mean."""
     step = summary["steps"][-1]
     cells = [i for i in summary.get("integration_cells_per_rank", {}).values()]
     whole = {"study": study, "scene": scene, "dofs": step["dofs"]["total"],
              "multipliers": step["dofs"]["multiplier"], "ranks": ranks, "iterations": step["solver"]["iterations"],
-             "cells_over_mean": max([i["largest"] / i["mean"] for i in cells], default=1.)}
+             "cells_over_mean": max([i["largest"] / i["mean"] for i in cells], default=1.),
+             "others": round(others, 3)}
     for name, values in stages.items():
         column = dict(zip(COLUMNS, values.T))
         both = {"messages": np.maximum(column["sent"], column["received"]),
@@ -114,17 +120,17 @@ def measure(mortise, library, study):
     """Medians over the repetitions, which go through all cases in turn until each has enough quiet runs; of a
     case that never has, the least disturbed ones. After each run: the rows so far."""
     cases = {(scene, ranks): [] for scene, all_ranks in STUDIES[study] for ranks in all_ranks}
-    enough = lambda runs: len(runs) >= PATIENCE or sum(others <= QUIET for others, _ in runs) >= REPEATS[study]
+    enough = lambda ranks, runs: len(runs) >= PATIENCE or sum(is_quiet(others, ranks) for others, _ in runs) >= REPEATS[study]
     if study == "counts":
-        enough = lambda runs: len(runs) >= REPEATS[study]
-    while not all(map(enough, cases.values())):
+        enough = lambda ranks, runs: len(runs) >= REPEATS[study]
+    while not all(enough(ranks, runs) for (_, ranks), runs in cases.items()):
         for (scene, ranks), runs in cases.items():
-            if enough(runs):
+            if enough(ranks, runs):
                 continue
             if study != "counts":
-                wait_for_quiet()
+                wait_for_quiet(ranks)
             summary, stages, others = run(mortise, library, scene, ranks)
-            runs.append((others, list(rows_of(study, scene, ranks, summary, stages))))
+            runs.append((others, list(rows_of(study, scene, ranks, summary, stages, others))))
             print(study, scene, ranks, f"{others:.2f}", f"{sum(s[:, COLUMNS.index('wall')].max() for s in stages.values()):.2f}", flush=True)
             kept = [[rows for _, rows in sorted(runs, key=lambda r: r[0])[:REPEATS[study]]] for runs in cases.values() if runs]
             yield [median(of_stage) for runs_of_case in kept for of_stage in zip(*runs_of_case)]
@@ -144,7 +150,7 @@ def read():
 
 def write(rows):
     with open(CSV, "w") as file:
-        table = csv.DictWriter(file, rows[0].keys())
+        table = csv.DictWriter(file, {key: None for row in rows for key in row})
         table.writeheader()
         table.writerows({k: v if isinstance(v, str) else f"{v:.6g}" for k, v in row.items()} for row in rows)
 

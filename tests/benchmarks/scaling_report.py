@@ -111,6 +111,13 @@ def strong_tables(rows):
             lines.append([s, *ratios(x)])
         yield from table(["stage", "s, 1 rank", "s, 2 ranks", "ratio", "work, 1 rank", "work, 2 ranks", "ratio"],
                          lines + [["all", *ratios(totals)]])
+        yield disturbance(case)
+
+
+def disturbance(case):
+    """How much others took of the cores meanwhile."""
+    parts = [f"{r['others']:.2f} on {r['ranks']:.0f}" for r in pick(case, stage="solve") if r.get("others", "") != ""]
+    return "Cores that others took meanwhile, with ranks: " + ", ".join(parts) + ".\n" if parts else ""
 
 
 def ratios(x):
@@ -129,6 +136,7 @@ def weak_table(rows):
         lines.append([s, *ratios(x)])
     yield f"{one(case, ranks=1, stage='solve')['dofs']:,.0f} dofs on one rank, {one(case, ranks=2, stage='solve')['dofs']:,.0f} on two; seconds of the first times {1 / half:.3f}, so that 1 is ideal.\n"
     yield from table(["stage", "s, 1 rank", "s, 2 ranks", "ratio", "work, 1 rank", "work, 2 ranks", "ratio"], lines + [["all", *ratios(totals)]])
+    yield disturbance(case)
 
 
 def count_tables(rows):
