@@ -44,6 +44,32 @@ namespace mortise
   }
 
   void
+  Simulation::summarise_interface(const unsigned int i)
+  {
+    const InterfaceReport &report = couplings[i].interface->report();
+    const TransferErrors   errors =
+      transfer_errors(couplings[i], system.owned_multiplier, comm);
+    InterfaceSummary result;
+    result.name              = couplings[i].interface->name();
+    result.slave_faces       = report.slave_faces;
+    result.master_faces      = report.master_faces;
+    result.candidate_pairs   = report.candidate_pairs;
+    result.pairs             = report.pairs;
+    result.integration_cells = report.integration_cells;
+    summary.balance.push_back({result.name,
+                               report.largest_integration_cells,
+                               double(report.integration_cells) /
+                                 Utilities::MPI::n_mpi_processes(comm)});
+    result.quadrature_points         = report.quadrature_points;
+    result.slave_area                = report.slave_area;
+    result.covered_area              = report.covered_area;
+    result.worst_face_coverage_error = report.worst_face_error;
+    result.partition_of_unity_error  = errors.partition_of_unity;
+    result.linear_completeness_error = errors.linear_completeness;
+    summary.steps.back().interfaces.push_back(result);
+  }
+
+  void
   Simulation::postprocess()
   {
     auto         stage = log.stage(timers, "postprocess");

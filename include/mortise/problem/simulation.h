@@ -49,6 +49,9 @@ namespace mortise
   private:
     void
     create_spaces();
+    /// Choose the method, and the nodal spaces if it works without a matrix.
+    void
+    choose_method(unsigned int max_degree);
     void
     find_pairs();
     void
