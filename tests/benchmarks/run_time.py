@@ -31,23 +31,25 @@ COUPLING = STAGES[1:4]
 MEDIANS = ("seconds", "process", "memory_mib")
 KEYS = ("program", "scene", "cells", "degree", "mesh", "cores")
 # Subdivisions inner : outer by degree; those of 1 : 2 cells across nest, as the peers' smallest do
-TIED = {1: ("8,4:12,6",), 2: ("4,2:6,3", "7,4:8,4", "14,7:21,10"), 3: ("1,1:2,1", "2,2:1,1", "2,2:3,1"),
+TIED = {2: ("4,2:6,3", "7,4:8,4", "14,7:21,10"), 3: ("1,1:2,1", "2,2:1,1", "2,2:3,1"),
         4: ("1,1:2,1", "1,2:2,1", "2,2:3,1", "9,5:10,5", "11,6:13,6"), 5: ("2,1:3,1", "2,2:3,1"),
         6: ("1,1:2,1", "1,2:2,1", "2,2:3,1"), 7: ("2,2:3,1",), 8: ("1,2:2,1", "2,2:3,1")}
 TIED_TETRAHEDRA = {2: ("4,2:6,3",), 3: ("2,2:3,1",), 4: ("2,2:3,1",), 5: ("1,2:2,1",), 6: ("1,2:2,1",)}
 CONFORMING = {2: ("4,4", "8,8", "19,19"), 3: ("1,3",), 4: ("1,3", "2,3", "9,10"), 5: ("2,3",), 6: ("2,3",), 7: ("2,3",), 8: ("2,3",)}
 CONFORMING_TETRAHEDRA = {4: ("2,3",)}
+CORES = {1: "one core", 2: "two cores"}
+BOTH = ("hexahedra", "tetrahedra")
 HUGE = "24,12:28,14"
 SHOWN = [("hexahedra", p, mesh) for p, mesh in ((4, "1,2:2,1"), (8, "2,2:3,1"), (2, "7,4:8,4"), (2, "14,7:21,10"), (4, "9,5:10,5"), (4, "11,6:13,6"),
          (4, HUGE))] + [("tetrahedra", 4, "2,2:3,1"), ("tetrahedra", 2, "4,2:6,3")]
-QUICK = {3: ("1,1:2,1",), 4: ("1,1:2,1",)}
 PEERS = {"NGSolve": [f"--mode {line}" for line in (
     "nitsche --elem hex --order 2 --n 4 --intorder 6", "nitsche --elem hex --order 3 --n 1 --intorder 20",
     "nitsche --elem hex --order 4 --n 1 --intorder 20", "nitsche --elem hex --order 4 --n 1 --nr 2 --intorder 10 --primary outer",
+    "nitsche --elem hex --order 4 --n 1 --nr 2 --nr2 2 --intorder 10 --primary outer",
     "nitsche --elem hex --order 5 --n 1 --nr 2 --nr2 2 --intorder 12 --primary outer",
     "nitsche --elem tet --order 5 --h 0.6 --intorder 20", "conf --elem hex --order 2 --n 8", "conf --elem hex --order 4 --n 1",
     "conf --elem hex --order 5 --n 1", "conf --elem hex --order 5 --n 1 --nr 2", "conf --elem tet --order 5 --h 0.6")],
-    "GetFEM": [f"--mode lm --elem {elem} --order 2 --n {n} --solver mumps" for elem, n in (("hex", 2), ("hex", 4), ("tet", 4), ("tet", 6))],
+    "GetFEM": [f"--mode lm --elem {elem} --order 2 --n {n} --solver mumps" for elem, n in (("hex", 2), ("tet", 4), ("tet", 6))],
     "CalculiX": [f"--method tie --elem C3D20 --m {m}" for m in (1, 2)]}
 PYTHON = {"NGSolve": "python3", "GetFEM": "/usr/bin/python3", "CalculiX": "python3"}  # GetFEM is the distribution's package
 # energy error, goal in seconds, best tie of the peers when the goals were set
@@ -153,10 +155,12 @@ def measured_rows(jobs, repeats, options, work):
     for repeat in range(3 * repeats if repeats > 1 else 1):
         random.Random(repeat).shuffle(due)
         for job in due:
-            if not repeat or time.time() < end:
+            if not repeat or time.time() < end:  # every job runs once
                 runs[id(job)].append(measure(job, options.patience, work))
         due = [job for job in due if None not in runs[id(job)] and sum(r["undisturbed"] for r in runs[id(job)]) < repeats]
         print(f"round {repeat + 1}: {len(due)} jobs want more runs", flush=True)
+        if time.time() > end:
+            break
     for job in jobs:
         found = [r for r in runs[id(job)] if r]
         counted = [r for r in found if r["undisturbed"]] or found
@@ -190,11 +194,14 @@ def fastest(rows, target, **wanted):
     return min((r for r in pick(rows, **wanted) if r["energy"] <= target), key=lambda r: r["seconds"], default=None)
 
 
+def seconds_of(row):
+    return f"{row['seconds']:.3g} [{row['least']:.3g}]" + ("" if row["undisturbed"] else " *")
+
+
 def text_of(row):
     if not row:
         return "-"
-    name = f"{row['cells'][:3]} p{row['degree']} {row['mesh']}"
-    return f"{row['seconds']:.3g} [{row['least']:.3g}], " + (name if row["program"] == "Mortise" else row["program"] + " " + name)
+    return f"{seconds_of(row)}, {'' if row['program'] == 'Mortise' else row['program'] + ' '}{row['cells'][:3]} p{row['degree']} {row['mesh']}"
 
 
 def front(rows, key):
@@ -208,15 +215,13 @@ def front(rows, key):
 
 def draw(rows, path):
     figure, axes = plot.subplots(1, 3, figsize=(17, 5.4), gridspec_kw={"width_ratios": [1, 1, 1.1]})
-    kinds = (("Mortise, tied, hexahedra", "C0", "o-", {"program": "Mortise", "scene": "tied", "cells": "hexahedra"}),
-             ("Mortise, tied, tetrahedra", "C2", "^-", {"program": "Mortise", "scene": "tied", "cells": "tetrahedra"}),
-             ("Mortise, conforming", "C7", "s--", {"program": "Mortise", "scene": "conforming"}),
-             ("NGSolve, tied", "C3", "o-", {"program": "NGSolve", "scene": "tied"}),
-             ("NGSolve, conforming", "C1", "s--", {"program": "NGSolve", "scene": "conforming"}),
-             ("GetFEM, tied", "C4", "o-", {"program": "GetFEM"}), ("CalculiX, tied (one core)", "C5", "o-", {"program": "CalculiX"}))
+    kinds = (("Mortise", "tied", "hexahedra", "C0", "o-"), ("Mortise", "tied", "tetrahedra", "C2", "^-"), ("Mortise", "conforming", BOTH, "C7", "s--"),
+             ("NGSolve", "tied", BOTH, "C3", "o-"), ("NGSolve", "conforming", BOTH, "C1", "s--"), ("GetFEM", "tied", BOTH, "C4", "o-"),
+             ("CalculiX", "tied", BOTH, "C5", "o-"))
     for axis, key, title in ((axes[0], "seconds", "solve [s]"), (axes[1], "memory_mib", "memory of all processes [MiB]")):
-        for label, color, style, wanted in kinds:
-            part = pick(rows, cores=1 if wanted["program"] == "CalculiX" else 2, **wanted)
+        for program, scene, cells, color, style in kinds:
+            part = pick(rows, program=program, scene=scene, cells=cells, cores=1 if program == "CalculiX" else 2)
+            label = f"{program}, {scene}" + (", " + cells if cells != BOTH else "") + (", one core" if program == "CalculiX" else "")
             best = front(part, key)
             axis.loglog([r["energy"] for r in best], [r[key] for r in best], style, color=color, ms=5, label=label)
             axis.loglog([r["energy"] for r in part], [r[key] for r in part], style[0], color=color, ms=3, alpha=0.5)
@@ -225,7 +230,7 @@ def draw(rows, path):
         axis.set_title(title + ", two cores", fontsize=11)
         axis.grid(True, which="major", alpha=0.4)
     axes[0].loglog([t[0] for t in TARGETS], [t[1] for t in TARGETS], "k*", ms=9, label="goals")
-    axes[0].legend(fontsize=8)
+    axes[1].legend(*axes[0].get_legend_handles_labels(), fontsize=8, loc="lower right")
     shown = sorted((r for r in pick(rows, program="Mortise", scene="tied", cores=2) if (r["cells"], r["degree"], r["mesh"]) in SHOWN), key=lambda r: r["dofs"])
     left = numpy.zeros(len(shown))
     for stage, color in zip(STAGES, plot.cm.tab10.colors):
@@ -247,7 +252,7 @@ def table(head, lines):
 def introduction(rows):
     with open("/proc/cpuinfo") as file:
         processor = next(line.split(":")[1].strip() for line in file if line.startswith("model name"))
-    undisturbed = [r["undisturbed"] for r in rows]
+    runs, disturbed = [r["runs"] for r in rows if r["mesh"] != HUGE], sum(not r["undisturbed"] for r in rows)
     return f"""# Time and memory against the error
 
 Regenerate: `tests/benchmarks/run_time.py build/mortise --peers DIRECTORY --huge` (writes this page,
@@ -258,8 +263,9 @@ Regenerate: `tests/benchmarks/run_time.py build/mortise --peers DIRECTORY --huge
 `prm/thick_sphere.prm` and its conforming twin to a residual of 1e-8, degree p, subdivisions inner : outer (1 : 2
 cells across nest, as in the peers' n 1). "Solve" is all stages but mesh, postprocess and output; of the peers the wall
 time without mesh and errors. "Process" is the whole process, start-up included. {processor}, {os.cpu_count()} cores,
-shared with other work; all programs in turn, in random order, medians of {min(r['runs'] for r in rows if r['mesh'] != HUGE)} to {max(r['runs'] for r in rows)} runs each, of those alone that other
-processes left the cores to where there are such ({sum(u > 0 for u in undisturbed)} of {len(rows)} rows). Lines of the picture join what nothing else beats.
+shared with other work: all programs in turn, in random order, {min(runs)} to {max(runs)} runs of a row. Times are median [least], the
+median over the runs that other processes left the cores to; * marks the {disturbed} of {len(rows)} rows without such a run, which
+take longer than on idle cores. Lines of the picture join what nothing else beats.
 """
 
 
@@ -274,7 +280,7 @@ def errors_reached(rows, missed):
         lines.append((f"{target:.0e}", f"{goal:g}", text_of(ours), text_of(fastest(tied, target, program="Mortise", cores=1)),
                       *(text_of(fastest(tied, target, program=peers, cores=n)) for n in (2, 1)), before))
         twins.append((f"{target:.0e}", *(text_of(fastest(conforming, target, program=p, cores=n)) for p in ("Mortise", "NGSolve") for n in (2, 1))))
-    return ("## An error\n\nTied, seconds of solve of the fastest row: median [least].\n\n" +
+    return ("## An error\n\nSeconds of solve of the fastest row, tied:\n\n" +
             table(("energy error", "goal, two cores", "Mortise, two cores", "one core", "best peer, two cores", "one core", "peer when goals were set"), lines) +
             "\nConforming:\n\n" + table(("energy error", "Mortise, two cores", "one core", "NGSolve, two cores", "one core"), twins))
 
@@ -286,11 +292,11 @@ def sizes_reached(rows, missed):
         for r in pick(found, cores=2):
             name += f" ({r['dofs']:,}, {mesh}, energy error {r['energy']:.1e})"
             if r["seconds"] > goal or memory and r["memory_mib"] > 1024 * memory:
-                missed.append(f"{name}: {r['seconds']:.3g} s, {r['memory_mib'] / 1024:.2g} GiB instead of {goal:g} s" + (f", {memory:g} GiB" if memory else ""))
-        text = [" ".join(f"{r['seconds']:.3g} s [{r['least']:.3g}], {r['memory_mib'] / 1024:.2g} GiB, process {r['process']:.3g} s"
+                missed.append(f"{name}: {seconds_of(r)}, {r['memory_mib'] / 1024:.2g} GiB instead of {goal:g} s" + (f", {memory:g} GiB" if memory else ""))
+        text = [" ".join(f"{seconds_of(r)}, {r['memory_mib'] / 1024:.2g} GiB, process {r['process']:.3g}"
                          for r in pick(found, cores=n)) or "not run" for n in (2, 1)]
         lines.append((name, f"{goal:g} s" + (f", {memory:g} GiB" if memory else ""), *text, before))
-    return "## A size\n\n" + table(("", "goal, two cores", "two cores", "one core", "peer when goals were set"), lines)
+    return "## A size\n\nSeconds of solve, peak memory of all ranks, seconds of the process:\n\n" + table(("", "goal, two cores", "two cores", "one core", "peer when goals were set"), lines)
 
 
 def per_dof(rows, missed):
@@ -303,10 +309,10 @@ def per_dof(rows, missed):
             each = [1e6 * r["seconds"] / r["dofs"] for r in pair]
             ratio, share = each[0] / each[1], sum(pair[0][s] for s in COUPLING) / pair[0]["seconds"]
             if ratio > 1.15:
-                missed.append(f"tied to conforming per dof, p = {degree}, {n} cores: {ratio:.2f} instead of 1.15")
+                missed.append(f"tied to conforming per dof, p = {degree}, {CORES[n]}: {ratio:.2f} instead of 1.15")
             if share > 0.1:
-                missed.append(f"share of the coupling, p = {degree}, {n} cores: {share:.0%} instead of 10 %")
-            lines.append((str(degree), str(n), *(f"{r['dofs']:,} ({r['mesh']}), {e:.2f}, {r['iterations']} iterations" for r, e in zip(pair, each)),
+                missed.append(f"share of the coupling, p = {degree}, {CORES[n]}: {share:.0%} instead of 10 %")
+            lines.append((str(degree), CORES[n], *(f"{r['dofs']:,} ({r['mesh']}), {e:.2f}{'' if r['undisturbed'] else ' *'}, {r['iterations']} iterations" for r, e in zip(pair, each)),
                           f"{ratio:.2f}", f"{share:.1%}"))
     return ("## Tied beside conforming, about 500,000 dofs\n\nMicroseconds of solve per dof. Goals: ratio 1.15, coupling "
             "(search, clipping, its matrices) 10 % of solve.\n\n" +
@@ -321,13 +327,12 @@ def report(rows):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("mortise", help="the program")
+    parser.add_argument("mortise", nargs="?", help="the program")
     parser.add_argument("--peers", help="directory of the peers' scripts")
     parser.add_argument("--repeats", type=int, default=5)
     parser.add_argument("--minutes", type=float, default=60, help="after which no run is repeated any more")
     parser.add_argument("--patience", type=float, default=10, help="seconds to wait for idle cores before a run")
     parser.add_argument("--huge", action="store_true", help="10 million dofs, once on two cores (16 GiB)")
-    parser.add_argument("--quick", action="store_true", help="two small meshes only")
     parser.add_argument("--report", action="store_true", help="page and picture again from doc/run_time.csv")
     options = parser.parse_args()
     path = os.path.join(TOP, "doc", "run_time.csv")
@@ -335,7 +340,7 @@ def main():
         rows = read_csv(path)
     else:
         mortise = os.path.abspath(options.mortise)
-        cases = [("tied", "hexahedra", QUICK)] if options.quick else [
+        cases = [
             ("tied", "hexahedra", TIED), ("tied", "tetrahedra", TIED_TETRAHEDRA),
             ("conforming", "hexahedra", CONFORMING), ("conforming", "tetrahedra", CONFORMING_TETRAHEDRA)]
         with tempfile.TemporaryDirectory() as work:
@@ -345,7 +350,7 @@ def main():
                 os.mkdir(os.path.join(scripts, "runs"))  # where calculix_sphere.py writes
                 for program, lines in PEERS.items():
                     if installed(program):
-                        jobs += jobs_of_peer(program, lines[:1] if options.quick else lines, scripts)
+                        jobs += jobs_of_peer(program, lines, scripts)
             rows = list(measured_rows(jobs, options.repeats, options, work))
             if options.huge:
                 rows += measured_rows(list(jobs_of_mortise(mortise, "tied", "hexahedra", {4: (HUGE,)}, (2,))), 1, options, work)
