@@ -45,7 +45,7 @@ def both(mortise, settings, scene="thick_sphere", ranks=1):
 
 
 def table(title, columns, rows):
-    yield f"\n{title}\n\n| " + " | ".join(columns) + " |\n|" + "---|" * len(columns)
+    yield f"\n{title}\n\n| " + " | ".join(map(str, columns)) + " |\n|" + "---|" * len(columns)
     for row in rows:
         yield "| " + " | ".join(str(entry) for entry in row) + " |"
 
