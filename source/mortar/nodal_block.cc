@@ -1,3 +1,4 @@
+#include <mortise/base/tensor_product.h>
 #include <mortise/body/nodal_space.h>
 #include <mortise/mortar/nodal_block.h>
 
@@ -31,14 +32,6 @@ namespace mortise
             if (modes(k, l) != 0.)
               for (unsigned int j = 0; j < A.n(); ++j)
                 result(i + n * l, j) += modes(k, l) * half(i + n * k, j);
-      return result;
-    }
-
-    FullMatrix<double>
-    transposed(const FullMatrix<double> &A)
-    {
-      FullMatrix<double> result(A.n(), A.m());
-      result.copy_transposed(A);
       return result;
     }
   } // namespace

@@ -122,10 +122,7 @@ namespace mortise
           for (unsigned int a = 0; a < dim; ++a)
             {
               const auto slope =
-                apply_product(a == 0 ? line_slopes : line_values,
-                              a == 1 ? line_slopes : line_values,
-                              a == 2 ? line_slopes : line_values,
-                              nodes[c]);
+                apply_derivative(line_values, line_slopes, a, nodes[c]);
               for (unsigned int q = 0; q < result.size(); ++q)
                 result[q][a][c] = slope.values[q];
             }

@@ -37,10 +37,8 @@ namespace mortise
     {
       const FullMatrix<double> values =
         lagrange_values(QGaussLobatto<1>(m), QGaussLobatto<1>(n));
-      FullMatrix<double> transposed(m, n);
-      transposed.copy_transposed(values);
       up   = LineMatrix<Number, n, m>(values);
-      down = LineMatrix<Number, m, n>(transposed);
+      down = LineMatrix<Number, m, n>(transposed(values));
     }
 
     void
@@ -49,7 +47,7 @@ namespace mortise
                Number                    *fine,
                const Number              *coarse) const override
     {
-      V u[dim * N], a[dim * M], b[n * n * m];
+      V u[dim * N], a[dim * M], b[n * m * m], d[n * n * m];
       for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
         {
           gather<M>(coarse,
@@ -57,13 +55,14 @@ namespace mortise
                     a);
           for (unsigned int c = 0; c < dim; ++c)
             {
-              V *fine_c = u + c * N;
-              // n x m x m stands in the result's place meanwhile
-              apply_along<0, false, m, m, m>(up, a + c * M, fine_c, n);
-              rows(fine_c, b);
-              planes(b, fine_c);
+              apply_along<0, false, m, m, m>(up, a + c * M, b);
+              apply_along<1, false, n, m, m>(up, b, d);
+              apply_along<2, false, n, n, m>(up, d, u + c * N);
             }
-          add_real_lanes(fine_cells, batch, u, fine);
+          clear_idle_lanes(fine_cells, batch, u);
+          scatter_add<N>(u,
+                         &fine_cells.nodes[std::size_t(batch) * N * width],
+                         fine);
         }
     }
 
@@ -80,15 +79,9 @@ namespace mortise
           clear_idle_lanes(fine_cells, batch, u);
           for (unsigned int c = 0; c < dim; ++c)
             {
-              const V *fine_c = u + c * N;
-              for (int l = 0; l < n * n; ++l)
-                down.template apply<n * n, n * n, false>(fine_c + l, b + l);
-              for (int k = 0; k < m; ++k)
-                for (int i = 0; i < n; ++i)
-                  down.template apply<n, n, false>(b + k * n * n + i,
-                                                   d + k * n * m + i);
-              for (int l = 0; l < m * m; ++l)
-                down.template apply<1, 1, false>(d + l * n, a + c * M + l * m);
+              apply_along<2, false, n, n, n>(down, u + c * N, b);
+              apply_along<1, false, n, n, m>(down, b, d);
+              apply_along<0, false, n, m, m>(down, d, a + c * M);
             }
           scatter_add<M>(a,
                          &coarse_cells.nodes[std::size_t(batch) * M * width],
@@ -97,44 +90,12 @@ namespace mortise
     }
 
   private:
-    void
-    rows(const V *in, V *out) const
-    {
-      for (int k = 0; k < m; ++k)
-        for (int i = 0; i < n; ++i)
-          up.template apply<n, n, false>(in + k * n * m + i,
-                                         out + k * n * n + i);
-    }
-
-    void
-    planes(const V *in, V *out) const
-    {
-      for (int l = 0; l < n * n; ++l)
-        up.template apply<n * n, n * n, false>(in + l, out + l);
-    }
-
-    static int
-    n_lanes(const CellBatches<Number> &cells, const unsigned int batch)
-    {
-      return cells.lanes(batch);
-    }
-
-    static void
-    add_real_lanes(const CellBatches<Number> &cells,
-                   const unsigned int         batch,
-                   V                         *u,
-                   Number                    *fine)
-    {
-      clear_idle_lanes(cells, batch, u);
-      scatter_add<N>(u, &cells.nodes[std::size_t(batch) * N * width], fine);
-    }
-
     static void
     clear_idle_lanes(const CellBatches<Number> &cells,
                      const unsigned int         batch,
                      V                         *u)
     {
-      for (int l = n_lanes(cells, batch); l < width; ++l)
+      for (int l = cells.lanes(batch); l < width; ++l)
         for (unsigned int i = 0; i < dim * N; ++i)
           u[i][l] = 0;
     }

@@ -156,6 +156,17 @@ namespace mortise
             }
     }
 
+    void
+    compute_load(const Body::CellIterator &cell,
+                 const Loads              &loads,
+                 LoadKernel               &kernel)
+    {
+      kernel.load = 0.;
+      if (loads.body_force)
+        add_body_force(cell, loads, kernel);
+      add_tractions(cell, loads, kernel);
+    }
+
     /// Eliminate the interior of the cell and add the rest. Its own rows keep a
     /// diagonal of the same size and couple with nothing.
     void
@@ -202,10 +213,7 @@ namespace mortise
               tangled = tangled_message(body, cell);
               break;
             }
-          kernel->load = 0.;
-          if (loads.body_force)
-            add_body_force(cell, loads, *kernel);
-          add_tractions(cell, loads, *kernel);
+          compute_load(cell, loads, *kernel);
           add_condensed(*kernel,
                         scene_dofs(body, cell, numbering),
                         interiors,
@@ -231,10 +239,7 @@ namespace mortise
           auto &kernel = kernels[cell->active_fe_index()];
           if (!kernel)
             kernel = std::make_unique<LoadKernel>(body, cell->get_fe());
-          kernel->load = 0.;
-          if (loads.body_force)
-            add_body_force(cell, loads, *kernel);
-          add_tractions(cell, loads, *kernel);
+          compute_load(cell, loads, *kernel);
           visit(cell, kernel->load);
         }
   }

@@ -49,7 +49,6 @@ namespace mortise
         , quadrature(space.degree(body.index) + 1)
         , geometry(body, ReferenceCells::Hexahedron, quadrature)
       {
-        batches.body   = body.index;
         batches.degree = space.degree(body.index);
         batches.lambda = body.material.lame_lambda();
         batches.mu     = body.material.lame_mu();
@@ -200,17 +199,6 @@ namespace mortise
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
       kernels[b]->add_diagonal(bodies[b], dst);
-  }
-
-  template <typename Number>
-  std::size_t
-  MatrixFreeElasticity<Number>::memory_consumption() const
-  {
-    std::size_t bytes = 0;
-    for (const auto &body : bodies)
-      bytes +=
-        body.nodes.memory_consumption() + body.metric.memory_consumption();
-    return bytes;
   }
 
   template <typename Number>

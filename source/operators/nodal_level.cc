@@ -45,45 +45,40 @@ namespace mortise
     {
       std::vector<char>                    held(layout.locally_owned_size());
       std::vector<types::global_dof_index> dofs;
-      std::vector<NodalSpace::Index>       nodes;
-      for (const Body *body : space.bodies())
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              const auto        &fe = cell->get_fe();
-              const unsigned int p = fe.degree, q = space.degree(body->index);
-              dofs.resize(fe.n_dofs_per_cell());
-              cell->get_dof_indices(dofs);
-              space.get_nodes(body->index, cell, nodes);
-              // an entity is held as a whole: look at its first mode
-              const auto copy = [&](const unsigned int mode,
-                                    const unsigned int node,
-                                    const unsigned int n) {
-                for (unsigned int c = 0; c < dim; ++c)
-                  if (constraints.is_constrained(
-                        numbering(body->index,
-                                  dofs[fe.component_to_system_index(c, mode)])))
-                    for (unsigned int i = node; i < node + n; ++i)
-                      if (const auto index = dim * nodes[i] + c;
-                          layout.in_local_range(index))
-                        held[layout.global_to_local(index)] = true;
-              };
-              unsigned int mode = 0, node = 0;
-              const auto   advance = [&](const unsigned int n_entities,
-                                       const unsigned int n_modes,
-                                       const unsigned int n_nodes) {
-                for (unsigned int e = 0; e < n_entities; ++e)
-                  {
-                    if (n_nodes > 0)
-                      copy(mode, node, n_nodes);
-                    mode += n_modes;
-                    node += n_nodes;
-                  }
-              };
-              advance(8, 1, 1);
-              advance(12, p - 1, q - 1);
-              advance(6, (p - 1) * (p - 1), (q - 1) * (q - 1));
-            }
+      space.for_each_cell(
+        [&](const Body &body, const auto &cell, const auto &nodes) {
+          const auto        &fe = cell->get_fe();
+          const unsigned int p = fe.degree, q = space.degree(body.index);
+          dofs.resize(fe.n_dofs_per_cell());
+          cell->get_dof_indices(dofs);
+          // an entity is held as a whole: look at its first mode
+          const auto copy = [&](const unsigned int mode,
+                                const unsigned int node,
+                                const unsigned int n) {
+            for (unsigned int c = 0; c < dim; ++c)
+              if (constraints.is_constrained(numbering(
+                    body.index, dofs[fe.component_to_system_index(c, mode)])))
+                for (unsigned int i = node; i < node + n; ++i)
+                  if (const auto index = dim * nodes[i] + c;
+                      layout.in_local_range(index))
+                    held[layout.global_to_local(index)] = true;
+          };
+          unsigned int mode = 0, node = 0;
+          const auto   advance = [&](const unsigned int n_entities,
+                                   const unsigned int n_modes,
+                                   const unsigned int n_nodes) {
+            for (unsigned int e = 0; e < n_entities; ++e)
+              {
+                if (n_nodes > 0)
+                  copy(mode, node, n_nodes);
+                mode += n_modes;
+                node += n_nodes;
+              }
+          };
+          advance(8, 1, 1);
+          advance(12, p - 1, q - 1);
+          advance(6, (p - 1) * (p - 1), (q - 1) * (q - 1));
+        });
       std::vector<unsigned int> places;
       for (unsigned int i = 0; i < held.size(); ++i)
         if (held[i])

@@ -10,14 +10,6 @@ namespace mortise
 
   namespace
   {
-    FullMatrix<double>
-    transposed(const FullMatrix<double> &matrix)
-    {
-      FullMatrix<double> result(matrix.n(), matrix.m());
-      result.copy_transposed(matrix);
-      return result;
-    }
-
     /// One component on one cell, in the order of cell_dof_indices(), times a
     /// matrix along each direction.
     void
@@ -29,13 +21,14 @@ namespace mortise
           .values;
     }
 
-    /// What a cell of one degree needs to go from one basis to the other.
+    /// What the cells of one body need to go from one basis to the other.
     struct CellOrder
     {
-      CellOrder(const FiniteElement<dim> &system)
-        : scalar(cell_dof_indices(system.degree))
+      explicit CellOrder(const Body &body)
+        : scalar(cell_dof_indices(body.max_degree()))
         , values(scalar.size())
       {
+        const auto &system = body.fe[body.fe.size() - 1];
         for (unsigned int c = 0; c < dim; ++c)
           for (const unsigned int i : scalar)
             modes[c].push_back(system.component_to_system_index(c, i));
@@ -45,6 +38,16 @@ namespace mortise
       std::array<std::vector<unsigned int>, dim> modes;
       std::vector<double>                        values;
     };
+
+    /// By body.
+    std::vector<CellOrder>
+    cell_orders(const NodalSpace &space)
+    {
+      std::vector<CellOrder> orders;
+      for (const Body *body : space.bodies())
+        orders.emplace_back(*body);
+      return orders;
+    }
   } // namespace
 
   NodalSystem::NodalSystem(NodalSpaces    spaces,
@@ -66,6 +69,7 @@ namespace mortise
       std::make_unique<LevelOperator<double>>(all_levels.front(), false);
     stiffness->initialize(in);
     stiffness->initialize(out);
+    stiffness->diagonal(stiffness_diagonal);
   }
 
   void
@@ -75,13 +79,6 @@ namespace mortise
     stiffness->clear_held(in);
     stiffness->vmult(out, in);
     std::copy_n(out.begin(), out.locally_owned_size(), dst.begin());
-  }
-
-  void
-  NodalSystem::diagonal(double *owned) const
-  {
-    stiffness->diagonal(out);
-    std::copy_n(out.begin(), out.locally_owned_size(), owned);
   }
 
   void
@@ -95,7 +92,7 @@ namespace mortise
     std::vector<NodalSpace::Index> nodes;
     for (const Body *body : level.space->bodies())
       {
-        CellOrder                order(body->fe[body->fe.size() - 1]);
+        CellOrder                order(*body);
         const FullMatrix<double> to_nodes =
           transposed(nodes_to_modes(body->max_degree()));
         for_each_loaded_cell(
@@ -133,39 +130,33 @@ namespace mortise
       return;
     // The function with these coefficients and zero for all others. What it is
     // at a node follows from the entity that has the node, so all cells agree.
-    in = 0.;
+    in                                          = 0.;
+    auto                                 orders = cell_orders(*level.space);
     std::vector<types::global_dof_index> dofs;
-    std::vector<NodalSpace::Index>       nodes;
-    for (const Body *body : level.space->bodies())
-      {
-        CellOrder                 order(body->fe[body->fe.size() - 1]);
-        const FullMatrix<double> &matrix = modes_to_nodes(body->max_degree());
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              dofs.resize(cell->get_fe().n_dofs_per_cell());
-              cell->get_dof_indices(dofs);
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  bool present = false;
-                  for (unsigned int i = 0; i < order.values.size(); ++i)
-                    {
-                      order.values[i] = scene.constraints.get_inhomogeneity(
-                        scene.numbering(body->index, dofs[order.modes[c][i]]));
-                      present = present || order.values[i] != 0.;
-                    }
-                  if (!present)
-                    continue;
-                  level.space->get_nodes(body->index, cell, nodes);
-                  transform(matrix, order.values);
-                  for (unsigned int i = 0; i < order.values.size(); ++i)
-                    if (const auto index = dim * nodes[order.scalar[i]] + c;
-                        level.layout->in_local_range(index))
-                      in.local_element(level.layout->global_to_local(index)) =
-                        order.values[i];
-                }
-            }
-      }
+    level.space->for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &nodes) {
+        CellOrder &order = orders[body.index];
+        dofs.resize(cell->get_fe().n_dofs_per_cell());
+        cell->get_dof_indices(dofs);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            bool present = false;
+            for (unsigned int i = 0; i < order.values.size(); ++i)
+              {
+                order.values[i] = scene.constraints.get_inhomogeneity(
+                  scene.numbering(body.index, dofs[order.modes[c][i]]));
+                present = present || order.values[i] != 0.;
+              }
+            if (!present)
+              continue;
+            transform(modes_to_nodes(body.max_degree()), order.values);
+            for (unsigned int i = 0; i < order.values.size(); ++i)
+              if (const auto index = dim * nodes[order.scalar[i]] + c;
+                  level.layout->in_local_range(index))
+                in.local_element(level.layout->global_to_local(index)) =
+                  order.values[i];
+          }
+      });
     stiffness->vmult_free(out, in);
     load -= out;
   }
@@ -180,30 +171,23 @@ namespace mortise
     const NodalLevel &level = all_levels.front();
     std::copy_n(displacement.begin(), in.locally_owned_size(), in.begin());
     in.update_ghost_values();
+    auto                                 orders = cell_orders(*level.space);
     std::vector<types::global_dof_index> dofs;
-    std::vector<NodalSpace::Index>       nodes;
-    for (const Body *body : level.space->bodies())
-      {
-        CellOrder                 order(body->fe[body->fe.size() - 1]);
-        const FullMatrix<double> &modes = nodes_to_modes(body->max_degree());
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              dofs.resize(cell->get_fe().n_dofs_per_cell());
-              cell->get_dof_indices(dofs);
-              level.space->get_nodes(body->index, cell, nodes);
-              for (unsigned int c = 0; c < dim; ++c)
-                {
-                  for (unsigned int i = 0; i < order.values.size(); ++i)
-                    order.values[i] =
-                      in.local_element(level.layout->global_to_local(
-                        dim * nodes[order.scalar[i]] + c));
-                  transform(modes, order.values);
-                  for (unsigned int i = 0; i < order.values.size(); ++i)
-                    set(body->index, dofs[order.modes[c][i]], order.values[i]);
-                }
-            }
-      }
+    level.space->for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &nodes) {
+        CellOrder &order = orders[body.index];
+        dofs.resize(cell->get_fe().n_dofs_per_cell());
+        cell->get_dof_indices(dofs);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            for (unsigned int i = 0; i < order.values.size(); ++i)
+              order.values[i] = in.local_element(level.layout->global_to_local(
+                dim * nodes[order.scalar[i]] + c));
+            transform(nodes_to_modes(body.max_degree()), order.values);
+            for (unsigned int i = 0; i < order.values.size(); ++i)
+              set(body.index, dofs[order.modes[c][i]], order.values[i]);
+          }
+      });
     in.zero_out_ghost_values();
   }
 } // namespace mortise

@@ -19,19 +19,16 @@ namespace mortise
     void
     for_each_cell(const NodalLevel &level, const Visit &visit)
     {
-      std::vector<NodalSpace::Index> nodes;
-      std::vector<Index>             indices;
-      for (const Body *body : level.space->bodies())
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              level.space->get_nodes(body->index, cell, nodes);
-              indices.clear();
-              for (const auto node : nodes)
-                for (unsigned int c = 0; c < dim; ++c)
-                  indices.push_back(dim * node + c);
-              visit(*body, cell, indices);
-            }
+      std::vector<Index> indices;
+      level.space->for_each_cell([&](const Body               &body,
+                                     const auto               &cell,
+                                     const std::vector<Index> &nodes) {
+        indices.clear();
+        for (const auto node : nodes)
+          for (unsigned int c = 0; c < dim; ++c)
+            indices.push_back(dim * node + c);
+        visit(body, cell, indices);
+      });
     }
 
     /// Drops what is held, in rows and columns.

@@ -97,11 +97,10 @@ namespace mortise
         for (const unsigned int i : shared->modes)
           modes.values.push_back(coefficients[c][i]);
         const auto along = [&](const unsigned int a) {
-          return apply_product(
-            a == 0 ? shared->line_slopes : shared->line_values,
-            a == 1 ? shared->line_slopes : shared->line_values,
-            a == 2 ? shared->line_slopes : shared->line_values,
-            modes);
+          return apply_derivative(shared->line_values,
+                                  shared->line_slopes,
+                                  a,
+                                  modes);
         };
         const TensorArray value = along(dim);
         for (unsigned int q = 0; q < n_points; ++q)

@@ -11,9 +11,8 @@ namespace mortise
   DiagonalLifting::DiagonalLifting(const BlockSystem &system)
     : weights(system.owned_displacement.n_elements())
   {
-    system.nodal->diagonal(weights.data());
-    for (double &weight : weights)
-      weight = 1. / weight;
+    for (unsigned int i = 0; i < weights.size(); ++i)
+      weights[i] = 1. / system.nodal->diagonal().local_element(i);
 
     const auto      &coupling = system.coupling.trilinos_matrix();
     Epetra_CrsMatrix scaled(coupling);

@@ -4,6 +4,7 @@
 #include <EpetraExt_MatrixMatrix.h>
 #include <mortise/solvers/block_smoother.h>
 #include <mortise/solvers/entity_graph.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/hierarchical_preconditioner.h>
 #include <mortise/solvers/interface_lifting.h>
 #include <mortise/solvers/vertex_solver.h>
@@ -90,8 +91,8 @@ namespace mortise
   {
     const auto   &data   = *implementation;
     const auto   &matrix = *data.bulk;
-    Epetra_Vector x(View, matrix.RowMap(), dst.trilinos_vector()[0]);
-    data.r = *src.trilinos_vector()(0);
+    Epetra_Vector x      = epetra_view(dst);
+    data.r               = *src.trilinos_vector()(0);
 
     // Q + (I - Q A) M (I - A Q), positive definite for any positive definite M
     // and any positive semi-definite Q, exact or not (Tang, Nabben, Vuik and

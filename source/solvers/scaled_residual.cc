@@ -4,6 +4,7 @@
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/scaled_residual.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mortise
@@ -36,7 +37,9 @@ namespace mortise
     weight_u =
       std::make_unique<Epetra_Vector>(system.load.trilinos_partitioner());
     if (system.nodal)
-      system.nodal->diagonal(weight_u->Values());
+      std::copy_n(system.nodal->diagonal().begin(),
+                  weight_u->MyLength(),
+                  weight_u->Values());
     else
       system.stiffness.trilinos_matrix().ExtractDiagonalCopy(*weight_u);
     for (int i = 0; i < weight_u->MyLength(); ++i)

@@ -47,6 +47,14 @@ namespace mortise
     return out;
   }
 
+  inline dealii::FullMatrix<double>
+  transposed(const dealii::FullMatrix<double> &matrix)
+  {
+    dealii::FullMatrix<double> result(matrix.n(), matrix.m());
+    result.copy_transposed(matrix);
+    return result;
+  }
+
   /// One matrix per direction.
   inline TensorArray
   apply_product(const dealii::FullMatrix<double> &first,
@@ -58,5 +66,19 @@ namespace mortise
       third,
       2,
       apply_along_direction(second, 1, apply_along_direction(first, 0, in)));
+  }
+
+  /// The derivative in direction @p d, from tables (point, function) of one
+  /// direction; the function itself for d = 3.
+  inline TensorArray
+  apply_derivative(const dealii::FullMatrix<double> &values,
+                   const dealii::FullMatrix<double> &slopes,
+                   const unsigned int                d,
+                   const TensorArray                &in)
+  {
+    return apply_product(d == 0 ? slopes : values,
+                         d == 1 ? slopes : values,
+                         d == 2 ? slopes : values,
+                         in);
   }
 } // namespace mortise

@@ -55,6 +55,22 @@ namespace mortise
               const Body::CellIterator &cell,
               std::vector<Index>       &nodes) const;
 
+    /// Calls @p visit(body, cell, nodes) for the owned cells of all bodies, with
+    /// the nodes of get_nodes().
+    template <typename Visit>
+    void
+    for_each_cell(const Visit &visit) const
+    {
+      std::vector<Index> nodes;
+      for (const Body *body : scene)
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              get_nodes(body->index, cell, nodes);
+              visit(*body, cell, nodes);
+            }
+    }
+
     /// Nodes of face @p face_number, in the order of the functions of
     /// TraceBasis.
     std::vector<Index>

@@ -17,7 +17,6 @@ namespace mortise
   template <typename Number>
   struct CellBatches
   {
-    unsigned int body   = 0;
     unsigned int degree = 1;
     double       lambda = 0., mu = 0.;
     unsigned int n_cells = 0;
@@ -70,10 +69,6 @@ namespace mortise
     {
       return bodies;
     }
-
-    /// In bytes.
-    std::size_t
-    memory_consumption() const;
 
   private:
     class Kernel; ///< of one degree

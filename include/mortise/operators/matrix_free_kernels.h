@@ -1,10 +1,11 @@
 // The kernels behind MatrixFreeElasticity, by number of nodes per direction;
-// only its source includes this.
+// only sources of kernels include this.
 #pragma once
 
 #include <deal.II/base/quadrature_lib.h>
 
 #include <mortise/base/lagrange.h>
+#include <mortise/base/tensor_product.h>
 #include <mortise/operators/matrix_free_elasticity.h>
 #include <mortise/operators/tensor_kernel.h>
 
@@ -44,13 +45,10 @@ namespace mortise
       const dealii::FullMatrix<double> values = lagrange_values(nodes, points),
                                        derivatives =
                                          lagrange_derivatives(points, points);
-      dealii::FullMatrix<double> transposed(n, n);
-      to_points = Line(values);
-      transposed.copy_transposed(values);
-      from_points = Line(transposed);
-      derivative  = Antisymmetric(derivatives);
-      transposed.copy_transposed(derivatives);
-      derivative_transposed = Antisymmetric(transposed);
+      to_points             = Line(values);
+      from_points           = Line(transposed(values));
+      derivative            = Antisymmetric(derivatives);
+      derivative_transposed = Antisymmetric(transposed(derivatives));
       const dealii::FullMatrix<double> slopes =
         lagrange_derivatives(nodes, points);
       for (unsigned int q = 0; q < n; ++q)
@@ -121,12 +119,12 @@ namespace mortise
     {
       for (unsigned int c = 0; c < dim; ++c, u += N, g += dim * N)
         {
-          apply_along<0, false, n, n, n>(to_points, u, u, n);
-          apply_along<1, false, n, n, n>(to_points, u, u, n);
-          apply_along<2, false, n, n, n>(to_points, u, u, n);
-          apply_along<0, false, n, n, n>(derivative, u, g, n);
-          apply_along<1, false, n, n, n>(derivative, u, g + N, n);
-          apply_along<2, false, n, n, n>(derivative, u, g + 2 * N, n);
+          apply_along<0, false, n, n, n>(to_points, u, u);
+          apply_along<1, false, n, n, n>(to_points, u, u);
+          apply_along<2, false, n, n, n>(to_points, u, u);
+          apply_along<0, false, n, n, n>(derivative, u, g);
+          apply_along<1, false, n, n, n>(derivative, u, g + N);
+          apply_along<2, false, n, n, n>(derivative, u, g + 2 * N);
         }
     }
 
@@ -135,12 +133,12 @@ namespace mortise
     {
       for (unsigned int c = 0; c < dim; ++c, u += N, g += dim * N)
         {
-          apply_along<0, false, n, n, n>(derivative_transposed, g, u, n);
-          apply_along<1, true, n, n, n>(derivative_transposed, g + N, u, n);
-          apply_along<2, true, n, n, n>(derivative_transposed, g + 2 * N, u, n);
-          apply_along<2, false, n, n, n>(from_points, u, u, n);
-          apply_along<1, false, n, n, n>(from_points, u, u, n);
-          apply_along<0, false, n, n, n>(from_points, u, u, n);
+          apply_along<0, false, n, n, n>(derivative_transposed, g, u);
+          apply_along<1, true, n, n, n>(derivative_transposed, g + N, u);
+          apply_along<2, true, n, n, n>(derivative_transposed, g + 2 * N, u);
+          apply_along<2, false, n, n, n>(from_points, u, u);
+          apply_along<1, false, n, n, n>(from_points, u, u);
+          apply_along<0, false, n, n, n>(from_points, u, u);
         }
     }
 

@@ -39,9 +39,12 @@ namespace mortise
     void
     apply_stiffness(Vector &dst, const Vector &src) const;
 
-    /// diag(K), 1 where held. Collective.
-    void
-    diagonal(double *owned) const;
+    /// diag(K), 1 where held.
+    const LevelVector<double> &
+    diagonal() const
+    {
+      return stiffness_diagonal;
+    }
 
     /// int b.v + int t.v less the work of prescribed displacements; zero where
     /// held. @p loads: by body. Collective.
@@ -66,6 +69,7 @@ namespace mortise
 
     std::vector<NodalLevel>                all_levels;
     std::unique_ptr<LevelOperator<double>> stiffness;
+    LevelVector<double>                    stiffness_diagonal;
     mutable LevelVector<double>            in, out;
   };
 } // namespace mortise

@@ -27,6 +27,8 @@ namespace mortise
   public:
     using V = typename Batch<Number>::Vector;
 
+    static constexpr int n_rows = n_out;
+
     LineMatrix() = default;
 
     explicit LineMatrix(const dealii::FullMatrix<double> &S)
@@ -100,7 +102,7 @@ namespace mortise
   };
 
   /// A matrix along direction @p d of an array of n0 x n1 x n2 numbers, of
-  /// which the d-th number becomes n_out; first index fastest.
+  /// which the d-th becomes the number of its rows; first index fastest.
   template <int  d,
             bool add,
             int  n0,
@@ -109,8 +111,9 @@ namespace mortise
             typename Matrix,
             typename V>
   inline __attribute__((always_inline)) void
-  apply_along(const Matrix &matrix, const V *in, V *out, const int n_out)
+  apply_along(const Matrix &matrix, const V *in, V *out)
   {
+    constexpr int n_out = Matrix::n_rows;
     if constexpr (d == 0)
       {
         for (int l = 0; l < n1 * n2; ++l)
