@@ -233,17 +233,6 @@ namespace mortise
     return penalty;
   }
 
-  namespace
-  {
-    template <typename Number>
-    std::size_t
-    padded(const std::size_t n)
-    {
-      constexpr std::size_t width = Batch<Number>::size;
-      return (n + width - 1) / width * width;
-    }
-  } // namespace
-
   template <typename Number>
   LevelOperator<Number>::LevelOperator(const NodalLevel &level,
                                        const bool        with_penalty)

@@ -62,8 +62,9 @@ namespace mortise
                                               scene.constraints,
                                               scene.couplings,
                                               comm));
-        all_levels.back().penalty =
-          make_nodal_penalty(all_levels.back(), number, scene.couplings);
+        if (number > 0) // the finest level respects the constraint itself
+          all_levels.back().penalty =
+            make_nodal_penalty(all_levels.back(), number, scene.couplings);
       }
     stiffness =
       std::make_unique<LevelOperator<double>>(all_levels.front(), false);

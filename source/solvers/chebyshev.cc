@@ -11,12 +11,14 @@ namespace mortise
   using namespace dealii;
 
   template <typename Number>
-  Chebyshev<Number>::Chebyshev(const LevelOperator<Number> &matrix,
-                               const unsigned int           degree,
-                               const double                 range)
+  Chebyshev<Number>::Chebyshev(const LevelOperator<Number>       &matrix,
+                               const unsigned int                 degree,
+                               const double                       range,
+                               const InterfaceCorrection<Number> *correction)
     : matrix(matrix)
     , degree(degree)
     , range(range)
+    , correction(correction)
   {
     matrix.diagonal(inverse_diagonal);
     for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
@@ -113,6 +115,15 @@ namespace mortise
         else
           for (unsigned int i = 0; i < n; ++i)
             X[i] += D[i] = keep * D[i] + take * I[i] * (B[i] - R[i]);
+        if (correction != nullptr)
+          correction->correct(
+            [&](const unsigned int i) {
+              return no_product ? B[i] : B[i] - R[i];
+            },
+            [&](const unsigned int i, const Number c) {
+              D[i] -= take * c;
+              X[i] -= take * c;
+            });
       }
   }
 

@@ -45,7 +45,7 @@ namespace mortise
         const double rhs_norm = residual.right_hand_side_norm();
         const double target   = 0.9 * options.tolerance * rhs_norm;
         if (projector != nullptr)
-          projector->project(u, &system.coupling_rhs);
+          projector->satisfy(u, system.coupling_rhs);
         residual.compute(u, lambda, r, r_lambda);
         double rho_old = 0.;
         for (bool first = true; report.iterations < options.max_iterations;
@@ -76,6 +76,8 @@ namespace mortise
               break;
             ++report.iterations;
           }
+        if (projector != nullptr)
+          projector->satisfy(u, system.coupling_rhs);
         residual.compute(u, lambda, r, r_lambda);
         return residual.norm(r, r_lambda);
       }
@@ -116,17 +118,14 @@ namespace mortise
     SolveReport report;
     report.method = "condensed";
     announce_stage("solver_setup");
-    Timer                    timer;
-    const auto               preconditioner = make_bulk_preconditioner(system);
-    bool                     valid = preconditioner->initialize(system);
-    std::unique_ptr<Lifting> lifting;
+    Timer      timer;
+    const auto preconditioner = make_bulk_preconditioner(system);
+    const bool valid          = preconditioner->initialize(system);
     std::unique_ptr<ConstraintProjector> projector;
-    if (valid && system.owned_multiplier.size() > 0)
-      {
-        lifting   = preconditioner->make_lifting(system);
-        projector = std::make_unique<ConstraintProjector>(system, *lifting);
-        valid     = projector->is_valid();
-      }
+    if (valid && preconditioner->lifting() != nullptr)
+      projector =
+        std::make_unique<ConstraintProjector>(system,
+                                              *preconditioner->lifting());
     const ScaledResidual residual(system);
     report.preconditioner = preconditioner->description();
     report.setup_seconds  = timer.wall_time();

@@ -25,9 +25,10 @@ namespace mortise
 
     struct SmoothedLevel
     {
-      SmoothedLevel(const NodalLevel &level)
+      SmoothedLevel(const NodalLevel                  &level,
+                    const InterfaceCorrection<Number> *correction)
         : matrix(level, true)
-        , smoother(matrix, smoother_degree, smoother_range)
+        , smoother(matrix, smoother_degree, smoother_range, correction)
       {
         matrix.initialize(x);
         matrix.initialize(b);
@@ -44,10 +45,18 @@ namespace mortise
   {
     explicit Implementation(const BlockSystem &system)
     {
+      if (system.owned_multiplier.size() > 0)
+        {
+          lifting = std::make_unique<DiagonalLifting>(system);
+          valid   = lifting->is_valid();
+          correction =
+            std::make_unique<InterfaceCorrection<Number>>(system, *lifting);
+        }
       const auto &all = system.nodal->levels();
       for (unsigned int l = 0; l + 1 < all.size(); ++l)
         {
-          levels.push_back(std::make_unique<SmoothedLevel>(all[l]));
+          levels.push_back(std::make_unique<SmoothedLevel>(
+            all[l], l == 0 ? correction.get() : nullptr));
           valid = valid && levels.back()->smoother.is_valid();
         }
       coarse = std::make_unique<LevelOperator<Number>>(all.back(), false);
@@ -69,7 +78,8 @@ namespace mortise
       vertex_r        = std::make_unique<Epetra_Vector>(map);
     }
 
-    /// levels[l]->x = an approximate solution for levels[l]->b.
+    /// levels[l]->x = an approximate solution for levels[l]->b, on the finest
+    /// level one that satisfies the constraint.
     void
     cycle(const unsigned int l)
     {
@@ -92,12 +102,19 @@ namespace mortise
       level.smoother.smooth(level.x, level.b, true);
       level.matrix.vmult(level.r, level.x);
       level.r.sadd(-1, 1, level.b);
+      const bool constrained = l == 0 && correction;
+      if (constrained)
+        correction->project_residual(level.r);
       transfers[l]->restrict_to(next_b, level.r);
       cycle(l + 1);
       transfers[l]->prolongate_add(level.x, next_x);
+      if (constrained)
+        correction->project(level.x);
       level.smoother.smooth(level.x, level.b, false);
     }
 
+    std::unique_ptr<DiagonalLifting>                     lifting;
+    std::unique_ptr<InterfaceCorrection<Number>>         correction;
     std::vector<std::unique_ptr<SmoothedLevel>>          levels;
     std::unique_ptr<LevelOperator<Number>>               coarse;
     std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
@@ -139,10 +156,10 @@ namespace mortise
       to[i] = scale * static_cast<double>(level.x.local_element(i));
   }
 
-  std::unique_ptr<Lifting>
-  DegreeMultigrid::make_lifting(const BlockSystem &system) const
+  const Lifting *
+  DegreeMultigrid::lifting() const
   {
-    return std::make_unique<DiagonalLifting>(system);
+    return implementation->lifting.get();
   }
 
   std::string

@@ -1,31 +1,155 @@
-#include <EpetraExt_MatrixMatrix.h>
+#include <Teuchos_BLAS.hpp>
 #include <mortise/solvers/diagonal_lifting.h>
 #include <mortise/solvers/epetra_tools.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace mortise
 {
   using namespace dealii;
 
-  DiagonalLifting::DiagonalLifting(const BlockSystem &system)
-    : weights(system.owned_displacement.n_elements())
+  namespace
   {
-    for (unsigned int i = 0; i < weights.size(); ++i)
-      weights[i] = 1. / system.nodal->diagonal().local_element(i);
+    /// Neighbouring rows with the same columns, as those of one entity of the
+    /// mesh are.
+    struct RowGroup
+    {
+      int first = 0, n_rows = 0;
+    };
 
-    const auto      &coupling = system.coupling.trilinos_matrix();
-    Epetra_CrsMatrix scaled(coupling);
-    Epetra_Vector    root(coupling.DomainMap());
-    for (int i = 0; i < root.MyLength(); ++i)
-      root[i] = std::sqrt(weights[i]);
-    scaled.RightScale(root);
-    // the product with the transpose made takes a hundredth of the time of the
-    // one that Epetra makes of the matrix itself
-    const auto transposed = transpose(scaled, coupling.DomainMap());
-    schur = std::make_unique<Epetra_CrsMatrix>(Copy, coupling.RowMap(), 0);
-    EpetraExt::MatrixMatrix::Multiply(
-      scaled, false, *transposed, false, *schur);
+    std::vector<RowGroup>
+    group_rows(const Epetra_CrsMatrix &matrix)
+    {
+      std::vector<RowGroup> groups;
+      for (int i = 0; i < matrix.NumMyRows(); ++i)
+        {
+          const EpetraRow row(matrix, i);
+          if (groups.empty() || [&] {
+                const EpetraRow first(matrix, groups.back().first);
+                return first.length != row.length ||
+                       !std::equal(row.columns,
+                                   row.columns + row.length,
+                                   first.columns);
+              }())
+            groups.push_back({i, 0});
+          ++groups.back().n_rows;
+        }
+      return groups;
+    }
+
+    /// B T B^T with the rows of B, by dense blocks. @p transposed: T B^T with
+    /// one row for each column of B, in the order of these.
+    std::unique_ptr<Epetra_CrsMatrix>
+    weighted_square(const Epetra_CrsMatrix &B,
+                    const Epetra_CrsMatrix &transposed)
+    {
+      const auto row_groups    = group_rows(B),
+                 column_groups = group_rows(transposed);
+      std::vector<int> group_of(transposed.NumMyRows());
+      for (unsigned int g = 0; g < column_groups.size(); ++g)
+        for (int i = 0; i < column_groups[g].n_rows; ++i)
+          group_of[column_groups[g].first + i] = g;
+
+      // the columns of the result by row group
+      std::vector<std::vector<int>> pattern(row_groups.size());
+      std::vector<int> mark(transposed.NumMyCols(), -1), lengths(B.NumMyRows());
+      for (unsigned int g = 0; g < row_groups.size(); ++g)
+        {
+          const EpetraRow row(B, row_groups[g].first);
+          for (int k = 0, last = -1; k < row.length; ++k)
+            if (const int h = group_of[row.columns[k]]; h != last)
+              {
+                last = h;
+                const EpetraRow multipliers(transposed, column_groups[h].first);
+                for (int l = 0; l < multipliers.length; ++l)
+                  if (int &m = mark[multipliers.columns[l]];
+                      m != static_cast<int>(g))
+                    {
+                      m = g;
+                      pattern[g].push_back(multipliers.columns[l]);
+                    }
+              }
+          std::sort(pattern[g].begin(), pattern[g].end());
+          for (int i = 0; i < row_groups[g].n_rows; ++i)
+            lengths[row_groups[g].first + i] = pattern[g].size();
+        }
+
+      auto result = std::make_unique<Epetra_CrsMatrix>(Copy,
+                                                       B.RowMap(),
+                                                       lengths.data(),
+                                                       true);
+      const Teuchos::BLAS<int, double> blas;
+      std::vector<double>              sums, product;
+      std::vector<int>                 place(transposed.NumMyCols()), global;
+      for (unsigned int g = 0; g < row_groups.size(); ++g)
+        {
+          const auto &group = row_groups[g];
+          const int   n = group.n_rows, m = pattern[g].size();
+          sums.assign(std::size_t(n) * m, 0.);
+          global.clear();
+          for (int l = 0; l < m; ++l)
+            {
+              place[pattern[g][l]] = l;
+              global.push_back(transposed.GCID(pattern[g][l]));
+            }
+          const EpetraRow row(B, group.first);
+          for (int k = 0; k < row.length;)
+            {
+              // these columns of the rows are one group; rows of a group are
+              // stored one after the other
+              const int       h     = group_of[row.columns[k]];
+              const int       begin = k;
+              const EpetraRow multipliers(transposed, row.columns[k]);
+              while (k < row.length && group_of[row.columns[k]] == h &&
+                     row.columns[k] - row.columns[begin] == k - begin)
+                ++k;
+              product.resize(std::size_t(n) * multipliers.length);
+              blas.GEMM(Teuchos::NO_TRANS,
+                        Teuchos::NO_TRANS,
+                        multipliers.length,
+                        n,
+                        k - begin,
+                        1.,
+                        multipliers.values,
+                        multipliers.length,
+                        row.values + begin,
+                        row.length,
+                        0.,
+                        product.data(),
+                        multipliers.length);
+              for (int i = 0; i < n; ++i)
+                for (int l = 0; l < multipliers.length; ++l)
+                  sums[std::size_t(i) * m + place[multipliers.columns[l]]] +=
+                    product[std::size_t(i) * multipliers.length + l];
+            }
+          for (int i = 0; i < n; ++i)
+            result->InsertGlobalValues(B.GRID(group.first + i),
+                                       m,
+                                       &sums[std::size_t(i) * m],
+                                       global.data());
+        }
+      result->FillComplete();
+      return result;
+    }
+  } // namespace
+
+  DiagonalLifting::DiagonalLifting(const BlockSystem &system)
+    : weights(system.nodal->diagonal())
+  {
+    for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
+      weights.local_element(i) = 1. / weights.local_element(i);
+
+    const auto   &coupling   = system.coupling.trilinos_matrix();
+    const auto    transposed = transpose(coupling, coupling.DomainMap());
+    Epetra_Vector owned(coupling.DomainMap());
+    std::copy_n(weights.begin(), owned.MyLength(), owned.Values());
+    transposed->LeftScale(owned);
+    Epetra_CrsMatrix on_columns(Copy, coupling.ColMap(), 0);
+    on_columns.Import(*transposed,
+                      Epetra_Import(coupling.ColMap(), coupling.DomainMap()),
+                      Insert);
+    on_columns.FillComplete(coupling.RangeMap(), coupling.DomainMap());
+    factorise(*weighted_square(coupling, on_columns), true);
   }
 
   void
@@ -33,7 +157,7 @@ namespace mortise
   {
     const double *from = src.begin();
     double       *to   = dst.begin();
-    for (unsigned int i = 0; i < weights.size(); ++i)
-      to[i] = weights[i] * from[i];
+    for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
+      to[i] = weights.local_element(i) * from[i];
   }
 } // namespace mortise

@@ -66,14 +66,20 @@ namespace mortise
           smoother.initialize(*bulk, EntityGraph(system).patches(system)) &&
           valid;
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
+      if (valid && system.owned_multiplier.size() > 0)
+        {
+          lifting = std::make_unique<InterfaceLifting>(system, smoother);
+          valid   = lifting->is_valid();
+        }
     }
 
-    BulkMatrix            bulk;
-    BlockSmoother         smoother;
-    VertexSolver          coarse;
-    mutable Epetra_Vector r, t, y;
-    bool                  has_high_modes;
-    bool                  valid = true;
+    BulkMatrix                        bulk;
+    BlockSmoother                     smoother;
+    VertexSolver                      coarse;
+    mutable Epetra_Vector             r, t, y;
+    std::unique_ptr<InterfaceLifting> lifting;
+    bool                              has_high_modes;
+    bool                              valid = true;
   };
 
   HierarchicalPreconditioner::HierarchicalPreconditioner()  = default;
@@ -110,10 +116,10 @@ namespace mortise
       }
   }
 
-  std::unique_ptr<Lifting>
-  HierarchicalPreconditioner::make_lifting(const BlockSystem &system) const
+  const Lifting *
+  HierarchicalPreconditioner::lifting() const
   {
-    return std::make_unique<InterfaceLifting>(system, implementation->smoother);
+    return implementation->lifting.get();
   }
 
   std::string

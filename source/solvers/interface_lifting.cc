@@ -137,6 +137,7 @@ namespace mortise
                              patch.multipliers.begin(),
                              patch.multipliers.end(),
                              true);
+    SparseMatrix schur;
     schur.reinit(system.owned_multiplier,
                  system.owned_multiplier,
                  sparsity,
@@ -190,6 +191,7 @@ namespace mortise
         schur.add(patch.multipliers, local, false);
       }
     schur.compress(VectorOperation::add);
+    factorise(schur.trilinos_matrix(), false);
   }
 
   void

@@ -80,11 +80,9 @@ namespace mortise
         , bulk(make_bulk_preconditioner(system))
         , valid(bulk->initialize(system))
       {
-        if (!valid)
-          return;
-        lifting   = bulk->make_lifting(system);
-        projector = std::make_unique<ConstraintProjector>(system, *lifting);
-        valid     = projector->is_valid();
+        if (valid)
+          projector =
+            std::make_unique<ConstraintProjector>(system, *bulk->lifting());
       }
 
       void
@@ -132,7 +130,6 @@ namespace mortise
     private:
       const ScaledOperator                &scaling;
       std::unique_ptr<BulkPreconditioner>  bulk;
-      std::unique_ptr<Lifting>             lifting;
       std::unique_ptr<ConstraintProjector> projector;
       bool                                 valid;
       mutable BlockVector                  scratch;

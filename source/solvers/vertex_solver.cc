@@ -32,9 +32,8 @@ namespace mortise
     x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
       {
-        factorization = std::make_unique<SparseFactorization>();
-        return factorization->initialize(*coarse,
-                                         MatrixKind::positive_definite);
+        factorization = std::make_unique<SparseCholesky<double>>();
+        return factorization->initialize(*coarse);
       }
     compute_rigid_modes(vertices);
     Teuchos::ParameterList parameters;
@@ -174,7 +173,7 @@ namespace mortise
   std::string
   VertexSolver::description() const
   {
-    return factorization ? "vertices factorised (MUMPS)" :
+    return factorization ? "vertices factorised" :
                            "vertices by smoothed aggregation (ML)";
   }
 } // namespace mortise

@@ -1,5 +1,5 @@
 // Sum factorisation on several hexahedra at once, one per lane of a vector of
-// the compiler. It never knows a mesh; only matrix_free sources include it.
+// the compiler. It never knows a mesh; only sources of kernels include it.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -16,6 +16,15 @@ namespace mortise
     static constexpr unsigned int size = 64 / sizeof(Number);
     typedef Number Vector __attribute__((vector_size(64), may_alias));
   };
+
+  /// The least number not below @p n that fills whole batches.
+  template <typename Number>
+  constexpr std::size_t
+  padded(const std::size_t n)
+  {
+    return (n + Batch<Number>::size - 1) / Batch<Number>::size *
+           Batch<Number>::size;
+  }
 
   /// A matrix of n_out rows and n_in columns that acts along one direction and
   /// is symmetric (+) or antisymmetric (-) under the reversal of both: S(n_out

@@ -1,52 +1,37 @@
 // What iterative solvers ask of a preconditioner of the bulk, whatever it is
-// made of. It never looks at the multipliers.
+// made of.
 #pragma once
 
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/lifting.h>
 
 #include <memory>
 #include <string>
 
 namespace mortise
 {
-  /// How a multiplier moves displacements cheaply: T symmetric, positive
-  /// semi-definite and positive on the range of B^T. Projector and Schur
-  /// complement of the solvers are made of it.
-  class Lifting
-  {
-  public:
-    virtual ~Lifting() = default;
-
-    /// C = B T B^T, sparse, with the rows of B.
-    virtual const Epetra_CrsMatrix &
-    schur_complement() const = 0;
-
-    /// dst = T src. Collective.
-    virtual void
-    vmult(Vector &dst, const Vector &src) const = 0;
-  };
-
-  /// An approximate inverse of the elasticity block A = K + J, symmetric and
-  /// positive definite, hence usable in conjugate gradients and GMRES.
+  /// An approximate inverse of the elasticity block, symmetric and positive
+  /// definite on what the projector with lifting() leaves, hence usable between
+  /// projections in conjugate gradients and GMRES.
   class BulkPreconditioner
   {
   public:
     virtual ~BulkPreconditioner() = default;
 
-    /// Build for A = K + J of @p system (A = K without an interface). Collective. False, on every
-    /// rank, when A turned out not to be positive definite; nothing else may be
-    /// called then.
+    /// Build for @p system, which must stay alive. Collective. False, on every
+    /// rank, when the matrix turned out not to be positive definite or the
+    /// multipliers not to be independent; nothing else may be called then.
     virtual bool
     initialize(const BlockSystem &system) = 0;
 
-    /// dst = A^{-1} src, approximately; dst and src are distinct. Collective.
+    /// dst = approximate solution for src; dst and src are distinct.
+    /// Collective.
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
-    /// Only with an interface; the preconditioner and @p system must stay
-    /// alive. Collective.
-    virtual std::unique_ptr<Lifting>
-    make_lifting(const BlockSystem &system) const = 0;
+    /// None without an interface.
+    virtual const Lifting *
+    lifting() const = 0;
 
     /// What was built, in words.
     virtual std::string

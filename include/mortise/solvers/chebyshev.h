@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mortise/operators/nodal_level.h>
+#include <mortise/solvers/interface_correction.h>
 
 namespace mortise
 {
@@ -11,11 +12,14 @@ namespace mortise
   {
   public:
     /// Smooths what belongs to eigenvalues of D^{-1} A between a fraction of
-    /// the largest and the largest, which is estimated. @p matrix must stay
-    /// alive. Collective. Not valid when A is not positive definite.
-    Chebyshev(const LevelOperator<Number> &matrix,
-              unsigned int                 degree,
-              double                       range);
+    /// the largest and the largest, which is estimated; with @p correction,
+    /// which makes D^{-1} respect a constraint, among what satisfies it.
+    /// @p matrix and @p correction must stay alive. Collective. Not valid when
+    /// A is not positive definite.
+    Chebyshev(const LevelOperator<Number>       &matrix,
+              unsigned int                       degree,
+              double                             range,
+              const InterfaceCorrection<Number> *correction = nullptr);
 
     bool
     is_valid() const
@@ -33,11 +37,12 @@ namespace mortise
     double
     estimate_largest() const;
 
-    const LevelOperator<Number> &matrix;
-    const unsigned int           degree;
-    const double                 range;
-    LevelVector<Number>          inverse_diagonal;
-    mutable LevelVector<Number>  r, d;
-    double                       largest;
+    const LevelOperator<Number>       &matrix;
+    const unsigned int                 degree;
+    const double                       range;
+    const InterfaceCorrection<Number> *correction;
+    LevelVector<Number>                inverse_diagonal;
+    mutable LevelVector<Number>        r, d;
+    double                             largest;
   };
 } // namespace mortise

@@ -3,8 +3,7 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/bulk_preconditioner.h>
-#include <mortise/solvers/sparse_factorization.h>
+#include <mortise/solvers/lifting.h>
 
 namespace mortise
 {
@@ -12,29 +11,24 @@ namespace mortise
   class ConstraintProjector
   {
   public:
-    /// Both must stay alive. Collective.
+    /// Both must stay alive.
     ConstraintProjector(const BlockSystem &system, const Lifting &lifting);
-
-    /// False when the multipliers are not independent of each other.
-    bool
-    is_valid() const
-    {
-      return valid;
-    }
 
     /// r := P^T r = r - B^T y; lambda += y. Collective.
     void
     project_residual(Vector &r, Vector &lambda) const;
+
+    /// Project @p u onto B u = g to rounding. Collective.
+    void
+    satisfy(Vector &u, const Vector &g) const;
 
     /// u := P u, or with @p g the projection onto B u = g: u - T B^T y. Returns y. Collective.
     const Vector &
     project(Vector &u, const Vector *g = nullptr) const;
 
   private:
-    const BlockSystem  &system;
-    const Lifting      &lifting;
-    SparseFactorization inner;
-    bool                valid = true;
-    mutable Vector      jump, multiplier, force, correction;
+    const BlockSystem &system;
+    const Lifting     &lifting;
+    mutable Vector     jump, multiplier, force, correction;
   };
 } // namespace mortise

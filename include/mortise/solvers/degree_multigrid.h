@@ -19,9 +19,9 @@ namespace mortise
     void
     vmult(Vector &dst, const Vector &src) const override;
 
-    /// By the diagonal of A.
-    std::unique_ptr<Lifting>
-    make_lifting(const BlockSystem &system) const override;
+    /// By the diagonal of K.
+    const Lifting *
+    lifting() const override;
 
     std::string
     description() const override;

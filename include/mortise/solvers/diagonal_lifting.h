@@ -2,11 +2,7 @@
 // node by itself. It never looks at levels below the finest.
 #pragma once
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
-#include <mortise/solvers/bulk_preconditioner.h>
-
-#include <memory>
+#include <mortise/solvers/lifting.h>
 
 namespace mortise
 {
@@ -17,17 +13,17 @@ namespace mortise
     /// Collective.
     explicit DiagonalLifting(const BlockSystem &system);
 
-    const Epetra_CrsMatrix &
-    schur_complement() const override
-    {
-      return *schur;
-    }
-
     void
     vmult(Vector &dst, const Vector &src) const override;
 
+    /// T by owned displacement.
+    const LevelVector<double> &
+    diagonal() const
+    {
+      return weights;
+    }
+
   private:
-    std::unique_ptr<Epetra_CrsMatrix> schur;
-    std::vector<double>               weights; ///< owned displacements
+    LevelVector<double> weights;
   };
 } // namespace mortise

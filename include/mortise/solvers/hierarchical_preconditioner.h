@@ -24,8 +24,8 @@ namespace mortise
     vmult(Vector &dst, const Vector &src) const override;
 
     /// By the patches of the smoother.
-    std::unique_ptr<Lifting>
-    make_lifting(const BlockSystem &system) const override;
+    const Lifting *
+    lifting() const override;
 
     std::string
     description() const override;

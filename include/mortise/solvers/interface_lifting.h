@@ -5,7 +5,7 @@
 
 #include <mortise/operators/block_system.h>
 #include <mortise/solvers/block_smoother.h>
-#include <mortise/solvers/bulk_preconditioner.h>
+#include <mortise/solvers/lifting.h>
 
 #include <memory>
 #include <vector>
@@ -13,22 +13,13 @@
 namespace mortise
 {
   /// T = sum over the patches p that hold interface dofs of R_p^T A_p^{-1} R_p
-  /// with A = K + J, and C = B T B^T. T is symmetric, positive semi-definite
-  /// and positive on the range of B^T.
+  /// with A = K + J.
   class InterfaceLifting : public Lifting
   {
   public:
     /// @p smoother holds the patches of A and must stay alive. Collective.
     InterfaceLifting(const BlockSystem &system, const BlockSmoother &smoother);
 
-    /// C = B T B^T, sparse, with the rows of B.
-    const Epetra_CrsMatrix &
-    schur_complement() const override
-    {
-      return schur.trilinos_matrix();
-    }
-
-    /// dst = T src. Collective.
     void
     vmult(Vector &dst, const Vector &src) const override;
 
@@ -53,6 +44,5 @@ namespace mortise
 
     const BlockSmoother      &smoother;
     std::vector<unsigned int> blocks; ///< that take part
-    SparseMatrix              schur;
   };
 } // namespace mortise

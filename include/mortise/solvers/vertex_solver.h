@@ -8,7 +8,7 @@
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/sparse_factorization.h>
+#include <mortise/solvers/sparse_cholesky.h>
 
 #include <memory>
 #include <string>
@@ -59,7 +59,7 @@ namespace mortise
     std::unique_ptr<Epetra_Map> map;
     std::unique_ptr<Epetra_CrsMatrix>                    coarse;
     std::vector<double>                                  rigid_modes;
-    std::unique_ptr<SparseFactorization>                 factorization;
+    std::unique_ptr<SparseCholesky<double>>              factorization;
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> multigrid;
     std::unique_ptr<Epetra_Vector>                       r_c, x_c;
   };

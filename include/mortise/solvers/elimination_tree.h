@@ -1,0 +1,48 @@
+// What a sparse Cholesky factorisation does in which order: nested dissection
+// and the dense blocks that follow from it. It never sees a value.
+// Sources: Liu (1990), "The role of elimination trees in sparse factorization";
+// METIS.
+#pragma once
+
+#include <vector>
+
+namespace mortise
+{
+  /// The graph of a symmetric matrix: columns of all rows, the diagonal
+  /// included.
+  struct MatrixGraph
+  {
+    std::vector<unsigned int> begin;
+    std::vector<int>          columns;
+
+    unsigned int
+    size() const
+    {
+      return begin.size() - 1;
+    }
+  };
+
+  /// Columns of the factor with the same rows below them, neighbours in the
+  /// order of elimination.
+  struct Supernode
+  {
+    unsigned int              first = 0, width = 0;
+    std::vector<unsigned int> rows; ///< below its columns, ascending
+    int                       parent = -1;
+
+    unsigned int
+    height() const
+    {
+      return width + rows.size();
+    }
+  };
+
+  struct EliminationTree
+  {
+    /// The same on all ranks that give the same graph.
+    explicit EliminationTree(const MatrixGraph &graph);
+
+    std::vector<Supernode>    supernodes; ///< children in front of parents
+    std::vector<unsigned int> place;      ///< in the order, by row of the graph
+  };
+} // namespace mortise

@@ -1,0 +1,51 @@
+// How a multiplier moves displacements cheaply. Projector and Schur complement
+// of the solvers are made of it. It never looks at K as a whole.
+#pragma once
+
+#include <mortise/operators/block_system.h>
+#include <mortise/solvers/sparse_cholesky.h>
+#include <mortise/solvers/sparse_factorization.h>
+
+namespace mortise
+{
+  /// T symmetric, positive semi-definite and positive on the range of B^T, and
+  /// C = B T B^T factorised.
+  class Lifting
+  {
+  public:
+    virtual ~Lifting() = default;
+
+    /// False when the multipliers are not independent of each other.
+    bool
+    is_valid() const
+    {
+      return valid;
+    }
+
+    /// dst = T src. Collective.
+    virtual void
+    vmult(Vector &dst, const Vector &src) const = 0;
+
+    /// y = C^{-1} jump, to a hundredth at least where single precision was
+    /// allowed; both with the rows of B. Collective.
+    void
+    apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const
+    {
+      if (light)
+        light->solve(y, jump);
+      else
+        heavy.solve(y, jump);
+    }
+
+  protected:
+    /// @p schur: C, not kept; @p single_precision: where that is accurate
+    /// enough. Collective.
+    void
+    factorise(const Epetra_CrsMatrix &schur, bool single_precision);
+
+  private:
+    std::unique_ptr<SparseCholesky<float>> light;
+    SparseFactorization heavy; ///< where the light one is too inaccurate
+    bool                valid = false;
+  };
+} // namespace mortise

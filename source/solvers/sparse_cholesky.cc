@@ -1,0 +1,422 @@
+// See sparse_cholesky.h.
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_MpiComm.h>
+#include <Teuchos_BLAS.hpp>
+#include <Teuchos_LAPACK.hpp>
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/sparse_cholesky.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <typename T>
+    std::vector<T>
+    gather_on_all(const std::vector<T> &mine, const MPI_Comm comm)
+    {
+      int n_ranks = 1, n_mine = mine.size();
+      MPI_Comm_size(comm, &n_ranks);
+      if (n_ranks == 1)
+        return mine;
+      std::vector<int> counts(n_ranks), starts(n_ranks + 1);
+      MPI_Allgather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+      std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+      std::vector<T> all(starts.back());
+      const auto     type = Utilities::MPI::mpi_type_id_for_type<T>;
+      MPI_Allgatherv(mine.data(),
+                     n_mine,
+                     type,
+                     all.data(),
+                     counts.data(),
+                     starts.data(),
+                     type,
+                     comm);
+      return all;
+    }
+
+    /// The part of a matrix that a supernode is computed from and updates:
+    /// its columns, then its rows below; columnwise, the lower triangle.
+    struct Front
+    {
+      explicit Front(const Supernode &supernode)
+        : width(supernode.width)
+        , height(supernode.height())
+        , values(std::size_t(height) * height)
+      {}
+
+      double &
+      operator()(const int i, const int j)
+      {
+        return values[i + std::size_t(height) * j];
+      }
+
+      /// False when the columns are not positive definite.
+      bool
+      eliminate()
+      {
+        using namespace Teuchos;
+        const BLAS<int, double>   blas;
+        const LAPACK<int, double> lapack;
+        const int                 n    = height - width;
+        int                       info = 0;
+        lapack.POTRF('L', width, values.data(), height, &info);
+        if (info != 0)
+          return false;
+        if (n > 0)
+          {
+            blas.TRSM(RIGHT_SIDE,
+                      LOWER_TRI,
+                      TRANS,
+                      NON_UNIT_DIAG,
+                      n,
+                      width,
+                      1.,
+                      values.data(),
+                      height,
+                      &(*this)(width, 0),
+                      height);
+            blas.SYRK(LOWER_TRI,
+                      NO_TRANS,
+                      n,
+                      width,
+                      -1.,
+                      &(*this)(width, 0),
+                      height,
+                      1.,
+                      &(*this)(width, width),
+                      height);
+          }
+        lapack.TRTRI('L', 'N', width, values.data(), height, &info);
+        return info == 0;
+      }
+
+      int                 width, height;
+      std::vector<double> values;
+    };
+
+    /// What remains of a front for its parent: rows below, squared.
+    std::vector<double>
+    update_of(Front &front)
+    {
+      const int           n = front.height - front.width;
+      std::vector<double> update(std::size_t(n) * n);
+      for (int j = 0; j < n; ++j)
+        std::copy_n(&front(front.width + j, front.width + j),
+                    n - j,
+                    &update[j + std::size_t(n) * j]);
+      return update;
+    }
+  } // namespace
+
+  /// Rows of all ranks.
+  template <typename Number>
+  struct SparseCholesky<Number>::GatheredMatrix : MatrixGraph
+  {
+    explicit GatheredMatrix(const Epetra_CrsMatrix &matrix, const MPI_Comm comm)
+    {
+      std::vector<unsigned int> lengths;
+      for (int i = 0; i < matrix.NumMyRows(); ++i)
+        {
+          const EpetraRow row(matrix, i);
+          lengths.push_back(row.length);
+          for (int k = 0; k < row.length; ++k)
+            columns.push_back(matrix.GCID(row.columns[k]));
+          values.insert(values.end(), row.values, row.values + row.length);
+        }
+      lengths = gather_on_all(lengths, comm);
+      columns = gather_on_all(columns, comm);
+      values  = gather_on_all(values, comm);
+      begin.assign(lengths.size() + 1, 0);
+      std::partial_sum(lengths.begin(), lengths.end(), begin.begin() + 1);
+      scale.assign(lengths.size(), 0.);
+      for (unsigned int i = 0; i < size(); ++i)
+        for (unsigned int k = begin[i]; k < begin[i + 1]; ++k)
+          if (columns[k] == static_cast<int>(i) && values[k] > 0.)
+            scale[i] = 1. / std::sqrt(values[k]);
+    }
+
+    std::vector<double> values;
+    std::vector<double> scale; ///< to a diagonal of ones; 0: not possible
+  };
+
+  template <typename Number>
+  bool
+  SparseCholesky<Number>::initialize(const Epetra_CrsMatrix &matrix)
+  {
+    comm = dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm();
+    MPI_Comm_rank(comm, &rank);
+    MPI_Comm_size(comm, &n_ranks);
+    const GatheredMatrix all(matrix, comm);
+    counts = gather_on_all(std::vector<int>{matrix.NumMyRows()}, comm);
+    starts.assign(n_ranks + 1, 0);
+    std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+    if (std::find(all.scale.begin(), all.scale.end(), 0.) != all.scale.end())
+      return false;
+    scale.assign(all.scale.begin() + starts[rank],
+                 all.scale.begin() + starts[rank + 1]);
+    EliminationTree tree(all);
+    supernodes = std::move(tree.supernodes);
+    place      = std::move(tree.place);
+    deal_out();
+    vector.resize(place.size());
+    exchange.resize(place.size());
+    std::size_t longest = 0;
+    for (const Supernode &supernode : supernodes)
+      longest = std::max(longest, supernode.rows.size());
+    below.resize(longest);
+    return factorise(all);
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky<Number>::deal_out()
+  {
+    const unsigned int                     n = supernodes.size();
+    std::vector<double>                    work(n); // of subtrees
+    std::vector<std::vector<unsigned int>> children(n);
+    std::vector<unsigned int>              roots;
+    for (unsigned int s = 0; s < n; ++s)
+      {
+        work[s] += double(supernodes[s].width) * supernodes[s].height();
+        if (const int parent = supernodes[s].parent; parent >= 0)
+          {
+            work[parent] += work[s];
+            children[parent].push_back(s);
+          }
+        else
+          roots.push_back(s);
+      }
+    // Cut the heaviest subtree until the heaviest rank has the least to do,
+    // with the work that all do.
+    const auto deal = [&](std::vector<int> &subtree_owner) {
+      std::stable_sort(roots.begin(), roots.end(), [&](auto a, auto b) {
+        return work[a] > work[b];
+      });
+      std::vector<double> load(n_ranks);
+      for (const unsigned int root : roots)
+        {
+          const auto least    = std::min_element(load.begin(), load.end());
+          subtree_owner[root] = least - load.begin();
+          *least += work[root];
+        }
+      return *std::max_element(load.begin(), load.end());
+    };
+    owner.assign(n, shared);
+    double best = deal(owner), common_work = 0.;
+    for (unsigned int cut = 0; n_ranks > 1 && cut < 8u * n_ranks; ++cut)
+      {
+        if (roots.empty() || children[roots.front()].empty())
+          break;
+        const unsigned int s = roots.front();
+        roots.erase(roots.begin());
+        common_work += double(supernodes[s].width) * supernodes[s].height();
+        roots.insert(roots.end(), children[s].begin(), children[s].end());
+        std::vector<int> other(n, shared);
+        if (const double load = deal(other) + common_work; load < best)
+          {
+            best  = load;
+            owner = std::move(other);
+          }
+      }
+    for (unsigned int s = n; s-- > 0;)
+      if (const int parent = supernodes[s].parent;
+          parent >= 0 && owner[parent] != shared)
+        owner[s] = owner[parent];
+
+    part_counts.assign(n_ranks, 0);
+    part_starts.assign(n_ranks + 1, 0);
+    for (int r = 0; r < n_ranks; ++r)
+      {
+        for (unsigned int s = 0; s < n; ++s)
+          if (owner[s] == r)
+            for (unsigned int i = 0; i < supernodes[s].width; ++i)
+              part_place.push_back(supernodes[s].first + i);
+        part_starts[r + 1] = part_place.size();
+        part_counts[r]     = part_starts[r + 1] - part_starts[r];
+      }
+    for (unsigned int s = 0; s < n; ++s)
+      if (owner[s] == rank)
+        own.push_back(s);
+      else if (owner[s] == shared)
+        {
+          common.push_back(s);
+          for (unsigned int i = 0; i < supernodes[s].width; ++i)
+            common_places.push_back(supernodes[s].first + i);
+        }
+  }
+
+  template <typename Number>
+  bool
+  SparseCholesky<Number>::factorise(const GatheredMatrix &matrix)
+  {
+    const unsigned int                     n = supernodes.size();
+    std::vector<unsigned int>              row_at(place.size());
+    std::vector<int>                       local(place.size(), -1);
+    std::vector<std::vector<double>>       updates(n);
+    std::vector<std::vector<unsigned int>> children(n);
+    for (unsigned int s = 0; s < n; ++s)
+      if (supernodes[s].parent >= 0)
+        children[supernodes[s].parent].push_back(s);
+    for (unsigned int i = 0; i < place.size(); ++i)
+      row_at[place[i]] = i;
+    panels.resize(n);
+
+    const auto process = [&](const unsigned int s) {
+      const Supernode &supernode = supernodes[s];
+      Front            front(supernode);
+      for (int i = 0; i < front.width; ++i)
+        local[supernode.first + i] = i;
+      for (unsigned int i = 0; i < supernode.rows.size(); ++i)
+        local[supernode.rows[i]] = front.width + i;
+      for (int j = 0; j < front.width; ++j)
+        {
+          const unsigned int row = row_at[supernode.first + j];
+          for (unsigned int k = matrix.begin[row]; k < matrix.begin[row + 1];
+               ++k)
+            if (const int column = matrix.columns[k];
+                place[column] >= supernode.first + j)
+              front(local[place[column]], j) =
+                matrix.values[k] * matrix.scale[row] * matrix.scale[column];
+        }
+      for (const unsigned int child : children[s])
+        {
+          const auto &rows   = supernodes[child].rows;
+          auto       &update = updates[child];
+          if (owner[s] == shared && owner[child] != shared)
+            {
+              update.resize(rows.size() * rows.size());
+              MPI_Bcast(
+                update.data(), update.size(), MPI_DOUBLE, owner[child], comm);
+            }
+          for (unsigned int j = 0; j < rows.size(); ++j)
+            for (unsigned int i = j; i < rows.size(); ++i)
+              front(local[rows[i]], local[rows[j]]) +=
+                update[i + rows.size() * j];
+          update = std::vector<double>();
+        }
+      if (!front.eliminate())
+        return false;
+      updates[s]  = update_of(front);
+      auto &panel = panels[s];
+      panel.resize_fast(std::size_t(front.width) * front.height);
+      std::copy_n(front.values.data(), panel.size(), panel.begin());
+      return true;
+    };
+    bool positive = true;
+    for (const unsigned int s : own)
+      positive = positive && process(s);
+    positive = Utilities::MPI::min(positive ? 1 : 0, comm) == 1;
+    for (const unsigned int s : common)
+      positive = positive && process(s);
+    return positive;
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky<Number>::forward(const unsigned int s) const
+  {
+    using namespace Teuchos;
+    const BLAS<int, Number> blas;
+    const Supernode        &supernode = supernodes[s];
+    const int               w = supernode.width, h = supernode.height();
+    const Number           *panel = panels[s].begin();
+    Number                 *v     = &vector[supernode.first];
+    blas.TRMV(LOWER_TRI, NO_TRANS, NON_UNIT_DIAG, w, panel, h, v, 1);
+    if (h == w)
+      return;
+    blas.GEMV(NO_TRANS, h - w, w, 1, panel + w, h, v, 1, 0, below.data(), 1);
+    for (int i = 0; i < h - w; ++i)
+      vector[supernode.rows[i]] -= below[i];
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky<Number>::backward(const unsigned int s) const
+  {
+    using namespace Teuchos;
+    const BLAS<int, Number> blas;
+    const Supernode        &supernode = supernodes[s];
+    const int               w = supernode.width, h = supernode.height();
+    const Number           *panel = panels[s].begin();
+    Number                 *v     = &vector[supernode.first];
+    if (h > w)
+      {
+        for (int i = 0; i < h - w; ++i)
+          below[i] = vector[supernode.rows[i]];
+        blas.GEMV(TRANS, h - w, w, -1, panel + w, h, below.data(), 1, 1, v, 1);
+      }
+    blas.TRMV(LOWER_TRI, TRANS, NON_UNIT_DIAG, w, panel, h, v, 1);
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky<Number>::solve(Epetra_Vector &x, const Epetra_Vector &b) const
+  {
+    const auto type = Utilities::MPI::mpi_type_id_for_type<Number>;
+    const int  n    = scale.size();
+    for (int i = 0; i < n; ++i)
+      exchange[starts[rank] + i] = static_cast<Number>(scale[i] * b[i]);
+    if (n_ranks > 1)
+      MPI_Allgatherv(MPI_IN_PLACE,
+                     0,
+                     MPI_DATATYPE_NULL,
+                     exchange.data(),
+                     counts.data(),
+                     starts.data(),
+                     type,
+                     comm);
+    for (unsigned int i = 0; i < place.size(); ++i)
+      vector[place[i]] = exchange[i];
+
+    if (rank > 0) // what all have counts once
+      for (const unsigned int i : common_places)
+        vector[i] = 0;
+    for (const unsigned int s : own)
+      forward(s);
+    if (!common.empty())
+      {
+        for (unsigned int i = 0; i < common_places.size(); ++i)
+          exchange[i] = vector[common_places[i]];
+        MPI_Allreduce(MPI_IN_PLACE,
+                      exchange.data(),
+                      static_cast<int>(common_places.size()),
+                      type,
+                      MPI_SUM,
+                      comm);
+        for (unsigned int i = 0; i < common_places.size(); ++i)
+          vector[common_places[i]] = exchange[i];
+        for (const unsigned int s : common)
+          forward(s);
+        for (auto s = common.rbegin(); s != common.rend(); ++s)
+          backward(*s);
+      }
+    for (auto s = own.rbegin(); s != own.rend(); ++s)
+      backward(*s);
+    if (n_ranks > 1)
+      {
+        for (int i = part_starts[rank]; i < part_starts[rank + 1]; ++i)
+          exchange[i] = vector[part_place[i]];
+        MPI_Allgatherv(MPI_IN_PLACE,
+                       0,
+                       MPI_DATATYPE_NULL,
+                       exchange.data(),
+                       part_counts.data(),
+                       part_starts.data(),
+                       type,
+                       comm);
+        for (unsigned int i = 0; i < part_place.size(); ++i)
+          vector[part_place[i]] = exchange[i];
+      }
+    for (int i = 0; i < n; ++i)
+      x[i] = scale[i] * vector[place[starts[rank] + i]];
+  }
+
+  template class SparseCholesky<float>;
+  template class SparseCholesky<double>;
+} // namespace mortise
