@@ -146,8 +146,10 @@ namespace mortise
       else if (is_tetrahedral(mesh))
         for (unsigned int time = 0; time < parameters.refinements; ++time)
           mesh = refine_tetrahedra(mesh);
-      if (!is_tetrahedral(mesh))
+      if (!is_tetrahedral(mesh) && parameters.source == "file")
         order_cells(mesh, where);
+      Assert(is_tetrahedral(mesh) || consistently_ordered(mesh.cells),
+             ExcMessage("generators order their cells"));
       check_shapes(mesh, where);
       return mesh;
     }
