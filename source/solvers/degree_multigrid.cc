@@ -45,14 +45,15 @@ namespace mortise
   {
     explicit Implementation(const BlockSystem &system)
     {
+      const auto &all = system.nodal->levels();
+      initialize_vertices(all.back(), system.communicator);
       if (system.owned_multiplier.size() > 0)
         {
           lifting = std::make_unique<DiagonalLifting>(system);
-          valid   = lifting->is_valid();
+          valid   = lifting->is_valid() && valid;
           correction =
             std::make_unique<InterfaceCorrection<Number>>(system, *lifting);
         }
-      const auto &all = system.nodal->levels();
       for (unsigned int l = 0; l + 1 < all.size(); ++l)
         {
           levels.push_back(std::make_unique<SmoothedLevel>(
@@ -66,16 +67,22 @@ namespace mortise
         transfers.push_back(std::make_unique<DegreeTransfer<Number>>(
           levels[l]->matrix,
           l + 1 < levels.size() ? levels[l + 1]->matrix : *coarse));
-      assemble_vertex_matrix(all.back(), vertices);
-      valid = vertex_solver.initialize({vertices.rows,
-                                        vertices.points,
-                                        system.communicator},
-                                       vertices.matrix.trilinos_matrix()) &&
-              valid;
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
-      const auto &map = vertices.matrix.trilinos_matrix().RowMap();
-      vertex_x        = std::make_unique<Epetra_Vector>(map);
-      vertex_r        = std::make_unique<Epetra_Vector>(map);
+    }
+
+    /// In front of all else: what algebraic multigrid needs for a while is the
+    /// largest part of the memory.
+    void
+    initialize_vertices(const NodalLevel &level, const MPI_Comm communicator)
+    {
+      VertexMatrix vertices;
+      assemble_vertex_matrix(level, vertices);
+      const auto &matrix = vertices.matrix.trilinos_matrix();
+      valid =
+        vertex_solver.initialize({vertices.rows, vertices.points, communicator},
+                                 matrix);
+      vertex_x = std::make_unique<Epetra_Vector>(matrix.RowMap());
+      vertex_r = std::make_unique<Epetra_Vector>(matrix.RowMap());
     }
 
     /// levels[l]->x = an approximate solution for levels[l]->b, on the finest
@@ -119,7 +126,6 @@ namespace mortise
     std::unique_ptr<LevelOperator<Number>>               coarse;
     std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
     LevelVector<Number>                                  coarse_x, coarse_b;
-    VertexMatrix                                         vertices;
     VertexSolver                                         vertex_solver;
     std::unique_ptr<Epetra_Vector>                       vertex_x, vertex_r;
     bool                                                 valid = true;
