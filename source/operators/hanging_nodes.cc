@@ -23,7 +23,7 @@ namespace mortise
   HangingNodes<Number>::HangingNodes(const NodalSpace                  &space,
                                      const Utilities::MPI::Partitioner &layout)
   {
-    constexpr std::size_t                             width = Batch<Number>::size;
+    constexpr std::size_t width = Batch<Number>::size;
     std::map<std::vector<unsigned int>, unsigned int> group_of_columns;
     std::vector<std::vector<double>>                  values; // by group
     for (const auto &line : space.hanging_nodes().get_lines())
@@ -64,10 +64,10 @@ namespace mortise
       {
         const std::size_t n = groups[g].columns.size();
         for (unsigned int r = 0; r < groups[g].rows.size(); ++r)
-          std::copy_n(&values[g][r * n],
-                      n,
-                      &weights[groups[g].first +
-                               r * width * n_vectors<Number>(n)]);
+          std::copy_n(
+            &values[g][r * n],
+            n,
+            &weights[groups[g].first + r * width * n_vectors<Number>(n)]);
       }
   }
 
@@ -84,7 +84,7 @@ namespace mortise
         for (unsigned int c = 0; c < dim; ++c)
           {
             gathered[c * m + m - 1] = V{};
-            Number *to              = workspace.data() + c * m * Batch<Number>::size;
+            Number *to = workspace.data() + c * m * Batch<Number>::size;
             for (unsigned int j = 0; j < n; ++j)
               to[j] = u[group.columns[j] + c];
           }

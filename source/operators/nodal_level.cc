@@ -221,8 +221,7 @@ namespace mortise
                                      &on_columns = column.nodes[number];
                      const FullMatrix<double> nodal =
                        resolve_hanging(nodal_block(modal,
-                                                   {row.degree,
-                                                    on_rows.degree},
+                                                   {row.degree, on_rows.degree},
                                                    {column.degree,
                                                     on_columns.degree}),
                                        on_rows,

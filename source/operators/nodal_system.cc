@@ -166,11 +166,11 @@ namespace mortise
   void
   NodalSystem::drop_held_columns(SparseMatrix &coupling) const
   {
-    const NodalLevel   &level = all_levels.front();
-    const unsigned int  n     = level.space->hanging_nodes().n_constraints();
+    const NodalLevel  &level = all_levels.front();
+    const unsigned int n     = level.space->hanging_nodes().n_constraints();
     if (Utilities::MPI::max(n, level.layout->get_mpi_communicator()) == 0)
       return;
-    auto         &matrix = const_cast<Epetra_CrsMatrix &>(coupling.trilinos_matrix());
+    auto &matrix = const_cast<Epetra_CrsMatrix &>(coupling.trilinos_matrix());
     Epetra_Vector kept(matrix.DomainMap());
     kept.PutScalar(1.);
     for (const unsigned int place : level.held)

@@ -155,9 +155,9 @@ namespace mortise
     std::map<unsigned int, std::unique_ptr<CellKernel>> kernels;
     FullMatrix<double>                                  local_matrix(24);
     std::vector<Point<dim>> points(owned.n_elements() / dim);
-    std::vector<double> values;
-    std::vector<Index>  columns;
-    const auto          add = [&](const std::vector<Index> &all,
+    std::vector<double>     values;
+    std::vector<Index>      columns;
+    const auto              add = [&](const std::vector<Index> &all,
                          const FullMatrix<double> &local) {
       for (unsigned int i = 0; i < all.size(); ++i)
         if (!is_held(all[i]))

@@ -21,7 +21,8 @@
 
 namespace mortise
 {
-  /// Values at the nodes of a face, in the order of the functions of TraceBasis.
+  /// Values at the nodes of a face, in the order of the functions of
+  /// TraceBasis.
   struct FaceNodes
   {
     unsigned int degree = 1;

@@ -23,8 +23,9 @@ namespace mortise
               const BlockSide                  &rows,
               const BlockSide                  &columns);
 
-  /// F_r^T A F_c where F_r, F_c say how the values at the nodes of the rows' and
-  /// the columns' face follow from those of others; as it is where none hangs.
+  /// F_r^T A F_c where F_r, F_c say how the values at the nodes of the rows'
+  /// and the columns' face follow from those of others; as it is where none
+  /// hangs.
   dealii::FullMatrix<double>
   resolve_hanging(dealii::FullMatrix<double> A,
                   const FaceNodes           &rows,

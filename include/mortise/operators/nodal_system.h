@@ -53,8 +53,8 @@ namespace mortise
                   const Scene              &scene,
                   Vector                   &load) const;
 
-    /// B without the columns of prescribed components, which hanging nodes bring
-    /// in. Collective.
+    /// B without the columns of prescribed components, which hanging nodes
+    /// bring in. Collective.
     void
     drop_held_columns(SparseMatrix &coupling) const;
 
