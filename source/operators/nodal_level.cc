@@ -327,31 +327,6 @@ namespace mortise
 
   template <typename Number>
   void
-  LevelOperator<Number>::complete(const LevelVector<Number> &v) const
-  {
-    v.update_ghost_values();
-    // of the places of v these hold no values of its own, as ghosts do
-    hanging.fill(const_cast<Number *>(v.begin()));
-  }
-
-  template <typename Number>
-  void
-  LevelOperator<Number>::release(const LevelVector<Number> &v) const
-  {
-    hanging.clear(const_cast<Number *>(v.begin()));
-    v.zero_out_ghost_values();
-  }
-
-  template <typename Number>
-  void
-  LevelOperator<Number>::gather(LevelVector<Number> &v) const
-  {
-    hanging.collect(v.begin());
-    v.compress(VectorOperation::add);
-  }
-
-  template <typename Number>
-  void
   LevelOperator<Number>::vmult(LevelVector<Number>       &dst,
                                const LevelVector<Number> &src) const
   {

@@ -90,16 +90,29 @@ namespace mortise
     /// Ghost values and those of hanging nodes of the function that @p v holds.
     /// Collective.
     void
-    complete(const LevelVector<Number> &v) const;
+    complete(const LevelVector<Number> &v) const
+    {
+      v.update_ghost_values();
+      // these places hold no values of v's own, as those of ghosts
+      hanging.fill(const_cast<Number *>(v.begin()));
+    }
 
     /// Undoes complete().
     void
-    release(const LevelVector<Number> &v) const;
+    release(const LevelVector<Number> &v) const
+    {
+      hanging.clear(const_cast<Number *>(v.begin()));
+      v.zero_out_ghost_values();
+    }
 
     /// What local products left in @p v brought to the nodes that do not hang
     /// and to their owners. Collective.
     void
-    gather(LevelVector<Number> &v) const;
+    gather(LevelVector<Number> &v) const
+    {
+      hanging.collect(v.begin());
+      v.compress(dealii::VectorOperation::add);
+    }
 
     void
     initialize(LevelVector<Number> &v) const
