@@ -29,7 +29,9 @@ namespace mortise::testing
         result.source       = "shell octant";
         result.extent       = {1., 2.};
         result.subdivisions = {2, 2};
-        result.refine_near  = "1, 0, 0, 0.1, 1; 0.6, 0.6, 0.6, 0.3, 1";
+        // where patches meet in faces of transposed directions, from both sides
+        result.refine_near =
+          "0.1995, 0.6643, 0.9914, 0.05, 1; 0.2793, 1.3879, 0.93, 0.05, 1";
         return result;
       }
     result.source       = "box";
