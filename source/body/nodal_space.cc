@@ -10,6 +10,7 @@
 #include <mortise/body/nodal_space.h>
 
 #include <algorithm>
+#include <map>
 
 namespace mortise
 {
@@ -37,7 +38,51 @@ namespace mortise
         DoFTools::extract_locally_active_dofs(*handlers[body->index], active);
         numbering.add_to(body->index, active, relevant);
       }
+    find_hanging_nodes();
     relevant.compress();
+  }
+
+  void
+  NodalSpace::find_hanging_nodes()
+  {
+    using Entries = std::vector<std::pair<Index, double>>;
+    std::vector<std::pair<Index, Entries>> lines;
+    std::vector<Index>                     masters;
+    for (const Body *body : scene)
+      if (body->triangulation().has_hanging_nodes())
+        {
+          const auto &handler = *handlers[body->index];
+          IndexSet    active, local;
+          DoFTools::extract_locally_active_dofs(handler, active);
+          DoFTools::extract_locally_relevant_dofs(handler, local);
+          AffineConstraints<double> constraints(local);
+          DoFTools::make_hanging_node_constraints(handler, constraints);
+          complete_constraints(handler, constraints);
+          constraints.close();
+          for (const auto &line : constraints.get_lines())
+            if (active.is_element(line.index))
+              {
+                lines.push_back(
+                  {numbering(body->index, line.index), line.entries});
+                for (auto &entry : lines.back().second)
+                  {
+                    entry.first = numbering(body->index, entry.first);
+                    masters.push_back(entry.first);
+                  }
+              }
+        }
+    std::sort(masters.begin(), masters.end());
+    relevant.add_indices(masters.begin(),
+                         std::unique(masters.begin(), masters.end()));
+    if (lines.empty())
+      return;
+    hanging.reinit(relevant);
+    for (const auto &[node, entries] : lines)
+      {
+        hanging.add_line(node);
+        hanging.add_entries(node, entries);
+      }
+    hanging.close();
   }
 
   bool
@@ -45,20 +90,10 @@ namespace mortise
   {
     for (const Body *body : bodies)
       {
-        const auto &mesh = body->triangulation();
         if (body->mesh.tetrahedra)
           return false;
-        bool plain = true;
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              plain = plain && body->degree(cell) == body->max_degree();
-              for (const unsigned int f : cell->face_indices())
-                plain = plain && (cell->at_boundary(f) ||
-                                  (!cell->face(f)->has_children() &&
-                                   !cell->neighbor_is_coarser(f)));
-            }
-        if (Utilities::MPI::min(plain ? 1 : 0, mesh.get_communicator()) == 0)
+        const auto statistics = body->statistics();
+        if (statistics.degree_min != statistics.degree_max)
           return false;
       }
     return true;
@@ -80,15 +115,42 @@ namespace mortise
       node = numbering(body, node);
   }
 
-  std::vector<NodalSpace::Index>
+  FaceNodes
   NodalSpace::face_nodes(const unsigned int        body,
                          const Body::CellIterator &cell,
                          const unsigned int        face_number) const
   {
-    std::vector<Index> nodes, result;
+    FaceNodes result;
+    result.degree = degrees[body];
+    std::vector<Index> nodes;
     get_nodes(body, cell, nodes);
-    for (const unsigned int i : face_dof_indices(degrees[body], face_number))
-      result.push_back(nodes[i]);
+    bool any = false;
+    for (const unsigned int i : face_dof_indices(result.degree, face_number))
+      {
+        result.nodes.push_back(nodes[i]);
+        any = any || hanging.is_constrained(nodes[i]);
+      }
+    if (!any)
+      return result;
+
+    std::map<Index, unsigned int> place;
+    const auto add = [&](const Index node, const double weight) {
+      result.column.push_back(place.emplace(node, place.size()).first->second);
+      result.weight.push_back(weight);
+    };
+    result.begin = {0};
+    for (const Index node : result.nodes)
+      {
+        if (const auto *masters = hanging.get_constraint_entries(node))
+          for (const auto &[master, weight] : *masters)
+            add(master, weight);
+        else
+          add(node, 1.);
+        result.begin.push_back(result.column.size());
+      }
+    result.nodes.resize(place.size());
+    for (const auto &[node, column] : place)
+      result.nodes[column] = node;
     return result;
   }
 

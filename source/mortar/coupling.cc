@@ -31,7 +31,8 @@ namespace mortise
     }
 
     /// The columns of one side of the constraint: hierarchical functions, or
-    /// nodal ones where the trace has nodes, which need no weights.
+    /// nodal ones where the trace has nodes. Prescribed ones are among them
+    /// where nodes hang.
     class ConstraintColumns
     {
     public:
@@ -41,17 +42,19 @@ namespace mortise
       {
         if (trace.nodes.empty())
           return;
-        const auto &nodes = trace.nodes[0];
+        const FaceNodes &face = trace.nodes[0];
         for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int k = 0; k < nodes.size(); ++k)
+          for (unsigned int k = 0; k < trace.n_functions(); ++k)
             {
-              const unsigned int row = c * nodes.size() + k;
+              const unsigned int row = c * trace.n_functions() + k;
+              if (face.hang())
+                for (unsigned int e = face.begin[k]; e < face.begin[k + 1]; ++e)
+                  add(face.nodes[face.column[e]], c, face.weight[e]);
               // what holds a mode holds the node in its place
-              if (trace.begin[row + 1] > trace.begin[row])
-                index.push_back(dim * nodes[k] + c);
+              else if (trace.begin[row + 1] > trace.begin[row])
+                add(face.nodes[k], c, 1.);
               begin.push_back(index.size());
             }
-        weight.assign(index.size(), 1.);
       }
 
       Expansion
@@ -73,6 +76,13 @@ namespace mortise
       }
 
     private:
+      void
+      add(const Index node, const unsigned int c, const double factor)
+      {
+        index.push_back(dim * node + c);
+        weight.push_back(factor);
+      }
+
       const FaceTrace          &trace;
       std::vector<unsigned int> begin;
       std::vector<Index>        index;

@@ -1,8 +1,5 @@
 #include <mortise/base/tensor_product.h>
-#include <mortise/body/nodal_space.h>
 #include <mortise/mortar/nodal_block.h>
-
-#include <cmath>
 
 namespace mortise
 {
@@ -47,9 +44,29 @@ namespace mortise
     return transposed(transform_rows(transposed(half), columns));
   }
 
-  unsigned int
-  level_degree(const std::vector<types::global_dof_index> &nodes)
+  namespace
   {
-    return static_cast<unsigned int>(std::lround(std::sqrt(nodes.size()))) - 1;
+    FullMatrix<double>
+    resolve_rows(const FullMatrix<double> &A, const FaceNodes &rows)
+    {
+      FullMatrix<double> result(rows.nodes.size(), A.n());
+      for (unsigned int k = 0; k < A.m(); ++k)
+        for (unsigned int e = rows.begin[k]; e < rows.begin[k + 1]; ++e)
+          for (unsigned int j = 0; j < A.n(); ++j)
+            result(rows.column[e], j) += rows.weight[e] * A(k, j);
+      return result;
+    }
+  } // namespace
+
+  FullMatrix<double>
+  resolve_hanging(FullMatrix<double> A,
+                  const FaceNodes   &rows,
+                  const FaceNodes   &columns)
+  {
+    if (rows.hang())
+      A = resolve_rows(A, rows);
+    if (columns.hang())
+      A = transposed(resolve_rows(transposed(A), columns));
+    return A;
   }
 } // namespace mortise

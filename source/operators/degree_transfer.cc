@@ -139,15 +139,16 @@ namespace mortise
   DegreeTransfer<Number>::prolongate_add(LevelVector<Number>       &to,
                                          const LevelVector<Number> &from) const
   {
-    from.update_ghost_values();
+    coarse.complete(from);
     weighted = 0;
     for (unsigned int b = 0; b < kernels.size(); ++b)
       kernels[b]->prolongate(fine.cells()[b],
                              coarse.cells()[b],
                              weighted.begin(),
                              from.begin());
-    from.zero_out_ghost_values();
+    coarse.release(from);
     weighted.compress(VectorOperation::add);
+    fine.clear_held(weighted);
     for (unsigned int i = 0; i < to.locally_owned_size(); ++i)
       to.local_element(i) +=
         weights.local_element(i) * weighted.local_element(i);
@@ -169,7 +170,7 @@ namespace mortise
                               weighted.begin(),
                               to.begin());
     weighted.zero_out_ghost_values();
-    to.compress(VectorOperation::add);
+    coarse.gather(to);
     coarse.clear_held(to);
   }
 

@@ -21,12 +21,12 @@ namespace mortise
         {
           for (const FaceTrace &trace : coupling.interface->slave().traces)
             nodes.insert(nodes.end(),
-                         trace.nodes[number].begin(),
-                         trace.nodes[number].end());
+                         trace.nodes[number].nodes.begin(),
+                         trace.nodes[number].nodes.end());
           for (const FaceTrace &trace : coupling.interface->master_traces())
             nodes.insert(nodes.end(),
-                         trace.nodes[number].begin(),
-                         trace.nodes[number].end());
+                         trace.nodes[number].nodes.begin(),
+                         trace.nodes[number].nodes.end());
         }
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
@@ -35,7 +35,7 @@ namespace mortise
       return result;
     }
 
-    /// Components of @p space that are prescribed on the finest level: on
+    /// Components of @p space that are prescribed or hang on the finest level: on
     /// vertices, lines and faces of the cells.
     std::vector<unsigned int>
     find_held(const NodalSpace                  &space,
@@ -150,7 +150,7 @@ namespace mortise
     using Places    = std::vector<unsigned int>;
     const auto find = [&](const FaceTrace &trace) {
       Places places;
-      for (const auto node : trace.nodes[number])
+      for (const auto node : trace.nodes[number].nodes)
         places.push_back(level.layout->global_to_local(dim * node));
       return places;
     };
@@ -217,10 +217,15 @@ namespace mortise
                        const FaceTrace          &column,
                        const FullMatrix<double> &modal,
                        const double              factor) {
-                     const FullMatrix<double> nodal = nodal_block(
-                       modal,
-                       {row.degree, level_degree(row.nodes[number])},
-                       {column.degree, level_degree(column.nodes[number])});
+                     const FaceNodes &on_rows    = row.nodes[number],
+                                     &on_columns = column.nodes[number];
+                     const FullMatrix<double> nodal =
+                       resolve_hanging(nodal_block(modal,
+                                                   {row.degree, on_rows.degree},
+                                                   {column.degree,
+                                                    on_columns.degree}),
+                                       on_rows,
+                                       on_columns);
                      const Places rows = find(row), more = find(column);
                      for (unsigned int i = 0; i < rows.size(); ++i)
                        for (unsigned int j = 0; j < more.size(); ++j)
@@ -238,6 +243,7 @@ namespace mortise
                                        const bool        with_penalty)
     : level(level)
     , stiffness(*level.space, *level.layout)
+    , hanging(*level.space, *level.layout)
   {
     if (!with_penalty)
       return;
@@ -299,13 +305,13 @@ namespace mortise
   LevelOperator<Number>::vmult_free(LevelVector<Number>       &dst,
                                     const LevelVector<Number> &src) const
   {
-    src.update_ghost_values();
+    complete(src);
     dst = 0;
     stiffness.add_product(src.begin(), dst.begin());
     if (!penalty.empty())
       add_penalty(src.begin(), dst.begin());
-    src.zero_out_ghost_values();
-    dst.compress(VectorOperation::add);
+    release(src);
+    gather(dst);
   }
 
   template <typename Number>
@@ -332,6 +338,7 @@ namespace mortise
     initialize(diagonal);
     Number *out = diagonal.begin();
     stiffness.add_diagonal(out);
+    hanging.collect_diagonal(out);
     const Number *values = penalty.data();
     if (!penalty.empty())
       for (const auto &group : level.penalty.groups)

@@ -1,3 +1,5 @@
+#include <Epetra_CrsMatrix.h>
+#include <Epetra_Vector.h>
 #include <mortise/base/tensor_product.h>
 #include <mortise/body/fe_legendre.h>
 #include <mortise/operators/nodal_system.h>
@@ -110,7 +112,7 @@ namespace mortise
               }
           });
       }
-    sum.compress(VectorOperation::add);
+    stiffness->gather(sum);
     subtract_prescribed(scene, sum);
     stiffness->clear_held(sum);
     load.reinit(level.layout->locally_owned_range(),
@@ -163,6 +165,21 @@ namespace mortise
   }
 
   void
+  NodalSystem::drop_held_columns(SparseMatrix &coupling) const
+  {
+    const NodalLevel  &level = all_levels.front();
+    const unsigned int n     = level.space->hanging_nodes().n_constraints();
+    if (Utilities::MPI::max(n, level.layout->get_mpi_communicator()) == 0)
+      return;
+    auto &matrix = const_cast<Epetra_CrsMatrix &>(coupling.trilinos_matrix());
+    Epetra_Vector kept(matrix.DomainMap());
+    kept.PutScalar(1.);
+    for (const unsigned int place : level.held)
+      kept[place] = 0.;
+    matrix.RightScale(kept);
+  }
+
+  void
   NodalSystem::for_each_coefficient(
     const Vector                            &displacement,
     const std::function<void(unsigned int                    body,
@@ -171,7 +188,7 @@ namespace mortise
   {
     const NodalLevel &level = all_levels.front();
     std::copy_n(displacement.begin(), in.locally_owned_size(), in.begin());
-    in.update_ghost_values();
+    stiffness->complete(in);
     auto                                 orders = cell_orders(*level.space);
     std::vector<types::global_dof_index> dofs;
     level.space->for_each_cell(
@@ -189,6 +206,6 @@ namespace mortise
               set(body.index, dofs[order.modes[c][i]], order.values[i]);
           }
       });
-    in.zero_out_ghost_values();
+    stiffness->release(in);
   }
 } // namespace mortise

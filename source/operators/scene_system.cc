@@ -143,10 +143,9 @@ namespace mortise
                                  if (!result[body].in_local_range(dof))
                                    return;
                                  const auto index = numbering(body, dof);
+                                 // one that hangs has both
                                  result[body](dof) =
-                                   constraints.is_constrained(index) ?
-                                     constraints.get_inhomogeneity(index) :
-                                     value;
+                                   value + constraints.get_inhomogeneity(index);
                                });
     for (BodyVector &vector : result)
       vector.update_ghost_values();

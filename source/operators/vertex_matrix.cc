@@ -31,6 +31,57 @@ namespace mortise
       });
     }
 
+    /// What the 24 values of a cell follow from where some hang: value i is
+    /// sum_j weights(i, j) u(indices[j]).
+    struct Masters
+    {
+      std::vector<Index> indices;
+      FullMatrix<double> weights;
+    };
+
+    /// No indices where none hangs.
+    Masters
+    find_masters(const NodalLevel &level, const std::vector<Index> &all)
+    {
+      const auto        &hanging = level.space->hanging_nodes();
+      std::vector<Index> nodes;
+      bool               any = false;
+      for (unsigned int i = 0; i < all.size(); i += dim)
+        if (const auto *entries = hanging.get_constraint_entries(all[i] / dim))
+          {
+            any = true;
+            for (const auto &entry : *entries)
+              nodes.push_back(entry.first);
+          }
+        else
+          nodes.push_back(all[i] / dim);
+      Masters result;
+      if (!any)
+        return result;
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+      for (const Index node : nodes)
+        for (unsigned int c = 0; c < dim; ++c)
+          result.indices.push_back(dim * node + c);
+      result.weights.reinit(all.size(), result.indices.size());
+      for (unsigned int i = 0; i < all.size(); ++i)
+        {
+          const auto set = [&](const Index node, const double weight) {
+            const auto place =
+              std::lower_bound(nodes.begin(), nodes.end(), node) -
+              nodes.begin();
+            result.weights(i, dim * place + i % dim) = weight;
+          };
+          if (const auto *entries =
+                hanging.get_constraint_entries(all[i] / dim))
+            for (const auto &[node, weight] : *entries)
+              set(node, weight);
+          else
+            set(all[i] / dim, 1.);
+        }
+      return result;
+    }
+
     /// Drops what is held, in rows and columns.
     class HeldIndices
     {
@@ -76,6 +127,9 @@ namespace mortise
                     for (const Index index : all)
                       if (is_held(index))
                         sparsity.add(index, index);
+                    if (const Masters masters = find_masters(level, all);
+                        !masters.indices.empty())
+                      all = masters.indices;
                     keep_free(all);
                     std::sort(all.begin(), all.end());
                     for (const Index row : all)
@@ -101,6 +155,25 @@ namespace mortise
     std::map<unsigned int, std::unique_ptr<CellKernel>> kernels;
     FullMatrix<double>                                  local_matrix(24);
     std::vector<Point<dim>> points(owned.n_elements() / dim);
+    std::vector<double>     values;
+    std::vector<Index>      columns;
+    const auto              add = [&](const std::vector<Index> &all,
+                         const FullMatrix<double> &local) {
+      for (unsigned int i = 0; i < all.size(); ++i)
+        if (!is_held(all[i]))
+          {
+            columns.clear();
+            values.clear();
+            for (unsigned int j = 0; j < all.size(); ++j)
+              if (!is_held(all[j]))
+                {
+                  columns.push_back(all[j]);
+                  values.push_back(local(i, j));
+                }
+            result.matrix.add(
+              all[i], columns.size(), columns.data(), values.data(), false);
+          }
+    };
     for_each_cell(
       level,
       [&](const Body &body, const auto &cell, const std::vector<Index> &all) {
@@ -108,23 +181,18 @@ namespace mortise
         if (!kernel)
           kernel = std::make_unique<CellKernel>(body, system);
         kernel->compute(cell, local_matrix);
-        std::array<double, 24> values;
-        std::array<Index, 24>  columns;
         for (unsigned int i = 0; i < 24; ++i)
+          if (is_held(all[i]))
+            result.matrix.add(all[i], all[i], local_matrix(i, i));
+        if (const Masters masters = find_masters(level, all);
+            masters.indices.empty())
+          add(all, local_matrix);
+        else
           {
-            if (is_held(all[i]))
-              {
-                result.matrix.add(all[i], all[i], local_matrix(i, i));
-                continue;
-              }
-            unsigned int n = 0;
-            for (unsigned int j = 0; j < 24; ++j)
-              if (!is_held(all[j]))
-                {
-                  columns[n]  = all[j];
-                  values[n++] = local_matrix(i, j);
-                }
-            result.matrix.add(all[i], n, columns.data(), values.data(), false);
+            FullMatrix<double> resolved(masters.indices.size());
+            resolved.triple_product(
+              local_matrix, masters.weights, masters.weights, true, false);
+            add(masters.indices, resolved);
           }
         for (const unsigned int v : cell->vertex_indices())
           if (layout.in_local_range(all[dim * v]))

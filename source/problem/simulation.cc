@@ -341,6 +341,8 @@ namespace mortise
         system.nodal =
           std::make_unique<NodalSystem>(std::move(nodal_spaces), scene, comm);
         system.nodal->assemble_load(loads, scene, system.load);
+        if (system.owned_multiplier.size() > 0)
+          system.nodal->drop_held_columns(system.coupling);
         stage.details("without a matrix");
         return;
       }

@@ -73,6 +73,12 @@ def report(mortise):
     yield from table("Over Poisson's ratio:", ("p, mesh", *poisson),
                      ((f"{p}, {mesh}", *(count(p, mesh, nu=nu) for nu in poisson))
                       for p, mesh in ((2, "8,4:12,6"), (4, "4,2:6,3"), (6, "2,1:3,2"))))
+    near = {"none": ("", ""), "slave": ("0, 0, 1.5, 0.6, 1", ""), "master": ("", "1.5, 0, 0, 0.5, 1"),
+            "both": ("0, 0, 1.5, 0.6, 1", "1.5, 0, 0, 0.5, 1"), "both, twice": ("0, 0, 1.5, 0.3, 2",) * 2}
+    local = lambda balls: [f"Body {body}/Mesh/Refine near={ball}" for body, ball in zip(("inner", "outer"), balls)]
+    yield from table("Over the sides of the interface that have hanging nodes, 2,2:3,2:", ("p", *near),
+                     ((p, *(both(mortise, sphere(p, "2,2:3,2") + local(balls)) for balls in near.values()))
+                      for p in (2, 3, 4, 5, 6)))
     yield from table("Scenes whose meshes need a matrix (tetrahedra, or degrees mixed within a body):", ("scene", ""),
                      ((f"prm/{scene}.prm", both(mortise, [], scene))
                       for scene in ("flange", "thick_sphere_gmsh")))

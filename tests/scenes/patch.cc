@@ -118,6 +118,15 @@ main(int argc, char *argv[])
         meshes("2, 2, 1", "3, 3, 1", 2) + direct +
           Settings{"Body lower/Mesh/Refine near=0.2, 0.2, 0.5, 0.4, 1",
                    "Body upper/Mesh/Refine near=0.9, 0.3, 0.5, 0.3, 1"});
+  for (const unsigned int p : {2, 4})
+    for (const std::string method : {"condensed", "saddle point"})
+      check("hanging nodes on both sides, degree " + std::to_string(p) + ", " +
+              method,
+            text,
+            meshes("2, 2, 1", "3, 3, 1", p) +
+              Settings{"Solver/Method=" + method,
+                       "Body lower/Mesh/Refine near=0.2, 0.2, 0.5, 0.4, 1",
+                       "Body upper/Mesh/Refine near=0.9, 0.3, 0.5, 0.3, 2"});
   check("mixed degrees and hanging nodes on both sides",
         text,
         meshes("2, 2, 2", "2, 2, 2", 1) + direct +

@@ -9,6 +9,7 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
+#include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
 
 #include <mortise/body/body.h>
@@ -20,19 +21,45 @@
 
 namespace mortise
 {
+  /// Values at the nodes of a face, in the order of the functions of
+  /// TraceBasis.
+  struct FaceNodes
+  {
+    unsigned int degree = 1;
+    /// One per function; where some of a face hang, those that its values
+    /// follow from: value k is sum_e weight[e] u(nodes[column[e]]), e =
+    /// begin[k] .. begin[k + 1] - 1.
+    std::vector<dealii::types::global_dof_index> nodes;
+    std::vector<unsigned int>                    begin, column;
+    std::vector<double>                          weight;
+
+    bool
+    hang() const
+    {
+      return !begin.empty();
+    }
+
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive &degree &nodes &begin &column &weight;
+    }
+  };
+
   class NodalSpace
   {
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Degree @p degrees[b] on body b; hexahedra of one degree without hanging
-    /// nodes. The bodies are kept by reference. Collective.
+    /// Degree @p degrees[b] on body b, of hexahedra. The bodies are kept by
+    /// reference. Collective.
     NodalSpace(const std::vector<const Body *> &bodies,
                const std::vector<unsigned int> &degrees,
                MPI_Comm                         comm);
 
     /// Whether the bodies are such that a NodalSpace stands for their spaces:
-    /// hexahedra, one degree in each body, no hanging nodes. Collective.
+    /// hexahedra, one degree in each body. Collective.
     static bool
     represents(const std::vector<const Body *> &bodies);
 
@@ -71,9 +98,7 @@ namespace mortise
             }
     }
 
-    /// Nodes of face @p face_number, in the order of the functions of
-    /// TraceBasis.
-    std::vector<Index>
+    FaceNodes
     face_nodes(unsigned int              body,
                const Body::CellIterator &cell,
                unsigned int              face_number) const;
@@ -84,19 +109,31 @@ namespace mortise
       return numbering.owned();
     }
 
-    /// All nodes of owned cells.
+    /// All nodes of owned cells, and those that hanging ones follow from.
     const dealii::IndexSet &
     relevant_nodes() const
     {
       return relevant;
     }
 
+    /// A line for each hanging node of owned cells: what its value follows
+    /// from, nodes that do not hang.
+    const dealii::AffineConstraints<double> &
+    hanging_nodes() const
+    {
+      return hanging;
+    }
+
   private:
+    void
+    find_hanging_nodes();
+
     std::vector<const Body *>                             scene;
     std::vector<unsigned int>                             degrees;
     std::vector<std::unique_ptr<dealii::DoFHandler<dim>>> handlers;
     DisplacementNumbering                                 numbering;
     dealii::IndexSet                                      relevant;
+    dealii::AffineConstraints<double>                     hanging;
   };
 
   /// Levels of falling degree on the same meshes, the finest first.

@@ -28,10 +28,8 @@ namespace mortise
                         column; ///< numbering of the scene
     std::vector<double> weight;
     std::vector<double> constant; ///< by row: prescribed displacements
-    /// Nodes of the face by level, for iterative solvers that use a
-    /// NodalSpace, else empty: in the order of the functions of the level's
-    /// degree.
-    std::vector<std::vector<dealii::types::global_dof_index>> nodes;
+    /// By level, for iterative solvers that use a NodalSpace, else empty.
+    std::vector<FaceNodes> nodes;
 
     const TraceBasis &
     basis() const

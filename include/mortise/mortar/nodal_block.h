@@ -2,11 +2,9 @@
 // functions of the same or a lower degree. It never integrates.
 #pragma once
 
-#include <deal.II/base/types.h>
-
 #include <deal.II/lac/full_matrix.h>
 
-#include <vector>
+#include <mortise/body/nodal_space.h>
 
 namespace mortise
 {
@@ -25,7 +23,11 @@ namespace mortise
               const BlockSide                  &rows,
               const BlockSide                  &columns);
 
-  /// Degree of a face with these nodes.
-  unsigned int
-  level_degree(const std::vector<dealii::types::global_dof_index> &nodes);
+  /// F_r^T A F_c where F_r, F_c say how the values at the nodes of the rows'
+  /// and the columns' face follow from those of others; as it is where none
+  /// hangs.
+  dealii::FullMatrix<double>
+  resolve_hanging(dealii::FullMatrix<double> A,
+                  const FaceNodes           &rows,
+                  const FaceNodes           &columns);
 } // namespace mortise

@@ -8,6 +8,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/mortar/coupling.h>
+#include <mortise/operators/hanging_nodes.h>
 #include <mortise/operators/matrix_free_elasticity.h>
 
 #include <memory>
@@ -39,13 +40,13 @@ namespace mortise
     /// Component c of node n has index 3 n + c. Ghosts: of owned cells, and of
     /// the faces that the slave faces of this rank meet.
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
-    /// Owned components that are prescribed, places in vectors.
+    /// Owned components that are prescribed or hang, places in vectors.
     std::vector<unsigned int> held;
     NodalPenalty              penalty;
   };
 
   /// Level @p number of the scene on @p space, without its penalty. @p numbering and
-  /// @p constraints are those of the scene, which hold whole faces or nothing.
+  /// @p constraints are those of the scene, which hold or let hang whole faces or nothing.
   /// Collective.
   NodalLevel
   make_nodal_level(std::unique_ptr<NodalSpace>              space,
@@ -86,6 +87,33 @@ namespace mortise
     void
     clear_held(LevelVector<Number> &v) const;
 
+    /// Ghost values and those of hanging nodes of the function that @p v holds.
+    /// Collective.
+    void
+    complete(const LevelVector<Number> &v) const
+    {
+      v.update_ghost_values();
+      // these places hold no values of v's own, as those of ghosts
+      hanging.fill(const_cast<Number *>(v.begin()));
+    }
+
+    /// Undoes complete().
+    void
+    release(const LevelVector<Number> &v) const
+    {
+      hanging.clear(const_cast<Number *>(v.begin()));
+      v.zero_out_ghost_values();
+    }
+
+    /// What local products left in @p v brought to the nodes that do not hang
+    /// and to their owners. Collective.
+    void
+    gather(LevelVector<Number> &v) const
+    {
+      hanging.collect(v.begin());
+      v.compress(dealii::VectorOperation::add);
+    }
+
     void
     initialize(LevelVector<Number> &v) const
     {
@@ -101,6 +129,7 @@ namespace mortise
   private:
     const NodalLevel                  &level;
     const MatrixFreeElasticity<Number> stiffness;
+    const HangingNodes<Number>         hanging;
     void
     add_penalty(const Number *src, Number *dst) const;
 

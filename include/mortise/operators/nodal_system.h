@@ -53,6 +53,11 @@ namespace mortise
                   const Scene              &scene,
                   Vector                   &load) const;
 
+    /// B without the columns of prescribed components, which hanging nodes
+    /// bring in. Collective.
+    void
+    drop_held_columns(SparseMatrix &coupling) const;
+
     /// Hierarchical coefficients in the numbering of the scene's bodies, one
     /// per dof of each owned cell: calls set(body, dof, value). Prescribed ones
     /// are left out. @p displacement: values at nodes. Collective.

@@ -1,0 +1,317 @@
+// Proves that hanging nodes without a matrix give the hierarchical space of the
+// same mesh, for p = 1..8, cells refined once and twice, affine and curved, and
+// several bodies at once: a function of that space has the same energy by the
+// matrices of cells and by its values at nodes that do not hang, and comes back
+// from these; that transfers between degrees keep functions and are transposes
+// of each other; that the matrix of vertices is the product on its level. The
+// same on every number of ranks.
+#include <mortise/body/fe_legendre.h>
+#include <mortise/operators/cell_kernel.h>
+#include <mortise/operators/degree_transfer.h>
+#include <mortise/operators/nodal_system.h>
+#include <mortise/operators/scene_system.h>
+#include <mortise/operators/vertex_matrix.h>
+
+#include <cmath>
+
+#include "../scenes/scene.h"
+
+namespace mortise::testing
+{
+  using namespace dealii;
+
+  MeshParameters
+  mesh(const std::string &kind)
+  {
+    MeshParameters result;
+    if (kind == "curved")
+      {
+        result.source       = "shell octant";
+        result.extent       = {1., 2.};
+        result.subdivisions = {2, 2};
+        // where patches meet in faces of transposed directions, from both sides
+        result.refine_near =
+          "0.1995, 0.6643, 0.9914, 0.05, 1; 0.2793, 1.3879, 0.93, 0.05, 1";
+        return result;
+      }
+    result.source       = "box";
+    result.extent       = {0., 0., 0., 1., 2., 3.};
+    result.subdivisions = {2, 2, 2};
+    result.refine_near =
+      kind == "once" ? "0.5, 1, 0, 0.1, 1" : "0, 0, 0, 0.1, 2; 1, 2, 3, 0.1, 1";
+    return result;
+  }
+
+  struct Scene
+  {
+    Scene(const std::vector<std::string>  &kinds,
+          const std::vector<unsigned int> &degrees)
+    {
+      std::vector<const DoFHandler<dim> *>   handlers;
+      std::vector<const Body *>              pointers;
+      std::vector<AffineConstraints<double>> conformity;
+      for (unsigned int b = 0; b < kinds.size(); ++b)
+        {
+          bodies.push_back(std::make_unique<Body>(
+            "body", b, LinearElastic{1. + b, 0.3 - 0.1 * b}));
+          bodies[b]->create_mesh(mesh(kinds[b]), MPI_COMM_WORLD, "");
+          bodies[b]->create_space(degrees[b], {}, "");
+          handlers.push_back(&bodies[b]->dof_handler);
+          pointers.push_back(bodies[b].get());
+          conformity.emplace_back();
+          conformity[b].copy_from(bodies[b]->conformity);
+        }
+      numbering   = DisplacementNumbering(handlers, MPI_COMM_WORLD);
+      constraints = scene_constraints(bodies, numbering, conformity);
+      system      = std::make_unique<NodalSystem>(
+        make_nodal_spaces(pointers, MPI_COMM_WORLD),
+        NodalSystem::Scene{numbering, constraints, {}},
+        MPI_COMM_WORLD);
+    }
+
+    const std::vector<NodalLevel> &
+    levels() const
+    {
+      return system->levels();
+    }
+
+    Bodies                       bodies;
+    DisplacementNumbering        numbering;
+    AffineConstraints<double>    constraints;
+    std::unique_ptr<NodalSystem> system;
+  };
+
+  double
+  random_number(const unsigned int seed, const types::global_dof_index i)
+  {
+    const double x = std::sin(12.9898 * (i + 1.) + 78.233 * seed) * 43758.5453;
+    return x - std::floor(x) - 0.5;
+  }
+
+  /// A function of the hierarchical space, by body.
+  std::vector<BodyVector>
+  make_function(const Scene &scene, const unsigned int seed)
+  {
+    mortise::Vector u(scene.numbering.owned(), MPI_COMM_WORLD);
+    for (const auto i : scene.numbering.owned())
+      u(i) = random_number(seed, i);
+    u.compress(VectorOperation::insert);
+    return body_displacements(scene.bodies,
+                              scene.numbering,
+                              scene.constraints,
+                              std::vector<CondensedInteriors>(
+                                scene.bodies.size()),
+                              u);
+  }
+
+  /// Values of one component at the nodes of a cell, in the order of both
+  /// elements.
+  std::vector<double>
+  values_at_nodes(const Body               &body,
+                  const Body::CellIterator &cell,
+                  const BodyVector         &u,
+                  const unsigned int        c)
+  {
+    const unsigned int                   p = body.degree(cell), n = p + 1;
+    const auto                           order  = cell_dof_indices(p);
+    const auto                          &matrix = modes_to_nodes(p);
+    std::vector<types::global_dof_index> dofs(cell->get_fe().n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    TensorArray modes{{{n, n, n}}, {}};
+    for (const unsigned int i : order)
+      modes.values.push_back(
+        u(dofs[cell->get_fe().component_to_system_index(c, i)]));
+    const auto values = apply_product(matrix, matrix, matrix, modes).values;
+    std::vector<double> result(values.size());
+    for (unsigned int i = 0; i < values.size(); ++i)
+      result[order[i]] = values[i];
+    return result;
+  }
+
+  /// Values at the nodes of the finest level that do not hang.
+  LevelVector<double>
+  to_nodes(const Scene &scene, const std::vector<BodyVector> &u)
+  {
+    const NodalLevel   &level = scene.levels().front();
+    LevelVector<double> result(level.layout);
+    level.space->for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &nodes) {
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const auto values = values_at_nodes(body, cell, u[body.index], c);
+            for (unsigned int i = 0; i < nodes.size(); ++i)
+              if (level.layout->in_local_range(dim * nodes[i] + c))
+                result.local_element(level.layout->global_to_local(
+                  dim * nodes[i] + c)) = values[i];
+          }
+      });
+    for (const unsigned int place : level.held)
+      result.local_element(place) = 0.;
+    return result;
+  }
+
+  /// w.Ku by the matrices of cells in the hierarchical basis.
+  double
+  by_matrices(const Scene                   &scene,
+              const std::vector<BodyVector> &w,
+              const std::vector<BodyVector> &u)
+  {
+    double product = 0.;
+    for (const auto &body : scene.bodies)
+      {
+        const auto                          &fe = body->fe[0];
+        CellKernel                           kernel(*body, fe);
+        FullMatrix<double>                   K(fe.n_dofs_per_cell());
+        dealii::Vector<double>               a(K.m()), b(K.m());
+        std::vector<types::global_dof_index> dofs(K.m());
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              kernel.compute(cell, K);
+              cell->get_dof_indices(dofs);
+              for (unsigned int i = 0; i < K.m(); ++i)
+                {
+                  a(i) = w[body->index](dofs[i]);
+                  b(i) = u[body->index](dofs[i]);
+                }
+              product += K.matrix_scalar_product(a, b);
+            }
+      }
+    return Utilities::MPI::sum(product, MPI_COMM_WORLD);
+  }
+
+  template <typename Number>
+  double
+  product(const NodalLevel          &level,
+          const LevelVector<double> &w,
+          const LevelVector<double> &u)
+  {
+    const LevelOperator<Number> K(level, false);
+    LevelVector<Number>         from(level.layout), to(level.layout);
+    from.copy_locally_owned_data_from(u);
+    K.vmult(to, from);
+    LevelVector<double> result(level.layout);
+    result.copy_locally_owned_data_from(to);
+    return w * result;
+  }
+
+  void
+  check_space(const std::string &name, const Scene &scene)
+  {
+    const auto   u = make_function(scene, 1), w = make_function(scene, 2);
+    const auto   u_nodes = to_nodes(scene, u), w_nodes = to_nodes(scene, w);
+    const double size       = std::sqrt(by_matrices(scene, u, u) *
+                                  by_matrices(scene, w, w)),
+                 exact      = by_matrices(scene, w, u);
+    const NodalLevel &level = scene.levels().front();
+    verdict(name + ", product",
+            std::fabs(product<double>(level, w_nodes, u_nodes) - exact) / size,
+            1e-12);
+    verdict(name + ", product, single",
+            std::fabs(product<float>(level, w_nodes, u_nodes) - exact) / size,
+            1e-5);
+
+    mortise::Vector nodal(level.layout->locally_owned_range(), MPI_COMM_WORLD);
+    std::copy_n(u_nodes.begin(), u_nodes.locally_owned_size(), nodal.begin());
+    double worst = 0.;
+    scene.system->for_each_coefficient(
+      nodal,
+      [&](const unsigned int            body,
+          const types::global_dof_index dof,
+          const double                  value) {
+        worst = std::max(worst, std::fabs(value - u[body](dof)));
+      });
+    verdict(name + ", back to hierarchical coefficients",
+            Utilities::MPI::max(worst, MPI_COMM_WORLD),
+            1e-10);
+  }
+
+  LevelVector<double>
+  random_values(const NodalLevel &level, const unsigned int seed)
+  {
+    LevelVector<double> result(level.layout);
+    for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
+      result.local_element(i) =
+        random_number(seed, level.layout->local_to_global(i));
+    for (const unsigned int place : level.held)
+      result.local_element(place) = 0.;
+    return result;
+  }
+
+  void
+  check_transfer(const std::string &name, const Scene &scene, const bool affine)
+  {
+    for (unsigned int l = 0; l + 1 < scene.levels().size(); ++l)
+      {
+        const NodalLevel &above = scene.levels()[l],
+                         &below = scene.levels()[l + 1];
+        const LevelOperator<double>  fine(above, false), coarse(below, false);
+        const DegreeTransfer<double> transfer(fine, coarse);
+        const auto f = random_values(above, 1), c = random_values(below, 2);
+        LevelVector<double> up(above.layout), down(below.layout);
+        transfer.prolongate_add(up, c);
+        transfer.restrict_to(down, f);
+        const std::string level = name + ", level " + std::to_string(l + 1);
+        verdict(level + ", restriction is the transpose",
+                std::fabs(up * f - down * c) /
+                  (up.l2_norm() * f.l2_norm() + down.l2_norm() * c.l2_norm()),
+                1e-13);
+        if (affine)
+          verdict(level + ", the same function",
+                  std::fabs(product<double>(above, up, up) /
+                              product<double>(below, c, c) -
+                            1.),
+                  1e-12);
+      }
+  }
+
+  void
+  check_vertices(const std::string &name, const Scene &scene)
+  {
+    const NodalLevel           &level = scene.levels().back();
+    const LevelOperator<double> K(level, false);
+    VertexMatrix                vertices;
+    assemble_vertex_matrix(level, vertices);
+    const auto          u = random_values(level, 1);
+    LevelVector<double> expected(level.layout);
+    K.vmult(expected, u);
+    mortise::Vector from(level.layout->locally_owned_range(), MPI_COMM_WORLD),
+      to(from);
+    std::copy_n(u.begin(), u.locally_owned_size(), from.begin());
+    vertices.matrix.vmult(to, from);
+    double worst = 0.;
+    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
+      worst =
+        std::max(worst, std::fabs(expected.local_element(i) - to.begin()[i]));
+    verdict(name + ", vertices",
+            Utilities::MPI::max(worst, MPI_COMM_WORLD) / expected.linfty_norm(),
+            1e-12);
+  }
+
+  void
+  check(const std::string               &name,
+        const std::vector<std::string>  &kinds,
+        const std::vector<unsigned int> &degrees)
+  {
+    const Scene scene(kinds, degrees);
+    const bool  affine =
+      std::find(kinds.begin(), kinds.end(), "curved") == kinds.end();
+    check_space(name, scene);
+    check_transfer(name, scene, affine);
+    if (affine) // else the products have fewer points
+      check_vertices(name, scene);
+  }
+} // namespace mortise::testing
+
+int
+main(int argc, char **argv)
+{
+  using namespace mortise::testing;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (unsigned int p = 1; p <= mortise::max_degree; ++p)
+    check("once, p = " + std::to_string(p), {"once"}, {p});
+  for (const std::string kind : {"twice", "curved"})
+    for (unsigned int p = 1; p <= 5; ++p)
+      check(kind + ", p = " + std::to_string(p), {kind}, {p});
+  check("three bodies, p = 4, 1, 2", {"once", "twice", "curved"}, {4, 1, 2});
+}
