@@ -110,10 +110,10 @@ namespace mortise
 
   namespace
   {
-    /// With this factor gamma is E p^2 / h of the softer side on all levels,
-    /// as large as entries of the diagonal of K: iterations for p = 2, 4, 8 on
-    /// the thick sphere are 15, 15, 22 with half of it, 14, 15, 21 with it, 15,
-    /// 16, 24 with twice as much; with E / h alone 15, 19, 49.
+    /// With this factor gamma is E p^2 / h of the softer side on all levels
+    /// below the finest, as large as entries of the diagonal of K: iterations
+    /// for p = 2, 3, 4, 8 on the thick sphere are 9, 12, 10, 16 with half of
+    /// it, 9, 11, 9, 16 with it, 8, 11, 9, 17 with twice as much.
     constexpr double nodal_penalty = 0.4;
 
     /// Calls visit(row trace, column trace, block, factor) for the blocks of

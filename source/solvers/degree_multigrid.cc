@@ -17,9 +17,9 @@ namespace mortise
   {
     using Number = float;
 
-    /// Degree and range of the smoother. Iterations for p = 3 and 8 on the
-    /// thick sphere: 3 and 20: 16, 23; 4 and 20: 15, 21; 4 and 40: 17, 21; 6
-    /// and 20: 15, 20.
+    /// Degree and range of the smoother. Iterations for p = 2, 3, 4, 8 on the
+    /// thick sphere: 3 and 20: 10, 13, 11, 19; 4 and 20: 9, 11, 9, 16; 4 and
+    /// 40: 10, 11, 10, 15; 6 and 20: 7, 9, 8, 13.
     constexpr unsigned int smoother_degree = 4;
     constexpr double       smoother_range  = 20.;
 

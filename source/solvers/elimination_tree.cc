@@ -231,7 +231,8 @@ namespace mortise
     {
       const double width   = child.width + parent.width;
       const double entries = width * (width + parent.below);
-      return zeros <= 0.1 * entries || (width <= 48. && zeros <= 0.4 * entries);
+      return zeros <= 0.03 * entries ||
+             (width <= 32. && zeros <= 0.25 * entries);
     }
 
     std::vector<Block>

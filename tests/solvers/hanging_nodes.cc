@@ -106,7 +106,7 @@ main(int argc, char **argv)
         check_iterations("sphere, " + name + ", p = " + std::to_string(p),
                          sphere,
                          meshes + degree(p, "inner", "outer"),
-                         28);
+                         18);
     }
   for (const auto &[name, lower, upper] :
        {Refinement{"slave", "0, 0, 0.5, 0.3, 2", ""},

@@ -54,11 +54,11 @@ main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (const unsigned int p : {2, 3, 4, 5, 6})
-    check("p = " + std::to_string(p), degree_and_mesh(p), 24, p < 5);
+    check("p = " + std::to_string(p), degree_and_mesh(p), 16, p < 5);
   for (const std::string inner : {"1e-5", "1e7"})
     check("inner modulus " + inner + " : 10",
           degree_and_mesh(3) +
             Settings{"Body inner/Material/Young modulus=" + inner},
-          24,
+          16,
           false);
 }

@@ -1,6 +1,7 @@
 // Multigrid in the degree for a bulk without a matrix: Chebyshev smoothers on
-// the degree, its half, and so on, the vertex functions by algebraic multigrid.
-// It never looks at the multipliers.
+// the degree, its half, and so on, the vertex functions by a factorisation or
+// algebraic multigrid. On the finest level smoothers stay among what satisfies
+// the constraint; the others see the tie by the jump penalty J of BlockSystem.
 #pragma once
 
 #include <mortise/solvers/bulk_preconditioner.h>
