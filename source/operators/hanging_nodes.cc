@@ -8,22 +8,10 @@ namespace mortise
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Vectors of the processor that hold @p n numbers.
-    template <typename Number>
-    std::size_t
-    n_vectors(const std::size_t n)
-    {
-      return (n + Batch<Number>::size - 1) / Batch<Number>::size;
-    }
-  } // namespace
-
   template <typename Number>
   HangingNodes<Number>::HangingNodes(const NodalSpace                  &space,
                                      const Utilities::MPI::Partitioner &layout)
   {
-    constexpr std::size_t width = Batch<Number>::size;
     std::map<std::vector<unsigned int>, unsigned int> group_of_columns;
     std::vector<std::vector<double>>                  values; // by group
     for (const auto &line : space.hanging_nodes().get_lines())
@@ -53,7 +41,7 @@ namespace mortise
     std::size_t size = 0, widest = 0;
     for (Group &group : groups)
       {
-        const std::size_t m = width * n_vectors<Number>(group.columns.size());
+        const std::size_t m = padded<Number>(group.columns.size());
         group.first         = size;
         size += group.rows.size() * m;
         widest = std::max(widest, m);
@@ -64,10 +52,9 @@ namespace mortise
       {
         const std::size_t n = groups[g].columns.size();
         for (unsigned int r = 0; r < groups[g].rows.size(); ++r)
-          std::copy_n(
-            &values[g][r * n],
-            n,
-            &weights[groups[g].first + r * width * n_vectors<Number>(n)]);
+          std::copy_n(&values[g][r * n],
+                      n,
+                      &weights[groups[g].first + r * padded<Number>(n)]);
       }
   }
 
@@ -78,7 +65,8 @@ namespace mortise
     using V = typename Batch<Number>::Vector;
     for (const Group &group : groups)
       {
-        const std::size_t n = group.columns.size(), m = n_vectors<Number>(n);
+        const std::size_t n = group.columns.size(),
+                          m = padded<Number>(n) / Batch<Number>::size;
         const V *weight   = reinterpret_cast<const V *>(&weights[group.first]);
         V       *gathered = reinterpret_cast<V *>(workspace.data());
         for (unsigned int c = 0; c < dim; ++c)
@@ -112,7 +100,8 @@ namespace mortise
     using V = typename Batch<Number>::Vector;
     for (const Group &group : groups)
       {
-        const std::size_t n = group.columns.size(), m = n_vectors<Number>(n);
+        const std::size_t n = group.columns.size(),
+                          m = padded<Number>(n) / Batch<Number>::size;
         const V *weight = reinterpret_cast<const V *>(&weights[group.first]);
         V       *sums   = reinterpret_cast<V *>(workspace.data());
         std::fill(sums, sums + dim * m, V{});
@@ -149,8 +138,7 @@ namespace mortise
   {
     for (const Group &group : groups)
       {
-        const std::size_t n = group.columns.size(),
-                          m = n_vectors<Number>(n) * Batch<Number>::size;
+        const std::size_t n = group.columns.size(), m = padded<Number>(n);
         for (unsigned int i = 0; i < group.rows.size(); ++i)
           for (unsigned int c = 0; c < dim; ++c)
             {

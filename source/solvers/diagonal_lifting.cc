@@ -10,33 +10,6 @@ namespace mortise
 
   namespace
   {
-    /// Neighbouring rows with the same columns, as those of one entity of the
-    /// mesh are.
-    struct RowGroup
-    {
-      int first = 0, n_rows = 0;
-    };
-
-    std::vector<RowGroup>
-    group_rows(const Epetra_CrsMatrix &matrix)
-    {
-      std::vector<RowGroup> groups;
-      for (int i = 0; i < matrix.NumMyRows(); ++i)
-        {
-          const EpetraRow row(matrix, i);
-          if (groups.empty() || [&] {
-                const EpetraRow first(matrix, groups.back().first);
-                return first.length != row.length ||
-                       !std::equal(row.columns,
-                                   row.columns + row.length,
-                                   first.columns);
-              }())
-            groups.push_back({i, 0});
-          ++groups.back().n_rows;
-        }
-      return groups;
-    }
-
     /// B T B^T with the rows of B, by dense blocks. @p transposed: T B^T with
     /// one row for each column of B, in the order of these.
     std::unique_ptr<Epetra_CrsMatrix>

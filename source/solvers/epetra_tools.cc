@@ -13,4 +13,24 @@ namespace mortise
     transposer.ReleaseTranspose();
     return result;
   }
+
+  std::vector<RowGroup>
+  group_rows(const Epetra_CrsMatrix &matrix)
+  {
+    std::vector<RowGroup> groups;
+    for (int i = 0; i < matrix.NumMyRows(); ++i)
+      {
+        const EpetraRow row(matrix, i);
+        const auto      fits = [&](const EpetraRow &first) {
+          return std::equal(row.columns,
+                            row.columns + row.length,
+                            first.columns,
+                            first.columns + first.length);
+        };
+        if (groups.empty() || !fits(EpetraRow(matrix, groups.back().first)))
+          groups.push_back({i, 0});
+        ++groups.back().n_rows;
+      }
+    return groups;
+  }
 } // namespace mortise

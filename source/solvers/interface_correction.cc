@@ -32,36 +32,22 @@ namespace mortise
     for (int k = 0; k < map.NumMyElements(); ++k)
       place[k] = layout->global_to_local(map.GID(k));
     std::size_t size = 0, widest = 0;
-    const auto  fits = [&](const EpetraRow &row) {
-      const auto &group = groups.back().columns;
-      return static_cast<int>(group.size()) == row.length &&
-             std::equal(group.begin(),
-                        group.end(),
-                        row.columns,
-                        [&](const unsigned int p, const int column) {
-                          return p == place[column];
-                        });
-    };
-    for (int i = 0; i < coupling.NumMyRows(); ++i)
+    for (const RowGroup &rows : group_rows(coupling))
       {
-        const EpetraRow row(coupling, i);
-        if (groups.empty() || !fits(row))
-          {
-            groups.push_back({static_cast<unsigned int>(i), 0, {}});
-            for (int k = 0; k < row.length; ++k)
-              groups.back().columns.push_back(place[row.columns[k]]);
-          }
-        ++groups.back().n_rows;
-        size += padded<Number>(row.length);
+        const EpetraRow row(coupling, rows.first);
+        groups.push_back({rows, {}});
+        for (int k = 0; k < row.length; ++k)
+          groups.back().columns.push_back(place[row.columns[k]]);
+        size += rows.n_rows * padded<Number>(row.length);
         widest = std::max(widest, padded<Number>(row.length));
       }
     entries.resize(size);
     gathered.resize(widest);
     Number *entry = entries.data();
     for (const Group &group : groups)
-      for (unsigned int i = 0; i < group.n_rows; ++i)
+      for (int i = 0; i < group.rows.n_rows; ++i)
         {
-          const EpetraRow row(coupling, group.first_row + i);
+          const EpetraRow row(coupling, group.rows.first + i);
           for (int k = 0; k < row.length; ++k)
             entry[k] = static_cast<Number>(
               row.values[k] * weights.local_element(group.columns[k]));
@@ -98,7 +84,7 @@ namespace mortise
         std::fill(g + n, g + m, Number());
         for (unsigned int k = 0; k < n; ++k)
           g[k] = v[group.columns[k]];
-        for (unsigned int i = 0; i < group.n_rows; ++i, entry += m / w)
+        for (int i = 0; i < group.rows.n_rows; ++i, entry += m / w)
           {
             V sums = {};
             for (unsigned int k = 0; k < m / w; ++k)
@@ -106,7 +92,7 @@ namespace mortise
             Number sum = 0;
             for (unsigned int l = 0; l < w; ++l)
               sum += sums[l];
-            jump[group.first_row + i] = sum;
+            jump[group.rows.first + i] = sum;
           }
       }
     values.zero_out_ghost_values();
@@ -118,10 +104,10 @@ namespace mortise
       {
         const unsigned int n = group.columns.size(), m = padded<Number>(n);
         std::fill(g, g + m, Number());
-        for (unsigned int i = 0; i < group.n_rows; ++i, entry += m / w)
+        for (int i = 0; i < group.rows.n_rows; ++i, entry += m / w)
           {
             const Number y =
-              static_cast<Number>(multiplier[group.first_row + i]);
+              static_cast<Number>(multiplier[group.rows.first + i]);
             for (unsigned int k = 0; k < m / w; ++k)
               G[k] += y * entry[k];
           }

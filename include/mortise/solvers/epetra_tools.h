@@ -59,6 +59,17 @@ namespace mortise
   std::unique_ptr<Epetra_CrsMatrix>
   transpose(const Epetra_CrsMatrix &matrix, const Epetra_Map &rows);
 
+  /// Neighbouring owned rows with the same columns, as those of one entity of
+  /// the mesh are.
+  struct RowGroup
+  {
+    int first = 0, n_rows = 0;
+  };
+
+  /// All owned rows in such groups.
+  std::vector<RowGroup>
+  group_rows(const Epetra_CrsMatrix &matrix);
+
   /// The matrices whose sum is A = K + J; only K without an interface.
   inline std::vector<const Epetra_CrsMatrix *>
   summands_of_bulk(const BlockSystem &system)

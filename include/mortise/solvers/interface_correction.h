@@ -5,6 +5,7 @@
 #pragma once
 
 #include <mortise/solvers/diagonal_lifting.h>
+#include <mortise/solvers/epetra_tools.h>
 
 #include <vector>
 
@@ -45,11 +46,9 @@ namespace mortise
     void
     apply() const;
 
-    /// Neighbouring owned rows of B with the same columns, as those of the
-    /// multipliers inside a face are.
     struct Group
     {
-      unsigned int              first_row = 0, n_rows = 0;
+      RowGroup                  rows;    ///< of B
       std::vector<unsigned int> columns; ///< places, those of others behind
     };
 
