@@ -26,13 +26,15 @@ namespace mortise
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
-    /// y = C^{-1} jump, to a hundredth at least where single precision was
+    /// y = C^{-1} jump, to five digits at least where single precision was
     /// allowed; both with the rows of B. Collective.
     void
     apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const
     {
       if (light)
         light->solve(y, jump);
+      else if (exact)
+        exact->solve(y, jump);
       else
         heavy.solve(y, jump);
     }
@@ -44,8 +46,11 @@ namespace mortise
     factorise(const Epetra_CrsMatrix &schur, bool single_precision);
 
   private:
-    std::unique_ptr<SparseCholesky<float>> light;
-    SparseFactorization heavy; ///< where the light one is too inaccurate
-    bool                valid = false;
+    /// The first that is accurate enough; the last for what is too large to be
+    /// gathered.
+    std::unique_ptr<SparseCholesky<float>>  light;
+    std::unique_ptr<SparseCholesky<double>> exact;
+    SparseFactorization                     heavy;
+    bool                                    valid = false;
   };
 } // namespace mortise
