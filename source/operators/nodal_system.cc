@@ -41,14 +41,22 @@ namespace mortise
       std::vector<double>                        values;
     };
 
-    /// By body.
-    std::vector<CellOrder>
-    cell_orders(const NodalSpace &space)
+    /// Calls @p visit(body, order, dofs, nodes) for the owned cells of all
+    /// bodies.
+    template <typename Visit>
+    void
+    for_each_ordered_cell(const NodalSpace &space, const Visit &visit)
     {
-      std::vector<CellOrder> orders;
+      std::vector<CellOrder> orders; // by body
       for (const Body *body : space.bodies())
         orders.emplace_back(*body);
-      return orders;
+      std::vector<types::global_dof_index> dofs;
+      space.for_each_cell(
+        [&](const Body &body, const auto &cell, const auto &nodes) {
+          dofs.resize(cell->get_fe().n_dofs_per_cell());
+          cell->get_dof_indices(dofs);
+          visit(body, orders[body.index], dofs, nodes);
+        });
     }
   } // namespace
 
@@ -133,14 +141,13 @@ namespace mortise
       return;
     // The function with these coefficients and zero for all others. What it is
     // at a node follows from the entity that has the node, so all cells agree.
-    in                                          = 0.;
-    auto                                 orders = cell_orders(*level.space);
-    std::vector<types::global_dof_index> dofs;
-    level.space->for_each_cell(
-      [&](const Body &body, const auto &cell, const auto &nodes) {
-        CellOrder &order = orders[body.index];
-        dofs.resize(cell->get_fe().n_dofs_per_cell());
-        cell->get_dof_indices(dofs);
+    in = 0.;
+    for_each_ordered_cell(
+      *level.space,
+      [&](const Body &body,
+          CellOrder  &order,
+          const auto &dofs,
+          const auto &nodes) {
         for (unsigned int c = 0; c < dim; ++c)
           {
             bool present = false;
@@ -189,13 +196,12 @@ namespace mortise
     const NodalLevel &level = all_levels.front();
     std::copy_n(displacement.begin(), in.locally_owned_size(), in.begin());
     stiffness->complete(in);
-    auto                                 orders = cell_orders(*level.space);
-    std::vector<types::global_dof_index> dofs;
-    level.space->for_each_cell(
-      [&](const Body &body, const auto &cell, const auto &nodes) {
-        CellOrder &order = orders[body.index];
-        dofs.resize(cell->get_fe().n_dofs_per_cell());
-        cell->get_dof_indices(dofs);
+    for_each_ordered_cell(
+      *level.space,
+      [&](const Body &body,
+          CellOrder  &order,
+          const auto &dofs,
+          const auto &nodes) {
         for (unsigned int c = 0; c < dim; ++c)
           {
             for (unsigned int i = 0; i < order.values.size(); ++i)

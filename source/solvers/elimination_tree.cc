@@ -310,5 +310,66 @@ namespace mortise
           supernode.parent = block_of[parent[block.last]];
         supernodes.push_back(std::move(supernode));
       }
+    for (unsigned int s = 0; s < supernodes.size(); ++s)
+      if (const int above = supernodes[s].parent; above >= 0)
+        supernodes[above].children.push_back(s);
+  }
+
+  std::vector<int>
+  deal_out(const std::vector<Supernode> &supernodes, const int n_ranks)
+  {
+    const unsigned int  n = supernodes.size();
+    std::vector<double> work(n); // of subtrees
+    Indices             roots;
+    const auto          n_entries = [&](const unsigned int s) {
+      return double(supernodes[s].width) * supernodes[s].height();
+    };
+    for (unsigned int s = 0; s < n; ++s)
+      {
+        work[s] += n_entries(s);
+        if (const int parent = supernodes[s].parent; parent >= 0)
+          work[parent] += work[s];
+        else
+          roots.push_back(s);
+      }
+    const auto deal = [&](std::vector<int> &owner) {
+      std::stable_sort(roots.begin(), roots.end(), [&](auto a, auto b) {
+        return work[a] > work[b];
+      });
+      std::vector<double> load(n_ranks);
+      for (const unsigned int root : roots)
+        {
+          const auto least = std::min_element(load.begin(), load.end());
+          owner[root]      = least - load.begin();
+          *least += work[root];
+        }
+      return *std::max_element(load.begin(), load.end());
+    };
+    // Cut the heaviest subtree until the heaviest rank has the least to do,
+    // with the work that all do.
+    std::vector<int> owner(n, on_all_ranks);
+    double           best = deal(owner), common_work = 0.;
+    for (unsigned int cut = 0; n_ranks > 1 && cut < 8u * n_ranks; ++cut)
+      {
+        if (roots.empty() || supernodes[roots.front()].children.empty())
+          break;
+        const unsigned int s = roots.front();
+        roots.erase(roots.begin());
+        common_work += n_entries(s);
+        roots.insert(roots.end(),
+                     supernodes[s].children.begin(),
+                     supernodes[s].children.end());
+        std::vector<int> other(n, on_all_ranks);
+        if (const double load = deal(other) + common_work; load < best)
+          {
+            best  = load;
+            owner = std::move(other);
+          }
+      }
+    for (unsigned int s = n; s-- > 0;)
+      if (const int parent = supernodes[s].parent;
+          parent >= 0 && owner[parent] != on_all_ranks)
+        owner[s] = owner[parent];
+    return owner;
   }
 } // namespace mortise

@@ -163,7 +163,8 @@ namespace mortise
     EliminationTree tree(all);
     supernodes = std::move(tree.supernodes);
     place      = std::move(tree.place);
-    deal_out();
+    owner      = deal_out(supernodes, n_ranks);
+    list_parts();
     vector.resize(place.size());
     exchange.resize(place.size());
     std::size_t longest = 0;
@@ -175,60 +176,9 @@ namespace mortise
 
   template <typename Number>
   void
-  SparseCholesky<Number>::deal_out()
+  SparseCholesky<Number>::list_parts()
   {
-    const unsigned int                     n = supernodes.size();
-    std::vector<double>                    work(n); // of subtrees
-    std::vector<std::vector<unsigned int>> children(n);
-    std::vector<unsigned int>              roots;
-    for (unsigned int s = 0; s < n; ++s)
-      {
-        work[s] += double(supernodes[s].width) * supernodes[s].height();
-        if (const int parent = supernodes[s].parent; parent >= 0)
-          {
-            work[parent] += work[s];
-            children[parent].push_back(s);
-          }
-        else
-          roots.push_back(s);
-      }
-    // Cut the heaviest subtree until the heaviest rank has the least to do,
-    // with the work that all do.
-    const auto deal = [&](std::vector<int> &subtree_owner) {
-      std::stable_sort(roots.begin(), roots.end(), [&](auto a, auto b) {
-        return work[a] > work[b];
-      });
-      std::vector<double> load(n_ranks);
-      for (const unsigned int root : roots)
-        {
-          const auto least    = std::min_element(load.begin(), load.end());
-          subtree_owner[root] = least - load.begin();
-          *least += work[root];
-        }
-      return *std::max_element(load.begin(), load.end());
-    };
-    owner.assign(n, shared);
-    double best = deal(owner), common_work = 0.;
-    for (unsigned int cut = 0; n_ranks > 1 && cut < 8u * n_ranks; ++cut)
-      {
-        if (roots.empty() || children[roots.front()].empty())
-          break;
-        const unsigned int s = roots.front();
-        roots.erase(roots.begin());
-        common_work += double(supernodes[s].width) * supernodes[s].height();
-        roots.insert(roots.end(), children[s].begin(), children[s].end());
-        std::vector<int> other(n, shared);
-        if (const double load = deal(other) + common_work; load < best)
-          {
-            best  = load;
-            owner = std::move(other);
-          }
-      }
-    for (unsigned int s = n; s-- > 0;)
-      if (const int parent = supernodes[s].parent;
-          parent >= 0 && owner[parent] != shared)
-        owner[s] = owner[parent];
-
+    const unsigned int n = supernodes.size();
     part_counts.assign(n_ranks, 0);
     part_starts.assign(n_ranks + 1, 0);
     for (int r = 0; r < n_ranks; ++r)
@@ -243,7 +193,7 @@ namespace mortise
     for (unsigned int s = 0; s < n; ++s)
       if (owner[s] == rank)
         own.push_back(s);
-      else if (owner[s] == shared)
+      else if (owner[s] == on_all_ranks)
         {
           common.push_back(s);
           for (unsigned int i = 0; i < supernodes[s].width; ++i)
@@ -255,14 +205,10 @@ namespace mortise
   bool
   SparseCholesky<Number>::factorise(const GatheredMatrix &matrix)
   {
-    const unsigned int                     n = supernodes.size();
-    std::vector<unsigned int>              row_at(place.size());
-    std::vector<int>                       local(place.size(), -1);
-    std::vector<std::vector<double>>       updates(n);
-    std::vector<std::vector<unsigned int>> children(n);
-    for (unsigned int s = 0; s < n; ++s)
-      if (supernodes[s].parent >= 0)
-        children[supernodes[s].parent].push_back(s);
+    const unsigned int               n = supernodes.size();
+    std::vector<unsigned int>        row_at(place.size());
+    std::vector<int>                 local(place.size(), -1);
+    std::vector<std::vector<double>> updates(n);
     for (unsigned int i = 0; i < place.size(); ++i)
       row_at[place[i]] = i;
     panels.resize(n);
@@ -284,11 +230,11 @@ namespace mortise
               front(local[place[column]], j) =
                 matrix.values[k] * matrix.scale[row] * matrix.scale[column];
         }
-      for (const unsigned int child : children[s])
+      for (const unsigned int child : supernode.children)
         {
           const auto &rows   = supernodes[child].rows;
           auto       &update = updates[child];
-          if (owner[s] == shared && owner[child] != shared)
+          if (owner[s] == on_all_ranks && owner[child] != on_all_ranks)
             {
               update.resize(rows.size() * rows.size());
               MPI_Bcast(

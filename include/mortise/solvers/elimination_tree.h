@@ -29,6 +29,7 @@ namespace mortise
     unsigned int              first = 0, width = 0;
     std::vector<unsigned int> rows; ///< below its columns, ascending
     int                       parent = -1;
+    std::vector<unsigned int> children;
 
     unsigned int
     height() const
@@ -45,4 +46,11 @@ namespace mortise
     std::vector<Supernode>    supernodes; ///< children in front of parents
     std::vector<unsigned int> place;      ///< in the order, by row of the graph
   };
+
+  constexpr int on_all_ranks = -1;
+
+  /// Which rank has each supernode: whole subtrees, so that the rank with the
+  /// most entries of the factor has few, and what is above them on all ranks.
+  std::vector<int>
+  deal_out(const std::vector<Supernode> &supernodes, int n_ranks);
 } // namespace mortise

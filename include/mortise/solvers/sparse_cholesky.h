@@ -35,7 +35,7 @@ namespace mortise
     struct GatheredMatrix;
 
     void
-    deal_out();
+    list_parts();
     bool
     factorise(const GatheredMatrix &matrix);
     void
@@ -43,17 +43,15 @@ namespace mortise
     void
     backward(unsigned int s) const;
 
-    static constexpr int shared = -1;
-
     MPI_Comm                  comm = MPI_COMM_NULL;
     int                       rank = 0, n_ranks = 1;
     std::vector<int>          counts, starts; ///< rows by rank
     std::vector<double>       scale;          ///< by owned row
     std::vector<unsigned int> place;          ///< of each row in the order
     std::vector<Supernode>    supernodes;
-    std::vector<int>          owner;                    ///< rank or shared
-    std::vector<unsigned int> own, common;              ///< supernodes
-    std::vector<unsigned int> common_places;            ///< of rows
+    std::vector<int>          owner;         ///< rank or on_all_ranks
+    std::vector<unsigned int> own, common;   ///< supernodes
+    std::vector<unsigned int> common_places; ///< of rows
     std::vector<int>          part_counts, part_starts; ///< rows of subtrees
     std::vector<unsigned int> part_place; ///< of these, rank by rank
     /// Inverse of the diagonal block and the block below it, columnwise; by
