@@ -1,14 +1,12 @@
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/mapping_q.h>
 
 #include <mortise/base/error.h>
 #include <mortise/body/body.h>
-#include <mortise/body/fe_legendre.h>
 #include <mortise/body/hexahedral_mapping.h>
-#include <mortise/body/simplex_elements.h>
+#include <mortise/body/legendre_elements.h>
 #include <mortise/body/simplex_mapping.h>
 
 #include <algorithm>
@@ -57,33 +55,22 @@ namespace mortise
     std::set<unsigned int> used = {degree};
     for (const auto &region : degree_by_region)
       used.insert(region.second);
-    const std::vector<unsigned int> all(used.begin(), used.end());
-    const SimplexElements           simplices(
-      mesh.tetrahedra ? all : std::vector<unsigned int>(), dim);
-    if (mesh.tetrahedra)
-      for (unsigned int i = 0; i < simplices.collection.size(); ++i)
-        fe.push_back(simplices.collection[i]);
-    else
-      for (const unsigned int p : all)
-        fe.push_back(FESystem<dim>(FE_Legendre(p), dim));
-
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        {
-          const auto region = degree_by_region.find(cell->material_id());
-          const unsigned int p =
-            region == degree_by_region.end() ? degree : region->second;
-          cell->set_active_fe_index(mesh.tetrahedra ?
-                                      simplices.index(cell, p) :
-                                      std::find(all.begin(), all.end(), p) -
-                                        all.begin());
-        }
-    dof_handler.distribute_dofs(fe);
+    distribute_legendre_dofs(
+      used,
+      [&](const CellIterator &cell) {
+        const auto region = degree_by_region.find(cell->material_id());
+        return region == degree_by_region.end() ? degree : region->second;
+      },
+      dim,
+      fe,
+      dof_handler);
     create_mapping();
 
     degrees = std::make_unique<EntityDegrees>(dof_handler);
     make_conformity_constraints(dof_handler, *degrees, conformity);
     relevant_dofs = conformity.get_local_lines();
+    if (material.mixed)
+      pressure = std::make_unique<PressureSpace>(dof_handler);
   }
 
   void

@@ -19,18 +19,20 @@ namespace mortise
   NodalSpace::NodalSpace(const std::vector<const Body *> &bodies,
                          const std::vector<unsigned int> &degrees,
                          const MPI_Comm                   comm)
-    : scene(bodies)
-    , degrees(degrees)
+    : degrees(degrees)
+    , handlers(bodies.size())
   {
-    std::vector<const DoFHandler<dim> *> all;
-    for (const Body *body : scene)
-      {
-        handlers.push_back(
-          std::make_unique<DoFHandler<dim>>(body->triangulation()));
-        handlers.back()->distribute_dofs(FE_Q<dim>(degrees[body->index]));
-        all.push_back(handlers.back().get());
-      }
-    numbering = DisplacementNumbering(all, comm);
+    std::vector<const DoFHandler<dim> *> all(bodies.size());
+    for (const Body *body : bodies)
+      if (const unsigned int degree = degrees[body->index])
+        {
+          auto &handler = handlers[body->index];
+          handler = std::make_unique<DoFHandler<dim>>(body->triangulation());
+          handler->distribute_dofs(FE_Q<dim>(degree));
+          all[body->index] = handler.get();
+          scene.push_back(body);
+        }
+    numbering = FieldNumbering(all, comm);
     relevant  = IndexSet(numbering.size());
     for (const Body *body : scene)
       {
@@ -170,6 +172,16 @@ namespace mortise
         levels.push_back(std::make_unique<NodalSpace>(bodies, degrees, comm));
       }
     return levels;
+  }
+
+  std::unique_ptr<NodalSpace>
+  make_nodal_pressures(const std::vector<const Body *> &bodies,
+                       const MPI_Comm                   comm)
+  {
+    std::vector<unsigned int> degrees;
+    for (const Body *body : bodies)
+      degrees.push_back(body->pressure ? body->max_degree() - 1 : 0);
+    return std::make_unique<NodalSpace>(bodies, degrees, comm);
   }
 
   IndexSet

@@ -8,7 +8,7 @@ namespace mortise
 {
   using namespace dealii;
 
-  DisplacementNumbering::DisplacementNumbering(
+  FieldNumbering::FieldNumbering(
     const std::vector<const DoFHandler<3> *> &handlers,
     const MPI_Comm                            comm)
     : n_bodies(handlers.size())
@@ -21,7 +21,7 @@ namespace mortise
     for (unsigned int b = 0; b < n_bodies; ++b)
       {
         n_owned[b] = Utilities::MPI::all_gather(
-          comm, Index(handlers[b]->n_locally_owned_dofs()));
+          comm, handlers[b] ? Index(handlers[b]->n_locally_owned_dofs()) : 0);
         body_start[b].assign(n_ranks + 1, 0);
         for (unsigned int r = 0; r < n_ranks; ++r)
           body_start[b][r + 1] = body_start[b][r] + n_owned[b][r];
@@ -46,7 +46,7 @@ namespace mortise
   }
 
   unsigned int
-  DisplacementNumbering::owner(const unsigned int body, const Index dof) const
+  FieldNumbering::owner(const unsigned int body, const Index dof) const
   {
     // the last rank whose first dof is not larger; empty ranks share the start
     // of their successor
@@ -57,7 +57,7 @@ namespace mortise
   }
 
   void
-  DisplacementNumbering::add_to(const unsigned int body,
+  FieldNumbering::add_to(const unsigned int body,
                                 const IndexSet    &body_set,
                                 IndexSet          &scene_set) const
   {

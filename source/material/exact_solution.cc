@@ -12,9 +12,11 @@ namespace mortise
 
   ExpressionSolution::ExpressionSolution(
     const VectorExpression           &displacement,
-    const std::vector<LinearElastic> &materials)
+    const std::vector<LinearElastic> &materials,
+    const Expression                 &pressure)
     : expression(displacement)
     , materials(materials)
+    , pressure(pressure)
   {}
 
   Tensor<1, 3>
@@ -33,7 +35,12 @@ namespace mortise
   ExpressionSolution::stress(const Point<3> &p, const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
-    return materials[body].stress(symmetrize(expression.gradient(p)));
+    const LinearElastic &material = materials[body];
+    const auto           strain   = symmetrize(expression.gradient(p));
+    if (!material.incompressible())
+      return material.stress(strain);
+    return 2. * material.lame_mu() * deviator(strain) -
+           pressure.value(p) * unit_symmetric_tensor<3>();
   }
 
   Tensor<1, 3>
@@ -41,7 +48,15 @@ namespace mortise
                                  const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
-    return materials[body].body_force(expression.hessian(p));
+    const LinearElastic &material = materials[body];
+    if (!material.incompressible())
+      return material.body_force(expression.hessian(p));
+    // a displacement without divergence: -mu laplace u + grad p
+    Tensor<1, 3> force   = pressure.gradient(p);
+    const auto   hessian = expression.hessian(p);
+    for (unsigned int i = 0; i < 3; ++i)
+      force[i] -= material.lame_mu() * trace(hessian[i]);
+    return force;
   }
 
   unsigned int

@@ -8,6 +8,29 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// lambda_u / mu of an incompressible body.
+    constexpr double kept = 0.5;
+  } // namespace
+
+  double
+  LinearElastic::displacement_lambda() const
+  {
+    if (!mixed)
+      return lame_lambda();
+    // lambda = mu s / (1 - s), which need not exist
+    const double s = 2. * poisson_ratio;
+    return kept * lame_mu() * s / (kept * (1. - s) + s);
+  }
+
+  double
+  LinearElastic::compressibility() const
+  {
+    const double s = 2. * poisson_ratio;
+    return (1. - s) * (s + kept * (1. - s)) / (s * s * lame_mu());
+  }
+
   Tensor<1, 3>
   LinearElastic::body_force(
     const std::array<SymmetricTensor<2, 3>, 3> &hessian) const
@@ -42,9 +65,15 @@ namespace mortise
           "Young modulus",
           young_modulus,
           "a positive number");
-    check(poisson_ratio > -1. && poisson_ratio < 0.5,
-          "Poisson ratio",
-          poisson_ratio,
-          "greater than -1 and less than 0.5");
+    if (mixed)
+      check(poisson_ratio > 0. && poisson_ratio <= 0.5,
+            "Poisson ratio",
+            poisson_ratio,
+            "greater than 0 and not above 0.5");
+    else
+      check(poisson_ratio > -1. && poisson_ratio < 0.5,
+            "Poisson ratio",
+            poisson_ratio,
+            "greater than -1 and less than 0.5");
   }
 } // namespace mortise

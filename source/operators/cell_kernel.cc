@@ -24,30 +24,40 @@ namespace mortise
     return simplex_quadrature<dim>(p + std::max(p, mapping_degree));
   }
 
+  std::vector<double>
+  gradient_table(const FiniteElement<dim> &element,
+                 const Quadrature<dim>    &quadrature)
+  {
+    const ReferenceCell shape = element.reference_cell();
+    Triangulation<dim>  unit;
+    GridGenerator::reference_cell(unit, shape);
+    FEValues<dim> values(shape.get_default_linear_mapping<dim>(),
+                         element,
+                         quadrature,
+                         update_gradients);
+    values.reinit(unit.begin_active());
+
+    std::vector<double> table;
+    for (const unsigned int q : values.quadrature_point_indices())
+      for (unsigned int a = 0; a < dim; ++a)
+        for (const unsigned int i : values.dof_indices())
+          table.push_back(values.shape_grad(i, q)[a]);
+    return table;
+  }
+
+  std::vector<double>
+  value_table(const FiniteElement<dim> &element,
+              const Quadrature<dim>    &quadrature)
+  {
+    std::vector<double> table;
+    for (const Point<dim> &point : quadrature.get_points())
+      for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+        table.push_back(element.shape_value(i, point));
+    return table;
+  }
+
   namespace
   {
-    /// Gradients of the functions of a scalar element, [q][a][i].
-    std::vector<double>
-    gradient_table(const FiniteElement<dim> &element,
-                   const Quadrature<dim>    &quadrature)
-    {
-      const ReferenceCell shape = element.reference_cell();
-      Triangulation<dim>  unit;
-      GridGenerator::reference_cell(unit, shape);
-      FEValues<dim> values(shape.get_default_linear_mapping<dim>(),
-                           element,
-                           quadrature,
-                           update_gradients);
-      values.reinit(unit.begin_active());
-
-      std::vector<double> table;
-      for (const unsigned int q : values.quadrature_point_indices())
-        for (unsigned int a = 0; a < dim; ++a)
-          for (const unsigned int i : values.dof_indices())
-            table.push_back(values.shape_grad(i, q)[a]);
-      return table;
-    }
-
     /// The upper triangle of A^T A, row major; @p A has @p rows rows of length
     /// @p columns.
     void
@@ -102,7 +112,7 @@ namespace mortise
   } // namespace
 
   CellKernel::CellKernel(const Body &body, const FiniteElement<dim> &system)
-    : lambda(body.material.lame_lambda())
+    : lambda(body.material.displacement_lambda())
     , mu(body.material.lame_mu())
     , n(system.base_element(0).n_dofs_per_cell())
     , geometry(body,

@@ -9,6 +9,8 @@
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/matrix_scatter.h>
+#include <mortise/operators/pressure_kernel.h>
+#include <mortise/operators/pressure_scatter.h>
 
 #include <array>
 #include <cmath>
@@ -23,7 +25,7 @@ namespace mortise
     std::vector<types::global_dof_index>
     scene_dofs(const Body                  &body,
                const Body::CellIterator    &cell,
-               const DisplacementNumbering &numbering)
+               const FieldNumbering &numbering)
     {
       std::vector<types::global_dof_index> dofs(
         cell->get_fe().n_dofs_per_cell());
@@ -105,8 +107,10 @@ namespace mortise
         , matrix(system.n_dofs_per_cell())
       {}
 
-      CellKernel         stiffness;
-      FullMatrix<double> matrix;
+      CellKernel                      stiffness;
+      FullMatrix<double>              matrix;
+      std::unique_ptr<PressureKernel> pressure; ///< in mixed form
+      PressureBlocks                  blocks;
     };
 
     void
@@ -187,15 +191,73 @@ namespace mortise
         }
       scatter.add(kernel.matrix, kernel.load, dofs);
     }
+
+    /// The same in mixed form: with what is eliminated counted last, the cell
+    /// has the displacements of its boundary, its pressures, and the rest.
+    void
+    add_mixed(Kernel                                     &kernel,
+              std::vector<types::global_dof_index>        dofs,
+              const std::vector<types::global_dof_index> &pressures,
+              CondensedInteriors                         &interiors,
+              MatrixScatter                              &scatter,
+              PressureScatter                            &pressure_scatter)
+    {
+      const unsigned int n_b = kernel.system.get_first_hex_index(),
+                         n_p = pressures.size(), n = dofs.size() + n_p;
+      const FullMatrix<double> &G        = kernel.pressure->divergence(),
+                               &M        = kernel.pressure->mass();
+      const LinearElastic      &material = kernel.body.material;
+      const double              c        = material.compressibility();
+      const auto place = [&](const unsigned int i) {
+        return i < n_b ? i : i + n_p;
+      };
+      FullMatrix<double>     all(n);
+      dealii::Vector<double> load(n);
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        {
+          load(place(i)) = kernel.load(i);
+          for (unsigned int j = 0; j < dofs.size(); ++j)
+            all(place(i), place(j)) = kernel.matrix(i, j);
+          for (unsigned int k = 0; k < n_p; ++k)
+            all(place(i), n_b + k) = all(n_b + k, place(i)) = G(k, i);
+        }
+      for (unsigned int k = 0; k < n_p; ++k)
+        for (unsigned int l = 0; l < n_p; ++l)
+          all(n_b + k, n_b + l) = -c * M(k, l);
+      for (unsigned int i = n_b; i < dofs.size(); ++i)
+        scatter.add_diagonal(dofs[i], kernel.matrix(i, i));
+      if (n_b < dofs.size() && !interiors.eliminate(all, load, n_b + n_p))
+        throw std::runtime_error(
+          "the stiffness of a cell's interior is not positive definite");
+      dofs.resize(n_b);
+      scatter.add(all, load, dofs);
+
+      PressureBlocks &blocks = kernel.blocks;
+      blocks.divergence.reinit(n_p, n_b);
+      blocks.compliance.reinit(n_p, n_p);
+      blocks.norm = M;
+      blocks.norm *= material.pressure_norm();
+      blocks.load.reinit(n_p);
+      for (unsigned int k = 0; k < n_p; ++k)
+        {
+          for (unsigned int i = 0; i < n_b; ++i)
+            blocks.divergence(k, i) = all(n_b + k, i);
+          for (unsigned int l = 0; l < n_p; ++l)
+            blocks.compliance(k, l) = -all(n_b + k, n_b + l);
+          blocks.load(k) = load(n_b + k);
+        }
+      pressure_scatter.add(blocks, pressures, dofs);
+    }
   } // namespace
 
   CondensedInteriors
   assemble_elasticity(const Body                      &body,
                       const Loads                     &loads,
-                      const DisplacementNumbering     &numbering,
+                      const FieldNumbering     &numbering,
                       const AffineConstraints<double> &constraints,
                       SparseMatrix                    &stiffness,
-                      Vector                          &load)
+                      Vector                          &load,
+                      PressureScatter                 *pressures)
   {
     std::map<unsigned int, std::unique_ptr<Kernel>> kernels;
     CondensedInteriors                              interiors;
@@ -214,10 +276,22 @@ namespace mortise
               break;
             }
           compute_load(cell, loads, *kernel);
-          add_condensed(*kernel,
-                        scene_dofs(body, cell, numbering),
+          const auto dofs = scene_dofs(body, cell, numbering);
+          if (!body.pressure)
+            add_condensed(*kernel, dofs, interiors, scatter);
+          else
+            {
+              if (!kernel->pressure)
+                kernel->pressure = std::make_unique<PressureKernel>(
+                  body, cell->get_fe(), body.pressure->cell(cell)->get_fe());
+              kernel->pressure->compute(cell);
+              add_mixed(*kernel,
+                        dofs,
+                        pressures->dofs(body, cell),
                         interiors,
-                        scatter);
+                        scatter,
+                        *pressures);
+            }
         }
     throw_if_any(tangled, body.triangulation().get_communicator());
     return interiors;

@@ -42,18 +42,27 @@ namespace mortise
 
       BatchBuilder(const NodalSpace                  &space,
                    const Body                        &body,
-                   const Utilities::MPI::Partitioner &layout)
+                   const Utilities::MPI::Partitioner &layout,
+                   const PressureNodes               *pressures)
         : space(space)
         , body(body)
         , layout(layout)
+        , pressures(body.pressure ? pressures : nullptr)
         , quadrature(space.degree(body.index) + 1)
         , geometry(body, ReferenceCells::Hexahedron, quadrature)
       {
         batches.degree = space.degree(body.index);
-        batches.lambda = body.material.lame_lambda();
+        batches.lambda = body.material.displacement_lambda();
         batches.mu     = body.material.lame_mu();
         lexicographic =
           FETools::lexicographic_to_hierarchic_numbering<dim>(batches.degree);
+        if (this->pressures == nullptr)
+          return;
+        batches.compressibility = body.material.compressibility();
+        batches.pressure_norm   = body.material.pressure_norm();
+        pressure_lexicographic =
+          FETools::lexicographic_to_hierarchic_numbering<dim>(batches.degree -
+                                                              1);
       }
 
       /// What is wrong, if anything.
@@ -72,6 +81,8 @@ namespace mortise
         batches.metric.resize(batches.n_affine * point +
                               (batches.n_batches - batches.n_affine) *
                                 quadrature.size() * point);
+        batches.pressure_nodes.resize(batches.n_batches *
+                                      pressure_lexicographic.size() * width);
         for (unsigned int i = 0; i < cells.all.size(); ++i)
           {
             const bool         affine = i < cells.n_affine;
@@ -79,6 +90,8 @@ namespace mortise
             const unsigned int batch =
               (affine ? 0 : batches.n_affine) + place / width;
             set_nodes(cells.all[i], batch, place % width);
+            if (pressures != nullptr)
+              set_pressure_nodes(cells.all[i], batch, place % width);
             if (!set_metric(cells.all[i], affine, batch, place % width))
               return tangled_message(body, cells.all[i]);
           }
@@ -99,6 +112,24 @@ namespace mortise
             unsigned int *place =
               &batches.nodes[(std::size_t(batch) * nodes.size() + i) * width];
             place[lane] = layout.global_to_local(dim * nodes[lexicographic[i]]);
+            if (lane == 0)
+              std::fill(place + 1, place + width, place[0]);
+          }
+      }
+
+      void
+      set_pressure_nodes(const Body::CellIterator &cell,
+                         const unsigned int        batch,
+                         const unsigned int        lane)
+      {
+        pressures->space.get_nodes(body.index, cell, nodes);
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          {
+            unsigned int *place =
+              &batches.pressure_nodes[(std::size_t(batch) * nodes.size() + i) *
+                                      width];
+            place[lane] = pressures->layout.global_to_local(
+              nodes[pressure_lexicographic[i]]);
             if (lane == 0)
               std::fill(place + 1, place + width, place[0]);
           }
@@ -135,9 +166,10 @@ namespace mortise
       const NodalSpace                  &space;
       const Body                        &body;
       const Utilities::MPI::Partitioner &layout;
+      const PressureNodes               *pressures; ///< of this body
       const QGauss<dim>                  quadrature;
       CellGeometry                       geometry;
-      std::vector<unsigned int>          lexicographic;
+      std::vector<unsigned int>          lexicographic, pressure_lexicographic;
       std::vector<NodalSpace::Index>     nodes;
     };
   } // namespace
@@ -167,15 +199,22 @@ namespace mortise
   template <typename Number>
   MatrixFreeElasticity<Number>::MatrixFreeElasticity(
     const NodalSpace                  &space,
-    const Utilities::MPI::Partitioner &layout)
+    const Utilities::MPI::Partitioner &layout,
+    const PressureNodes               *pressures)
   {
     std::string tangled;
     for (const Body *body : space.bodies())
       {
-        BatchBuilder<Number> builder(space, *body, layout);
+        BatchBuilder<Number> builder(space, *body, layout, pressures);
         if (tangled.empty())
           tangled = builder.build();
         bodies.push_back(std::move(builder.batches));
+        if constexpr (std::is_same_v<Number, double>)
+          if (!bodies.back().pressure_nodes.empty())
+            {
+              kernels.push_back(make_mixed_kernel(bodies.back().degree));
+              continue;
+            }
         kernels.push_back(make_kernel(bodies.back().degree));
       }
     throw_if_any(tangled, layout.get_mpi_communicator());
@@ -199,6 +238,47 @@ namespace mortise
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
       kernels[b]->add_diagonal(bodies[b], dst);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_mixed_product(const Fields &src,
+                                                  const Fields &dst) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].pressure_nodes.empty())
+        kernels[b]->add_product(bodies[b], src.displacement, dst.displacement);
+      else
+        kernels[b]->add_mixed_product(bodies[b], src, dst);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_pressure_force(const Number *p,
+                                                   Number       *dst) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (!bodies[b].pressure_nodes.empty())
+        kernels[b]->add_pressure_force(bodies[b], p, dst);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_pressure_norm(const Number *p,
+                                                  Number       *dst) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (!bodies[b].pressure_nodes.empty())
+        kernels[b]->add_pressure_norm(bodies[b], p, dst);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_pressure_norm_diagonal(Number *dst) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (!bodies[b].pressure_nodes.empty())
+        kernels[b]->add_pressure_norm_diagonal(bodies[b], dst);
   }
 
   template <typename Number>

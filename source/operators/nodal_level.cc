@@ -40,7 +40,7 @@ namespace mortise
     std::vector<unsigned int>
     find_held(const NodalSpace                  &space,
               const Utilities::MPI::Partitioner &layout,
-              const DisplacementNumbering       &numbering,
+              const FieldNumbering       &numbering,
               const AffineConstraints<double>   &constraints)
     {
       std::vector<char>                    held(layout.locally_owned_size());
@@ -90,7 +90,7 @@ namespace mortise
   NodalLevel
   make_nodal_level(std::unique_ptr<NodalSpace>      space,
                    const unsigned int               number,
-                   const DisplacementNumbering     &numbering,
+                   const FieldNumbering     &numbering,
                    const AffineConstraints<double> &constraints,
                    const std::vector<Coupling>     &couplings,
                    const MPI_Comm                   comm)
@@ -239,10 +239,11 @@ namespace mortise
   }
 
   template <typename Number>
-  LevelOperator<Number>::LevelOperator(const NodalLevel &level,
-                                       const bool        with_penalty)
+  LevelOperator<Number>::LevelOperator(const NodalLevel    &level,
+                                       const bool           with_penalty,
+                                       const PressureNodes *pressures)
     : level(level)
-    , stiffness(*level.space, *level.layout)
+    , stiffness(*level.space, *level.layout, pressures)
     , hanging(*level.space, *level.layout)
   {
     if (!with_penalty)

@@ -58,12 +58,32 @@ namespace mortise
           visit(body, orders[body.index], dofs, nodes);
         });
     }
+
+    void
+    copy(LevelVector<double> &to, const Vector &from)
+    {
+      std::copy_n(from.begin(), to.locally_owned_size(), to.begin());
+    }
+
+    void
+    copy(Vector &to, const LevelVector<double> &from)
+    {
+      std::copy_n(from.begin(), from.locally_owned_size(), to.begin());
+    }
   } // namespace
 
-  NodalSystem::NodalSystem(NodalSpaces    spaces,
-                           const Scene   &scene,
-                           const MPI_Comm comm)
+  NodalSystem::NodalSystem(NodalSpaces                 spaces,
+                           std::unique_ptr<NodalSpace> pressure_space,
+                           const Scene                &scene,
+                           const MPI_Comm              comm)
   {
+    std::unique_ptr<PressureNodes> nodes;
+    if (pressure_space)
+      {
+        pressures =
+          std::make_unique<NodalPressure>(std::move(pressure_space), comm);
+        nodes = std::make_unique<PressureNodes>(pressures->nodes());
+      }
     for (unsigned int number = 0; number < spaces.size(); ++number)
       {
         all_levels.push_back(make_nodal_level(std::move(spaces[number]),
@@ -77,25 +97,89 @@ namespace mortise
             make_nodal_penalty(all_levels.back(), number, scene.couplings);
       }
     stiffness =
-      std::make_unique<LevelOperator<double>>(all_levels.front(), false);
+      std::make_unique<LevelOperator<double>>(all_levels.front(),
+                                              false,
+                                              nodes.get());
     stiffness->initialize(in);
     stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
+    if (!pressures)
+      return;
+    for (auto *vector : {&p_in, &p_out, &norm_diagonal})
+      pressures->initialize(*vector);
+    stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
+    pressures->gather_diagonal(norm_diagonal);
   }
 
   void
   NodalSystem::apply_stiffness(Vector &dst, const Vector &src) const
   {
-    std::copy_n(src.begin(), in.locally_owned_size(), in.begin());
+    copy(in, src);
     stiffness->clear_held(in);
     stiffness->vmult(out, in);
-    std::copy_n(out.begin(), out.locally_owned_size(), dst.begin());
+    copy(dst, out);
+  }
+
+  void
+  NodalSystem::apply_mixed_free() const
+  {
+    stiffness->complete(in);
+    pressures->complete(p_in);
+    out   = 0.;
+    p_out = 0.;
+    stiffness->elasticity().add_mixed_product({in.begin(), p_in.begin()},
+                                              {out.begin(), p_out.begin()});
+    stiffness->release(in);
+    pressures->release(p_in);
+    stiffness->gather(out);
+    pressures->gather(p_out);
+  }
+
+  void
+  NodalSystem::apply_mixed(Vector       &dst_u,
+                           Vector       &dst_p,
+                           const Vector &u,
+                           const Vector &p) const
+  {
+    copy(in, u);
+    stiffness->clear_held(in);
+    copy(p_in, p);
+    apply_mixed_free();
+    stiffness->clear_held(out);
+    copy(dst_u, out);
+    copy(dst_p, p_out);
+  }
+
+  void
+  NodalSystem::add_pressure_force(Vector &dst, const Vector &p) const
+  {
+    copy(p_in, p);
+    pressures->complete(p_in);
+    out = 0.;
+    stiffness->elasticity().add_pressure_force(p_in.begin(), out.begin());
+    pressures->release(p_in);
+    stiffness->gather(out);
+    stiffness->clear_held(out);
+    for (unsigned int i = 0; i < out.locally_owned_size(); ++i)
+      dst.begin()[i] += out.local_element(i);
+  }
+
+  void
+  NodalSystem::apply_pressure_norm(LevelVector<double>       &dst,
+                                   const LevelVector<double> &p) const
+  {
+    pressures->complete(p);
+    dst = 0.;
+    stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
+    pressures->release(p);
+    pressures->gather(dst);
   }
 
   void
   NodalSystem::assemble_load(const std::vector<Loads> &loads,
                              const Scene              &scene,
-                             Vector                   &load) const
+                             Vector                   &load,
+                             Vector                   &pressure_load) const
   {
     const NodalLevel   &level = all_levels.front();
     LevelVector<double> sum;
@@ -121,7 +205,10 @@ namespace mortise
           });
       }
     stiffness->gather(sum);
-    subtract_prescribed(scene, sum);
+    if (pressures)
+      pressure_load.reinit(p_out.locally_owned_elements(),
+                           level.layout->get_mpi_communicator());
+    subtract_prescribed(scene, sum, pressure_load);
     stiffness->clear_held(sum);
     load.reinit(level.layout->locally_owned_range(),
                 level.layout->get_mpi_communicator());
@@ -130,7 +217,8 @@ namespace mortise
 
   void
   NodalSystem::subtract_prescribed(const Scene         &scene,
-                                   LevelVector<double> &load) const
+                                   LevelVector<double> &load,
+                                   Vector              &pressure_load) const
   {
     const NodalLevel &level = all_levels.front();
     bool              any   = false;
@@ -167,7 +255,15 @@ namespace mortise
                   order.values[i];
           }
       });
-    stiffness->vmult_free(out, in);
+    if (pressures)
+      {
+        p_in = 0.;
+        apply_mixed_free();
+        copy(pressure_load, p_out);
+        pressure_load *= -1.;
+      }
+    else
+      stiffness->vmult_free(out, in);
     load -= out;
   }
 
@@ -194,7 +290,7 @@ namespace mortise
                              double                          value)> &set) const
   {
     const NodalLevel &level = all_levels.front();
-    std::copy_n(displacement.begin(), in.locally_owned_size(), in.begin());
+    copy(in, displacement);
     stiffness->complete(in);
     for_each_ordered_cell(
       *level.space,
@@ -213,5 +309,35 @@ namespace mortise
           }
       });
     stiffness->release(in);
+  }
+
+  void
+  NodalSystem::for_each_pressure_coefficient(
+    const Vector                            &pressure,
+    const std::function<void(unsigned int                    body,
+                             types::global_dof_index dof,
+                             double                          value)> &set) const
+  {
+    copy(p_in, pressure);
+    pressures->complete(p_in);
+    const auto                           nodes = pressures->nodes();
+    std::vector<types::global_dof_index> dofs;
+    std::vector<double>                  values;
+    nodes.space.for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &of_cell) {
+        const auto         own    = body.pressure->cell(cell);
+        const unsigned int degree = own->get_fe().degree;
+        const auto         order  = cell_dof_indices(degree);
+        dofs.resize(order.size());
+        own->get_dof_indices(dofs);
+        values.resize(order.size());
+        for (unsigned int i = 0; i < order.size(); ++i)
+          values[i] = p_in.local_element(
+            nodes.layout.global_to_local(of_cell[order[i]]));
+        transform(nodes_to_modes(degree), values);
+        for (unsigned int i = 0; i < order.size(); ++i)
+          set(body.index, dofs[order[i]], values[i]);
+      });
+    pressures->release(p_in);
   }
 } // namespace mortise

@@ -10,17 +10,16 @@ namespace mortise
 
   AffineConstraints<double>
   scene_constraints(
-    const Bodies                                 &bodies,
-    const DisplacementNumbering                  &numbering,
+    const FieldNumbering                         &numbering,
     const std::vector<AffineConstraints<double>> &body_constraints)
   {
     IndexSet lines(numbering.size());
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      numbering.add_to(b, bodies[b]->relevant_dofs, lines);
+    for (unsigned int b = 0; b < body_constraints.size(); ++b)
+      numbering.add_to(b, body_constraints[b].get_local_lines(), lines);
     lines.compress();
 
     AffineConstraints<double> constraints(lines);
-    for (unsigned int b = 0; b < bodies.size(); ++b)
+    for (unsigned int b = 0; b < body_constraints.size(); ++b)
       for (const auto &line : body_constraints[b].get_lines())
         {
           const auto dof = numbering(b, line.index);
@@ -33,122 +32,247 @@ namespace mortise
     return constraints;
   }
 
-  std::vector<CondensedInteriors>
-  assemble_bodies(const Bodies                    &bodies,
-                  const std::vector<Loads>        &loads,
-                  const DisplacementNumbering     &numbering,
-                  const AffineConstraints<double> &constraints,
-                  BlockSystem                     &system)
+  SceneField
+  pressure_field(const Bodies &bodies, const MPI_Comm comm)
   {
-    const IndexSet &owned = numbering.owned();
+    std::vector<const DoFHandler<dim> *>   handlers;
+    std::vector<AffineConstraints<double>> constraints(bodies.size());
+    for (const auto &body : bodies)
+      {
+        handlers.push_back(body->pressure ? &body->pressure->dof_handler :
+                                            nullptr);
+        if (body->pressure)
+          constraints[body->index].copy_from(body->pressure->conformity);
+      }
+    SceneField field;
+    field.numbering   = FieldNumbering(handlers, comm);
+    field.constraints = scene_constraints(field.numbering, constraints);
+    return field;
+  }
+
+  std::vector<CondensedInteriors>
+  assemble_bodies(const Bodies             &bodies,
+                  const std::vector<Loads> &loads,
+                  const SceneField         &displacement,
+                  const SceneField         &pressure,
+                  BlockSystem              &system)
+  {
+    const IndexSet &owned = displacement.numbering.owned();
     {
       // rows of all dofs that the cells of this rank touch
-      DynamicSparsityPattern sparsity(owned.size(),
-                                      owned.size(),
-                                      constraints.get_local_lines());
+      DynamicSparsityPattern sparsity(
+        owned.size(),
+        owned.size(),
+        displacement.constraints.get_local_lines());
       for (const auto &body : bodies)
-        add_cell_couplings(*body, numbering, constraints, sparsity);
+        add_cell_couplings(*body,
+                           displacement.numbering,
+                           displacement.constraints,
+                           sparsity);
       system.stiffness.reinit(
         owned, owned, sparsity, system.communicator, true);
     }
     system.load.reinit(owned, system.communicator);
+    std::vector<const Body *> mixed;
+    for (const auto &body : bodies)
+      if (body->pressure)
+        mixed.push_back(body.get());
+    std::unique_ptr<PressureScatter> pressures;
+    if (!mixed.empty())
+      pressures = std::make_unique<PressureScatter>(mixed,
+                                                    displacement,
+                                                    pressure,
+                                                    system);
     std::vector<CondensedInteriors> interiors;
     for (const auto &body : bodies)
       interiors.push_back(assemble_elasticity(*body,
                                               loads[body->index],
-                                              numbering,
-                                              constraints,
+                                              displacement.numbering,
+                                              displacement.constraints,
                                               system.stiffness,
-                                              system.load));
+                                              system.load,
+                                              pressures.get()));
     system.stiffness.compress(VectorOperation::add);
     system.load.compress(VectorOperation::add);
+    if (pressures)
+      pressures->compress();
     return interiors;
   }
 
   namespace
   {
-    /// @p vector has the ghost values of all but interior dofs, which no other rank's cells share.
+    /// The ghost values of all but interior dofs, which no other rank's cells
+    /// share, are there.
     void
     recover_interiors(const Body               &body,
                       const CondensedInteriors &interiors,
-                      BodyVector               &vector)
+                      BodySolution             &solution)
     {
       if (interiors.n_cells() == 0)
         return;
+      BodyVector                          &u    = solution.displacement;
       unsigned int                         next = 0;
-      std::vector<types::global_dof_index> dofs;
+      std::vector<types::global_dof_index> dofs, pressures;
       std::vector<double>                  boundary_values;
       for (const auto &cell : body.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned() && cell->get_fe().n_dofs_per_hex() > 0)
           {
             dofs.resize(cell->get_fe().n_dofs_per_cell());
             cell->get_dof_indices(dofs);
-            boundary_values.resize(cell->get_fe().get_first_hex_index());
-            for (unsigned int i = 0; i < boundary_values.size(); ++i)
-              boundary_values[i] = vector(dofs[i]);
+            const unsigned int n_b = cell->get_fe().get_first_hex_index();
+            boundary_values.resize(n_b);
+            for (unsigned int i = 0; i < n_b; ++i)
+              boundary_values[i] = u(dofs[i]);
+            if (body.pressure)
+              {
+                const auto own = body.pressure->cell(cell);
+                pressures.resize(own->get_fe().n_dofs_per_cell());
+                own->get_dof_indices(pressures);
+                for (const auto dof : pressures)
+                  boundary_values.push_back(solution.pressure(dof));
+              }
             const auto values = interiors.recover(next++, boundary_values);
             for (unsigned int i = 0; i < values.size(); ++i)
-              vector(dofs[boundary_values.size() + i]) = values[i];
+              u(dofs[n_b + i]) = values[i];
           }
+    }
+
+    /// What a rank reads of @p field after its constraints are distributed.
+    Vector
+    distributed(const SceneField &field,
+                const Vector     &values,
+                const MPI_Comm    comm)
+    {
+      Vector all(values), ghosted;
+      field.constraints.distribute(all);
+      ghosted.reinit(field.numbering.owned(),
+                     field.constraints.get_local_lines(),
+                     comm);
+      ghosted = all;
+      return ghosted;
+    }
+
+    /// @p vector gets the values of one body, in place: a copy would lose the
+    /// ghost values.
+    void
+    extract(const unsigned int     body,
+            const DoFHandler<dim> &handler,
+            const IndexSet        &relevant,
+            const FieldNumbering  &numbering,
+            const Vector          &ghosted,
+            BodyVector            &vector)
+    {
+      vector.reinit(handler.locally_owned_dofs(),
+                    relevant,
+                    handler.get_communicator());
+      for (const auto dof : handler.locally_owned_dofs())
+        vector(dof) = ghosted(numbering(body, dof));
+      vector.update_ghost_values();
     }
   } // namespace
 
   std::vector<BodyVector>
-  body_displacements(const Bodies                          &bodies,
-                     const DisplacementNumbering           &numbering,
-                     const AffineConstraints<double>       &constraints,
-                     const std::vector<CondensedInteriors> &interiors,
-                     const Vector                          &displacement)
+  body_displacements(const Bodies     &bodies,
+                     const SceneField &field,
+                     const Vector     &displacement)
   {
-    const IndexSet &owned = displacement.locally_owned_elements();
-    const MPI_Comm  comm  = bodies.front()->triangulation().get_communicator();
-    Vector          all(displacement), ghosted;
-    constraints.distribute(all);
-    ghosted.reinit(owned, constraints.get_local_lines(), comm);
-    ghosted = all;
-
-    // filled in place: a copy would lose the ghost values
+    const Vector ghosted =
+      distributed(field,
+                  displacement,
+                  bodies.front()->triangulation().get_communicator());
     std::vector<BodyVector> result(bodies.size());
     for (const auto &body : bodies)
+      extract(body->index,
+              body->dof_handler,
+              body->relevant_dofs,
+              field.numbering,
+              ghosted,
+              result[body->index]);
+    return result;
+  }
+
+  std::vector<BodySolution>
+  body_solutions(const Bodies                          &bodies,
+                 const SceneField                      &displacement,
+                 const SceneField                      &pressure,
+                 const std::vector<CondensedInteriors> &interiors,
+                 const SystemSolution                  &solution)
+  {
+    const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
+    const Vector   u    = distributed(displacement, solution.displacement, comm);
+    Vector         p;
+    if (pressure.numbering.size() > 0)
+      p = distributed(pressure, solution.pressure, comm);
+    std::vector<BodySolution> result(bodies.size());
+    for (const auto &body : bodies)
       {
-        BodyVector &vector = result[body->index];
-        vector.reinit(body->dof_handler.locally_owned_dofs(),
-                      body->relevant_dofs,
-                      comm);
-        for (const auto dof : body->dof_handler.locally_owned_dofs())
-          vector(dof) = ghosted(numbering(body->index, dof));
-        vector.update_ghost_values();
-        recover_interiors(*body, interiors[body->index], vector);
-        vector.update_ghost_values();
+        BodySolution &own = result[body->index];
+        extract(body->index,
+                body->dof_handler,
+                body->relevant_dofs,
+                displacement.numbering,
+                u,
+                own.displacement);
+        if (body->pressure)
+          extract(body->index,
+                  body->pressure->dof_handler,
+                  body->pressure->relevant_dofs,
+                  pressure.numbering,
+                  p,
+                  own.pressure);
+        recover_interiors(*body, interiors[body->index], own);
+        own.displacement.update_ghost_values();
       }
     return result;
   }
 
-  std::vector<BodyVector>
-  body_displacements(const Bodies                    &bodies,
-                     const DisplacementNumbering     &numbering,
-                     const AffineConstraints<double> &constraints,
-                     const NodalSystem               &nodal,
-                     const Vector                    &displacement)
+  std::vector<BodySolution>
+  body_solutions(const Bodies         &bodies,
+                 const SceneField     &displacement,
+                 const SceneField     &pressure,
+                 const NodalSystem    &nodal,
+                 const SystemSolution &solution)
   {
-    std::vector<BodyVector> result(bodies.size());
+    std::vector<BodySolution> result(bodies.size());
     for (const auto &body : bodies)
-      result[body->index].reinit(body->dof_handler.locally_owned_dofs(),
-                                 body->relevant_dofs,
-                                 body->triangulation().get_communicator());
-    nodal.for_each_coefficient(displacement,
-                               [&](const unsigned int            body,
-                                   const types::global_dof_index dof,
-                                   const double                  value) {
-                                 if (!result[body].in_local_range(dof))
-                                   return;
-                                 const auto index = numbering(body, dof);
-                                 // one that hangs has both
-                                 result[body](dof) =
-                                   value + constraints.get_inhomogeneity(index);
-                               });
-    for (BodyVector &vector : result)
-      vector.update_ghost_values();
+      {
+        const MPI_Comm comm = body->triangulation().get_communicator();
+        result[body->index].displacement.reinit(
+          body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
+        if (body->pressure)
+          result[body->index].pressure.reinit(
+            body->pressure->dof_handler.locally_owned_dofs(),
+            body->pressure->relevant_dofs,
+            comm);
+      }
+    nodal.for_each_coefficient(
+      solution.displacement,
+      [&](const unsigned int            body,
+          const types::global_dof_index dof,
+          const double                  value) {
+        BodyVector &u = result[body].displacement;
+        if (!u.in_local_range(dof))
+          return;
+        const auto index = displacement.numbering(body, dof);
+        // one that hangs has both
+        u(dof) = value + displacement.constraints.get_inhomogeneity(index);
+      });
+    if (pressure.numbering.size() > 0)
+      nodal.for_each_pressure_coefficient(
+        solution.pressure,
+        [&](const unsigned int            body,
+            const types::global_dof_index dof,
+            const double                  value) {
+          BodyVector &p = result[body].pressure;
+          if (p.in_local_range(dof))
+            p(dof) = value;
+        });
+    for (BodySolution &own : result)
+      {
+        own.displacement.update_ghost_values();
+        if (own.pressure.size() > 0)
+          own.pressure.update_ghost_values();
+      }
     return result;
   }
 
@@ -188,7 +312,7 @@ namespace mortise
 
   void
   describe_structure(const Bodies                &bodies,
-                     const DisplacementNumbering &numbering,
+                     const FieldNumbering &numbering,
                      BlockSystem                 &system)
   {
     BlockCollector                       collector(numbering.owned());

@@ -18,11 +18,20 @@ namespace mortise
       , modes(cell_dof_indices(degree))
       , line_values(n, degree + 1)
       , line_slopes(n, degree + 1)
+      , pressure_values(n, degree)
     {
       const QGauss<1>     line(n);
       std::vector<double> values(degree + 1), slopes(degree + 1);
+      if (body.pressure)
+        pressure_modes = cell_dof_indices(degree - 1);
       for (unsigned int q = 0; q < n; ++q)
         {
+          if (body.pressure)
+            {
+              evaluate_lobatto(degree - 1, line.point(q)[0], values.data());
+              for (unsigned int k = 0; k < degree; ++k)
+                pressure_values(q, k) = values[k];
+            }
           evaluate_lobatto(degree,
                            line.point(q)[0],
                            values.data(),
@@ -40,6 +49,8 @@ namespace mortise
     CellGeometry                    geometry;
     const std::vector<unsigned int> modes;
     FullMatrix<double>              line_values, line_slopes;
+    std::vector<unsigned int>       pressure_modes;
+    FullMatrix<double>              pressure_values;
   };
 
   CellFields::CellFields(const Body &body, const unsigned int extra_points)
@@ -52,19 +63,26 @@ namespace mortise
         },
         update_values | update_gradients | update_quadrature_points |
           update_JxW_values)
+    , tetrahedra_pressure(
+        body,
+        [extra_points](const FiniteElement<dim> &element) {
+          return gauss_quadrature<dim>(element,
+                                       element.degree + 1 + extra_points);
+        },
+        update_values)
   {}
 
   CellFields::~CellFields() = default;
 
   void
   CellFields::reinit(const Body::CellIterator &cell,
-                     const BodyVector         &displacement)
+                     const BodySolution       &solution)
   {
     if (!body.mesh.tetrahedra)
-      return evaluate_hexahedron(cell, displacement);
+      return evaluate_hexahedron(cell, solution);
     auto &from = tetrahedra(cell);
     from.reinit(Triangulation<dim>::cell_iterator(cell));
-    const auto coefficients = cell_coefficients(cell, displacement);
+    const auto coefficients = cell_coefficients(cell, solution.displacement);
     points                  = from.get_quadrature_points();
     weights                 = from.get_JxW_values();
     values.clear();
@@ -74,18 +92,25 @@ namespace mortise
         values.push_back(value(from, coefficients, q));
         gradients.push_back(gradient(from, coefficients, q));
       }
+    if (body.pressure)
+      {
+        const auto own    = body.pressure->cell(cell);
+        auto      &values = tetrahedra_pressure(own);
+        values.reinit(Triangulation<dim>::cell_iterator(own));
+        pressures = pressures_at(own, values, solution.pressure);
+      }
   }
 
   void
   CellFields::evaluate_hexahedron(const Body::CellIterator &cell,
-                                  const BodyVector         &displacement)
+                                  const BodySolution       &solution)
   {
     auto &shared = hexahedra[body.degree(cell)];
     if (!shared)
       shared = std::make_unique<Hexahedra>(body,
                                            body.degree(cell),
                                            body.degree(cell) + extra_points);
-    const auto         coefficients = cell_coefficients(cell, displacement);
+    const auto coefficients = cell_coefficients(cell, solution.displacement);
     const auto        &jacobians    = shared->geometry.jacobians(cell);
     const unsigned int n_points = jacobians.size(), n = shared->degree + 1;
     points = shared->geometry.points(cell);
@@ -111,6 +136,18 @@ namespace mortise
             for (unsigned int q = 0; q < n_points; ++q)
               gradients[q][c][a] = slope.values[q]; // with respect to xi yet
           }
+      }
+    if (body.pressure)
+      {
+        const auto own = body.pressure->cell(cell);
+        std::vector<types::global_dof_index> dofs(
+          own->get_fe().n_dofs_per_cell());
+        own->get_dof_indices(dofs);
+        TensorArray modes{{{n - 1, n - 1, n - 1}}, {}};
+        for (const unsigned int i : shared->pressure_modes)
+          modes.values.push_back(solution.pressure(dofs[i]));
+        const auto &along = shared->pressure_values;
+        pressures         = apply_product(along, along, along, modes).values;
       }
     weights.resize(n_points);
     for (unsigned int q = 0; q < n_points; ++q)

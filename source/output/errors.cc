@@ -27,45 +27,96 @@ namespace mortise
     using TriaCell = Triangulation<dim>::cell_iterator;
   } // namespace
 
-  DisplacementErrors
-  displacement_errors(const Bodies                  &bodies,
-                      const std::vector<BodyVector> &displacements,
-                      const ExactSolution           &exact)
+  namespace
   {
-    std::array<double, 4>
-      sums{}; // squares: L2 error, L2 norm, energy error, energy norm
+    /// Squares of norms and of errors in them.
+    struct Squares
+    {
+      double l2 = 0., h1 = 0., energy = 0., pressure = 0., stress = 0.;
+    };
+
+    /// What one point adds to the energy, twice.
+    double
+    energy_density(const LinearElastic           &material,
+                   const SymmetricTensor<2, dim> &strain,
+                   const double                   pressure)
+    {
+      return material.stress(strain, 0.) * strain +
+             (material.mixed ? material.compressibility() * pressure * pressure :
+                               0.);
+    }
+
+    void
+    add_point(const Body          &body,
+              const CellFields    &fields,
+              const unsigned int   q,
+              const ExactSolution &exact,
+              Squares             &error,
+              Squares             &norm)
+    {
+      const LinearElastic &material = body.material;
+      const Point<dim>    &x        = fields.points[q];
+      const double         weight   = fields.weights[q];
+      const auto           u        = exact.displacement(x, body.index);
+      const auto           gradient = exact.gradient(x, body.index);
+      const auto           strain   = symmetrize(gradient);
+      const auto strain_error = symmetrize(fields.gradients[q]) - strain;
+      error.l2 += weight * (fields.values[q] - u).norm_square();
+      norm.l2 += weight * u.norm_square();
+      error.h1 += weight * (fields.gradients[q] - gradient).norm_square();
+      norm.h1 += weight * gradient.norm_square();
+      double p = 0., p_error = 0.;
+      if (material.mixed)
+        {
+          const auto stress = exact.stress(x, body.index);
+          p                 = material.pressure(strain, stress);
+          p_error           = fields.pressures[q] - p;
+          const double mean       = trace(stress) / dim,
+                       mean_error = trace(material.stress(strain_error, p_error)) / dim;
+          error.pressure += weight * mean_error * mean_error;
+          norm.pressure += weight * mean * mean;
+          norm.stress += weight * (stress * stress);
+        }
+      error.energy +=
+        weight * energy_density(material, strain_error, p_error);
+      norm.energy += weight * energy_density(material, strain, p);
+    }
+  } // namespace
+
+  SolutionErrors
+  solution_errors(const Bodies                    &bodies,
+                  const std::vector<BodySolution> &solutions,
+                  const ExactSolution             &exact)
+  {
+    Squares error, norm;
     for (const auto &body : bodies)
       {
         CellFields fields(*body, 3);
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
-              fields.reinit(cell, displacements[body->index]);
+              fields.reinit(cell, solutions[body->index]);
               for (unsigned int q = 0; q < fields.points.size(); ++q)
-                {
-                  const Point<dim>    &x = fields.points[q];
-                  const Tensor<1, dim> u = exact.displacement(x, body->index);
-                  const auto           strain =
-                    symmetrize(exact.gradient(x, body->index));
-                  const auto strain_error =
-                    symmetrize(fields.gradients[q]) - strain;
-                  const double weight = fields.weights[q];
-                  sums[0] += weight * (fields.values[q] - u).norm_square();
-                  sums[1] += weight * u.norm_square();
-                  sums[2] += weight * (body->material.stress(strain_error) *
-                                       strain_error);
-                  sums[3] += weight * (body->material.stress(strain) * strain);
-                }
+                add_point(*body, fields, q, exact, error, norm);
             }
       }
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
-    for (double &sum : sums)
-      sum = Utilities::MPI::sum(sum, comm);
+    for (Squares *all : {&error, &norm})
+      for (double *square :
+           {&all->l2, &all->h1, &all->energy, &all->pressure, &all->stress})
+        *square = Utilities::MPI::sum(*square, comm);
+    if (norm.pressure < 1e-20 * norm.stress)
+      norm.pressure = norm.stress;
     // an exact solution that is zero has absolute errors
-    const auto relative = [](const double error, const double norm) {
-      return std::sqrt(norm > 0. ? error / norm : error);
+    const auto relative = [](const double error_square,
+                             const double norm_square) {
+      return std::sqrt(norm_square > 0. ? error_square / norm_square :
+                                          error_square);
     };
-    return {relative(sums[0], sums[1]), relative(sums[2], sums[3])};
+    return {relative(error.l2, norm.l2),
+            relative(error.h1, norm.h1),
+            relative(error.energy, norm.energy),
+            relative(error.pressure, norm.pressure)};
   }
 
   double
@@ -167,7 +218,7 @@ namespace mortise
 
   Tensor<1, dim>
   resultant(const Body              &body,
-            const BodyVector        &displacement,
+            const BodySolution      &solution,
             const types::boundary_id boundary)
   {
     Tensor<1, dim>                     force;
@@ -175,17 +226,29 @@ namespace mortise
                                                   rule<dim - 1>(2),
                                                   update_gradients |
                                                     update_normal_vectors |
-                                                    update_JxW_values);
+                                                    update_JxW_values),
+      pressure_by_element(body, rule<dim - 1>(3), update_values);
     for (const auto &[cell, f] : boundary_faces(body, boundary))
       if (cell->is_locally_owned())
         {
           auto &values = by_element(cell);
           values.reinit(TriaCell(cell), f);
-          const auto coefficients = cell_coefficients(cell, displacement);
+          const auto coefficients =
+            cell_coefficients(cell, solution.displacement);
+          std::vector<double> pressures(values.n_quadrature_points);
+          if (body.pressure)
+            {
+              const auto own             = body.pressure->cell(cell);
+              auto      &pressure_values = pressure_by_element(own);
+              pressure_values.reinit(TriaCell(own), f);
+              pressures = pressures_at(own, pressure_values, solution.pressure);
+            }
           for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-            force += values.JxW(q) * (body.material.stress(symmetrize(
-                                        gradient(values, coefficients, q))) *
-                                      values.normal_vector(q));
+            force += values.JxW(q) *
+                     (body.material.stress(
+                        symmetrize(gradient(values, coefficients, q)),
+                        pressures[q]) *
+                      values.normal_vector(q));
         }
     return Utilities::MPI::sum(force, body.triangulation().get_communicator());
   }

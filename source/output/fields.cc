@@ -1,13 +1,19 @@
+#include <deal.II/dofs/dof_tools.h>
+
 #include <deal.II/lac/vector.h>
 
 #include <deal.II/numerics/data_out.h>
 #include <deal.II/numerics/data_out_faces.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
+#include <mortise/body/fe_legendre.h>
+#include <mortise/body/legendre_elements.h>
+#include <mortise/output/cell_values.h>
 #include <mortise/output/fields.h>
 #include <mortise/output/simplex_fields.h>
 
 #include <cmath>
+#include <set>
 
 namespace mortise
 {
@@ -15,19 +21,28 @@ namespace mortise
 
   namespace
   {
-    /// Cauchy stress, 9 entries, and von Mises stress.
+    /// Cauchy stress, 9 entries, von Mises stress, and mean pressure, from
+    /// displacement and, in mixed form, pressure as a fourth component.
     class StressPostprocessor : public DataPostprocessor<dim>
     {
     public:
-      explicit StressPostprocessor(const LinearElastic &material)
+      StressPostprocessor(const LinearElastic  &material,
+                          const FieldSelection &selection)
         : material(material)
+        , selection(selection)
       {}
 
       std::vector<std::string>
       get_names() const override
       {
-        std::vector<std::string> names(dim * dim, "stress");
-        names.push_back("von_mises");
+        std::vector<std::string> names;
+        if (selection.stress)
+          {
+            names.assign(dim * dim, "stress");
+            names.push_back("von_mises");
+          }
+        if (selection.pressure)
+          names.push_back("pressure");
         return names;
       }
 
@@ -35,16 +50,19 @@ namespace mortise
       get_data_component_interpretation() const override
       {
         std::vector<DataComponentInterpretation::DataComponentInterpretation>
-          kinds(dim * dim,
-                DataComponentInterpretation::component_is_part_of_tensor);
-        kinds.push_back(DataComponentInterpretation::component_is_scalar);
+          kinds;
+        for (const std::string &name : get_names())
+          kinds.push_back(
+            name == "stress" ?
+              DataComponentInterpretation::component_is_part_of_tensor :
+              DataComponentInterpretation::component_is_scalar);
         return kinds;
       }
 
       UpdateFlags
       get_needed_update_flags() const override
       {
-        return update_gradients;
+        return update_values | update_gradients;
       }
 
       void
@@ -58,16 +76,100 @@ namespace mortise
             for (unsigned int c = 0; c < dim; ++c)
               gradient[c] = input.solution_gradients[q][c];
             const SymmetricTensor<2, dim> stress =
-              material.stress(symmetrize(gradient));
-            for (unsigned int i = 0; i < dim; ++i)
-              for (unsigned int j = 0; j < dim; ++j)
-                computed[q](dim * i + j) = stress[i][j];
-            computed[q](dim * dim) = std::sqrt(1.5) * deviator(stress).norm();
+              material.stress(symmetrize(gradient),
+                              material.mixed ? input.solution_values[q][dim] :
+                                               0.);
+            unsigned int next = 0;
+            if (selection.stress)
+              {
+                for (unsigned int i = 0; i < dim; ++i)
+                  for (unsigned int j = 0; j < dim; ++j)
+                    computed[q](next++) = stress[i][j];
+                computed[q](next++) = std::sqrt(1.5) * deviator(stress).norm();
+              }
+            if (selection.pressure)
+              computed[q](next++) = -trace(stress) / dim;
           }
       }
 
     private:
-      const LinearElastic material;
+      const LinearElastic  material;
+      const FieldSelection selection;
+    };
+
+    /// Displacement and pressure of a body in mixed form as one field of four
+    /// components of one degree: the pressure has no modes of the highest.
+    struct MixedField
+    {
+      MixedField(const Body &body, const BodySolution &solution)
+        : handler(body.triangulation())
+      {
+        std::set<unsigned int> used;
+        for (unsigned int i = 0; i < body.fe.size(); ++i)
+          used.insert(body.fe[i].degree);
+        const auto given = [&](const auto &cell) {
+          return Body::CellIterator(&body.triangulation(),
+                                    cell->level(),
+                                    cell->index(),
+                                    &body.dof_handler);
+        };
+        distribute_legendre_dofs(
+          used,
+          [&](const auto &cell) { return body.degree(given(cell)); },
+          dim + 1,
+          fe,
+          handler);
+        IndexSet relevant;
+        DoFTools::extract_locally_relevant_dofs(handler, relevant);
+        vector.reinit(handler.locally_owned_dofs(),
+                      relevant,
+                      body.triangulation().get_communicator());
+        for (const auto &cell : handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            set_cell(cell, given(cell), body, solution);
+        vector.update_ghost_values();
+      }
+
+      hp::FECollection<dim> fe;
+      DoFHandler<dim>       handler;
+      BodyVector            vector;
+
+    private:
+      void
+      set_cell(const Body::CellIterator &cell,
+               const Body::CellIterator &given,
+               const Body               &body,
+               const BodySolution       &solution)
+      {
+        const auto        &all = cell->get_fe();
+        const unsigned int p   = all.degree;
+        dofs.resize(all.n_dofs_per_cell());
+        cell->get_dof_indices(dofs);
+        const auto set = [&](const unsigned int c,
+                             const unsigned int mode,
+                             const double       value) {
+          const auto dof = dofs[all.component_to_system_index(c, mode)];
+          if (vector.in_local_range(dof))
+            vector(dof) = value;
+        };
+        const auto displacement =
+          cell_coefficients(given, solution.displacement);
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int i = 0; i < displacement[c].size(); ++i)
+            set(c, i, displacement[c][i]);
+        const auto own = body.pressure->cell(cell);
+        own_dofs.resize(own->get_fe().n_dofs_per_cell());
+        own->get_dof_indices(own_dofs);
+        const auto to = cell_dof_indices(p), from = cell_dof_indices(p - 1);
+        for (unsigned int k = 0; k < p; ++k)
+          for (unsigned int j = 0; j < p; ++j)
+            for (unsigned int i = 0; i < p; ++i)
+              set(dim,
+                  to[i + (p + 1) * (j + (p + 1) * k)],
+                  solution.pressure(own_dofs[from[i + p * (j + p * k)]]));
+      }
+
+      std::vector<types::global_dof_index> dofs, own_dofs;
     };
 
     /// Only the slave faces of one interface.
@@ -181,24 +283,33 @@ namespace mortise
 
   void
   write_body_fields(const Body           &body,
-                    const BodyVector     &displacement,
+                    const BodySolution   &solution,
                     const FieldSelection &selection,
                     const std::string    &directory)
   {
     if (body.mesh.tetrahedra)
-      return write_tetrahedra(body, displacement, selection, directory);
+      return write_tetrahedra(body, solution, selection, directory);
     const unsigned int        degree = body.max_degree();
-    const StressPostprocessor stress(body.material);
-    DataOut<dim>              output;
+    const StressPostprocessor stress(body.material, selection);
+    std::unique_ptr<MixedField> mixed;
+    DataOut<dim>                output;
     output.set_flags(flags(degree));
     output.attach_dof_handler(body.dof_handler);
     if (selection.displacement)
-      output.add_data_vector(displacement,
+      output.add_data_vector(solution.displacement,
                              std::vector<std::string>(dim, "displacement"),
                              DataOut<dim>::type_dof_data,
                              vector_field);
-    if (selection.stress)
-      output.add_data_vector(displacement, stress);
+    if (selection.stress || selection.pressure)
+      {
+        if (body.pressure)
+          {
+            mixed = std::make_unique<MixedField>(body, solution);
+            output.add_data_vector(mixed->handler, mixed->vector, stress);
+          }
+        else
+          output.add_data_vector(solution.displacement, stress);
+      }
     output.build_patches(*body.mapping,
                          degree,
                          body.mesh.curved ? DataOut<dim>::curved_inner_cells :

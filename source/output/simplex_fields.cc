@@ -10,15 +10,15 @@ namespace mortise
 
   namespace
   {
-    /// Displacement and stress at the points of @p values, as the fields are announced.
+    /// The fields at the points of @p values, as they are announced; @p pressures
+    /// are those of the mixed form, or zero.
     std::vector<std::vector<double>>
-    evaluate_cell(const Body::CellIterator &cell,
-                  const FEValues<dim>      &values,
-                  const BodyVector         &displacement,
-                  const LinearElastic      &material,
-                  const FieldSelection     &selection)
+    evaluate_cell(const FEValues<dim>                        &values,
+                  const std::array<std::vector<double>, dim> &coefficients,
+                  const std::vector<double>                  &pressures,
+                  const LinearElastic                        &material,
+                  const FieldSelection                       &selection)
     {
-      const auto coefficients = cell_coefficients(cell, displacement);
       std::vector<std::vector<double>> data(values.n_quadrature_points);
       for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
         {
@@ -27,15 +27,20 @@ namespace mortise
               const auto u = value(values, coefficients, q);
               data[q].insert(data[q].end(), u.begin_raw(), u.end_raw());
             }
+          if (!selection.stress && !selection.pressure)
+            continue;
+          const auto stress =
+            material.stress(symmetrize(gradient(values, coefficients, q)),
+                            pressures[q]);
           if (selection.stress)
             {
-              const auto stress =
-                material.stress(symmetrize(gradient(values, coefficients, q)));
               for (unsigned int i = 0; i < dim; ++i)
                 for (unsigned int j = 0; j < dim; ++j)
                   data[q].push_back(stress[i][j]);
               data[q].push_back(std::sqrt(1.5) * deviator(stress).norm());
             }
+          if (selection.pressure)
+            data[q].push_back(-trace(stress) / dim);
         }
       return data;
     }
@@ -43,7 +48,7 @@ namespace mortise
 
   void
   write_tetrahedra(const Body           &body,
-                   const BodyVector     &displacement,
+                   const BodySolution   &solution,
                    const FieldSelection &selection,
                    const std::string    &directory)
   {
@@ -55,23 +60,36 @@ namespace mortise
         output.add_field("stress", dim * dim);
         output.add_field("von_mises", 1);
       }
+    if (selection.pressure)
+      output.add_field("pressure", 1);
     const Quadrature<dim> points(output.lattice.points);
 
-    ValuesByElement<FEValues<dim>> by_element(
-      body,
-      [&](const FiniteElement<dim> &) { return points; },
-      update_values | update_gradients | update_quadrature_points);
+    const auto rule = [&](const FiniteElement<dim> &) { return points; };
+    ValuesByElement<FEValues<dim>> by_element(body,
+                                              rule,
+                                              update_values | update_gradients |
+                                                update_quadrature_points),
+      pressure_by_element(body, rule, update_values);
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
           auto &values = by_element(cell);
           values.reinit(Triangulation<dim>::cell_iterator(cell));
-          output.add_simplex(values.get_quadrature_points(),
-                             evaluate_cell(cell,
-                                           values,
-                                           displacement,
-                                           body.material,
-                                           selection));
+          std::vector<double> pressures(points.size());
+          if (body.pressure)
+            {
+              const auto own             = body.pressure->cell(cell);
+              auto      &pressure_values = pressure_by_element(own);
+              pressure_values.reinit(Triangulation<dim>::cell_iterator(own));
+              pressures = pressures_at(own, pressure_values, solution.pressure);
+            }
+          output.add_simplex(
+            values.get_quadrature_points(),
+            evaluate_cell(values,
+                          cell_coefficients(cell, solution.displacement),
+                          pressures,
+                          body.material,
+                          selection));
         }
     output.write_vtu_in_parallel(directory + "/" + body.name + ".vtu",
                                  body.triangulation().get_communicator());

@@ -1,3 +1,4 @@
+#include <mortise/problem/formulation.h>
 #include <mortise/problem/parameters.h>
 
 #include "declare.h"
@@ -43,6 +44,12 @@ namespace mortise
         "",
         "Other degrees for cells with the given material ids of the mesh.",
         "\"material id: degree; ...\"");
+      declare.choice(
+        "Formulation",
+        formulation_names().front(),
+        "Unknowns: the displacement, or (mixed) displacement and pressure, one degree lower, "
+        "which neither locks nor ends where nu comes to 0.5. auto: mixed from nu = 0.49 on.",
+        formulation_names());
       declare.text(
         "Body force",
         "auto",
@@ -63,7 +70,7 @@ namespace mortise
       material.number("Poisson ratio",
                       body.material.poisson_ratio,
                       "Poisson's ratio [-].",
-                      "a number between -1 and 0.5, both excluded");
+                      "a number above -1 and not above 0.5");
       for (const std::string &boundary : boundaries)
         declare_boundary({declared, {section, "Boundary " + boundary}});
     }
@@ -104,6 +111,12 @@ namespace mortise
         "Exact displacement [length]: relative errors are computed when it is given.",
         "three expressions \"ux; uy; uz\" in x, y, z; thick sphere; or thick cylinder "
         "(which take pressure, radii and materials from the scene)");
+      exact.text(
+        "Pressure",
+        "",
+        "Exact mean pressure, minus a third of the trace of the stress [force per area], for "
+        "expressions in a scene with nu = 0.5, where it does not follow from the displacement.",
+        "an expression in x, y, z");
 
       const SolverParameters solver;
       Declare                declare(declared, {"Solver"});

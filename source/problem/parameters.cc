@@ -3,6 +3,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <mortise/base/error.h>
+#include <mortise/problem/formulation.h>
 #include <mortise/problem/parameter_reader.h>
 #include <mortise/problem/parameters.h>
 
@@ -44,6 +45,7 @@ namespace mortise
   {
     static const std::vector<std::string> names = {"displacement",
                                                    "stress",
+                                                   "pressure",
                                                    "traction"};
     return names;
   }
@@ -130,6 +132,7 @@ namespace mortise
       body.name             = name;
       body.degree           = reader.integer("Degree");
       body.degree_by_region = read_degrees(reader);
+      body.formulation      = formulation_from_name(reader.text("Formulation"));
       if (reader.text("Body force") != "auto")
         body.body_force =
           reader.components("Body force",
@@ -184,13 +187,16 @@ namespace mortise
     ExactSolutionParameters
     read_exact_solution(const ParameterReader &reader)
     {
-      const std::string text = reader.text("Displacement");
+      const std::string          text = reader.text("Displacement");
+      std::optional<std::string> pressure;
+      if (!reader.text("Pressure").empty())
+        pressure = reader.text("Pressure");
       if (text.empty())
         return {};
       if (text == "thick sphere")
-        return {ExactKind::thick_sphere, {}};
+        return {ExactKind::thick_sphere, {}, pressure};
       if (text == "thick cylinder")
-        return {ExactKind::thick_cylinder, {}};
+        return {ExactKind::thick_cylinder, {}, pressure};
       const std::string allowed =
         "three expressions \"ux; uy; uz\", thick sphere, or thick cylinder";
       if (text.find_first_of(";,") == std::string::npos || text == "exact")
@@ -199,7 +205,8 @@ namespace mortise
           did_you_mean(text, {"thick sphere", "thick cylinder"}) +
           "; allowed: " + allowed);
       return {ExactKind::expressions,
-              *reader.components("Displacement", allowed)};
+              *reader.components("Displacement", allowed),
+              pressure};
     }
 
     OutputParameters

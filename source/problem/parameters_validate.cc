@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
+#include <mortise/problem/formulation.h>
 #include <mortise/problem/parameter_file.h>
 #include <mortise/problem/parameters.h>
 #include <unistd.h>
@@ -65,18 +66,11 @@ namespace mortise
              section + "/Young modulus",
              E,
              "a positive number (force per area)");
-      if (nu >= 0.5)
-        fail(
-          parameters,
-          section + "/Poisson ratio",
-          nu,
-          "a number below 0.5; at and above it a displacement form does not exist, and the mixed "
-          "form of displacement and pressure is not available yet");
-      if (!(nu > -1.))
+      if (!(nu > -1. && nu <= 0.5))
         fail(parameters,
              section + "/Poisson ratio",
              nu,
-             "a number above -1 and below 0.5");
+             "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)");
     }
 
     /// Components are "-" (if @p may_be_free), "exact" (if there is an exact solution), or parse.
@@ -322,6 +316,7 @@ namespace mortise
       check_interface(parameters, interface);
     check_pairs_of_interfaces(parameters);
     check_exact_solution(parameters);
+    check_formulations(parameters);
     const double tolerance = parameters.solver.tolerance;
     if (!(tolerance > 0. && tolerance < 1.))
       fail(parameters,

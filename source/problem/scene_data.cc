@@ -1,4 +1,5 @@
 #include <mortise/base/error.h>
+#include <mortise/problem/formulation.h>
 #include <mortise/problem/scene_data.h>
 
 #include <algorithm>
@@ -13,7 +14,9 @@ namespace mortise
     std::vector<LinearElastic> result;
     for (const BodyParameters &body : parameters.bodies)
       result.push_back(
-        {body.material.young_modulus, body.material.poisson_ratio});
+        {body.material.young_modulus,
+         body.material.poisson_ratio,
+         is_mixed(body)});
     return result;
   }
 
@@ -141,10 +144,13 @@ namespace mortise
         case ExactKind::expressions:
           {
             const Components &text = parameters.exact_solution.displacement;
+            const auto       &pressure = parameters.exact_solution.pressure;
             return std::make_shared<ExpressionSolution>(
               VectorExpression(text[0] + ";" + text[1] + ";" + text[2],
                                parameters.where("Exact solution/Displacement")),
-              materials(parameters));
+              materials(parameters),
+              Expression(pressure.value_or("0"),
+                         parameters.where("Exact solution/Pressure")));
           }
         default:
           return {};

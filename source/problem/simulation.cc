@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/body/boundary_faces.h>
+#include <mortise/problem/formulation.h>
 #include <mortise/problem/rigid_motions.h>
 #include <mortise/problem/scene_data.h>
 #include <mortise/problem/simulation.h>
@@ -71,6 +72,11 @@ namespace mortise
                            given.degree_by_region,
                            "Body " + body->name);
         handlers.push_back(&body->dof_handler);
+        if (locks(given))
+          log.warning("body " + body->name + " with Poisson ratio " +
+                      RunLog::number(given.material.poisson_ratio) +
+                      " and degree 1 is too stiff (it locks); a higher Degree "
+                      "gives it a pressure of its own");
         dirichlet.push_back(make_dirichlet(parameters, *body, exact));
       }
     std::vector<std::pair<unsigned int, unsigned int>> ties;
@@ -87,9 +93,15 @@ namespace mortise
                                   body_constraints.back());
         occupied.emplace_back(body->dof_handler.n_locally_owned_dofs(), false);
       }
-    numbering   = DisplacementNumbering(handlers, comm);
-    constraints = scene_constraints(bodies, numbering, body_constraints);
+    auto &numbering = displacement_field.numbering;
+    numbering       = FieldNumbering(handlers, comm);
+    displacement_field.constraints =
+      scene_constraints(numbering, body_constraints);
     system.owned_displacement = numbering.owned();
+    pressure_field            = mortise::pressure_field(bodies, comm);
+    const auto n_pressures    = pressure_field.numbering.size();
+    if (n_pressures > 0)
+      system.owned_pressure = pressure_field.numbering.owned();
 
     StepSummary &step = summary.steps.back();
     for (const auto &body : bodies)
@@ -109,8 +121,13 @@ namespace mortise
     choose_method(max_degree);
 
     step.dofs.displacement = numbering.size();
-    step.dofs.total        = numbering.size();
-    stage.details(std::to_string(numbering.size()) + " displacement dofs");
+    step.dofs.total        = numbering.size() + n_pressures;
+    if (n_pressures > 0)
+      step.dofs.pressure = n_pressures;
+    stage.details(std::to_string(numbering.size()) + " displacement dofs" +
+                  (n_pressures > 0 ?
+                     ", " + std::to_string(n_pressures) + " pressures" :
+                     ""));
   }
 
   void
@@ -121,13 +138,21 @@ namespace mortise
       scene.push_back(body.get());
     const bool nodal = max_degree > 1 && NodalSpace::represents(scene);
     method           = choose_solver(parameters.solver.method,
-                                     {numbering.size(), max_degree, nodal})
+                                     {displacement_field.numbering.size(),
+                                      max_degree,
+                                      nodal,
+                                      system.mixed()})
                .method;
     if (nodal && method != SolverMethod::direct)
       {
         nodal_spaces = make_nodal_spaces(scene, comm);
         system.owned_displacement =
           displacement_indices(nodal_spaces.front()->owned_nodes());
+        if (system.mixed())
+          {
+            nodal_pressures       = make_nodal_pressures(scene, comm);
+            system.owned_pressure = nodal_pressures->owned_nodes();
+          }
       }
   }
 
@@ -143,8 +168,8 @@ namespace mortise
           return extract_surface(body,
                                  body.boundary_id(side.boundary,
                                                   "Interface " + given.name),
-                                 numbering,
-                                 constraints,
+                                 displacement_field.numbering,
+                                 displacement_field.constraints,
                                  nodal_spaces);
         };
         InterfaceOptions options;
@@ -337,17 +362,26 @@ namespace mortise
       system.max_degree = std::max(system.max_degree, body->max_degree());
     if (!nodal_spaces.empty())
       {
-        const NodalSystem::Scene scene{numbering, constraints, couplings};
+        const NodalSystem::Scene scene{displacement_field.numbering,
+                                       displacement_field.constraints,
+                                       couplings};
         system.nodal =
-          std::make_unique<NodalSystem>(std::move(nodal_spaces), scene, comm);
-        system.nodal->assemble_load(loads, scene, system.load);
+          std::make_unique<NodalSystem>(std::move(nodal_spaces),
+                                        std::move(nodal_pressures),
+                                        scene,
+                                        comm);
+        system.nodal->assemble_load(loads,
+                                    scene,
+                                    system.load,
+                                    system.pressure_load);
         if (system.owned_multiplier.size() > 0)
           system.nodal->drop_held_columns(system.coupling);
         stage.details("without a matrix");
         return;
       }
-    interiors = assemble_bodies(bodies, loads, numbering, constraints, system);
-    describe_structure(bodies, numbering, system);
+    interiors = assemble_bodies(
+      bodies, loads, displacement_field, pressure_field, system);
+    describe_structure(bodies, displacement_field.numbering, system);
     stage.details(std::to_string(system.stiffness.n_nonzero_elements()) +
                   " entries");
   }
@@ -365,7 +399,7 @@ namespace mortise
         log.line("    iteration " + std::to_string(iteration) + "  residual " +
                  RunLog::number(residual));
       };
-    solve_report = mortise::solve(system, options, displacement, multiplier);
+    solve_report = mortise::solve(system, options, solution);
 
     timers.add("solver_setup", solve_report.setup_seconds);
     timers.add("solve", solve_report.solve_seconds);

@@ -74,31 +74,38 @@ namespace mortise
   {
     auto         stage = log.stage(timers, "postprocess");
     StepSummary &step  = summary.steps.back();
-    displacements =
-      system.nodal ?
-        body_displacements(
-          bodies, numbering, constraints, *system.nodal, displacement) :
-        body_displacements(
-          bodies, numbering, constraints, interiors, displacement);
+    solutions = system.nodal ?
+                  body_solutions(bodies,
+                                 displacement_field,
+                                 pressure_field,
+                                 *system.nodal,
+                                 solution) :
+                  body_solutions(bodies,
+                                 displacement_field,
+                                 pressure_field,
+                                 interiors,
+                                 solution);
 
     std::vector<unsigned int> slave_bodies;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
         tractions.push_back(
-          multiplier_on_faces(couplings[i], multiplier, comm));
+          multiplier_on_faces(couplings[i], solution.multiplier, comm));
         slave_bodies.push_back(parameters.interfaces[i].slave.body);
         const ResultantErrors errors =
-          resultant_errors(couplings[i], multiplier, comm);
+          resultant_errors(couplings[i], solution.multiplier, comm);
         step.interfaces[i].force_residual  = errors.force;
         step.interfaces[i].moment_residual = errors.moment;
       }
     if (exact)
       {
-        const DisplacementErrors errors =
-          displacement_errors(bodies, displacements, *exact);
-        ErrorSummary result;
-        result.displacement_l2 = errors.l2;
+        const SolutionErrors errors = solution_errors(bodies, solutions, *exact);
+        ErrorSummary         result;
+        result.displacement_l2 = errors.displacement_l2;
+        result.displacement_h1 = errors.displacement_h1;
         result.energy          = errors.energy;
+        if (system.mixed())
+          result.pressure_l2 = errors.pressure_l2;
         if (!couplings.empty())
           result.multiplier_l2 = multiplier_error(
             bodies, couplings, slave_bodies, tractions, *exact);
@@ -107,7 +114,7 @@ namespace mortise
     for (const PointQuantity &quantity : parameters.output.points)
       {
         const auto value = point_value(*bodies[quantity.body],
-                                       displacements[quantity.body],
+                                       solutions[quantity.body].displacement,
                                        quantity.point);
         if (!value)
           log.warning("Output/Points: " + quantity.name +
@@ -123,7 +130,7 @@ namespace mortise
         const Body          &body = *bodies[quantity.body];
         const Tensor<1, dim> force =
           resultant(body,
-                    displacements[quantity.body],
+                    solutions[quantity.body],
                     body.boundary_id(quantity.boundary, ""));
         step.quantities.emplace_back(
           quantity.name, std::vector<double>{force[0], force[1], force[2]});
@@ -143,14 +150,15 @@ namespace mortise
         };
         const FieldSelection selection{wants("displacement"),
                                        wants("stress"),
+                                       wants("pressure"),
                                        wants("traction")};
         if (Utilities::MPI::this_mpi_process(comm) == 0)
           std::filesystem::create_directories(directory);
         MPI_Barrier(comm);
-        if (selection.displacement || selection.stress)
+        if (selection.displacement || selection.stress || selection.pressure)
           for (const auto &body : bodies)
             write_body_fields(*body,
-                              displacements[body->index],
+                              solutions[body->index],
                               selection,
                               directory);
         if (selection.traction)
@@ -160,7 +168,7 @@ namespace mortise
               write_interface_fields(*bodies[slave],
                                      couplings[i],
                                      tractions[i],
-                                     displacements[slave],
+                                     solutions[slave].displacement,
                                      directory);
             }
         stage.details(directory);
@@ -215,7 +223,12 @@ namespace mortise
         rows = {{"relative error", ""},
                 {"displacement, L2",
                  RunLog::number(*step.errors->displacement_l2)},
+                {"displacement, H1",
+                 RunLog::number(*step.errors->displacement_h1)},
                 {"energy", RunLog::number(*step.errors->energy)}};
+        if (step.errors->pressure_l2)
+          rows.push_back(
+            {"pressure, L2", RunLog::number(*step.errors->pressure_l2)});
         if (step.errors->multiplier_l2)
           rows.push_back(
             {"multiplier, L2", RunLog::number(*step.errors->multiplier_l2)});

@@ -31,29 +31,30 @@ namespace mortise
         , preconditioner(preconditioner)
         , projector(projector)
         , options(options)
-        , r(system.owned_displacement, system.communicator)
+        , all_r(system.zero_solution())
+        , r(all_r.displacement)
         , z(r)
         , d(r)
         , kd(r)
-        , r_lambda(system.owned_multiplier, system.communicator)
       {}
 
-      /// Start from what @p u and @p lambda hold; the scaled residual at the end.
+      /// Start from what @p x holds; the scaled residual at the end.
       double
-      run(Vector &u, Vector &lambda, SolveReport &report)
+      run(SystemSolution &x, SolveReport &report)
       {
+        Vector      &u = x.displacement, &lambda = x.multiplier;
         const double rhs_norm = residual.right_hand_side_norm();
         const double target   = 0.9 * options.tolerance * rhs_norm;
         if (projector != nullptr)
           projector->satisfy(u, system.coupling_rhs);
-        residual.compute(u, lambda, r, r_lambda);
+        residual.compute(x, all_r);
         double rho_old = 0.;
         for (bool first = true; report.iterations < options.max_iterations;
              first      = false)
           {
             if (projector != nullptr)
               projector->project_residual(r, lambda);
-            const double reached = residual.norm(r, r_lambda);
+            const double reached = residual.norm(all_r);
             if (!first)
               {
                 report.history.push_back(reached / rhs_norm);
@@ -78,8 +79,8 @@ namespace mortise
           }
         if (projector != nullptr)
           projector->satisfy(u, system.coupling_rhs);
-        residual.compute(u, lambda, r, r_lambda);
-        return residual.norm(r, r_lambda);
+        residual.compute(x, all_r);
+        return residual.norm(all_r);
       }
 
     private:
@@ -104,7 +105,9 @@ namespace mortise
       const BulkPreconditioner  &preconditioner;
       const ConstraintProjector *projector;
       const SolverOptions       &options;
-      Vector                     r, z, d, kd, r_lambda;
+      SystemSolution             all_r;
+      Vector                    &r;
+      Vector                     z, d, kd;
       double                     energy_of_u = 0.; ///< gained so far
     };
   } // namespace
@@ -112,8 +115,7 @@ namespace mortise
   SolveReport
   solve_condensed(const BlockSystem   &system,
                   const SolverOptions &options,
-                  Vector              &u,
-                  Vector              &lambda)
+                  SystemSolution      &x)
   {
     SolveReport report;
     report.method = "condensed";
@@ -132,8 +134,7 @@ namespace mortise
     announce_stage("solve");
     timer.restart();
 
-    u.reinit(system.owned_displacement, system.communicator);
-    lambda.reinit(system.owned_multiplier, system.communicator);
+    x                                    = system.zero_solution();
     const double                rhs_norm = residual.right_hand_side_norm();
     const double                target   = options.tolerance * rhs_norm;
     double                      reached  = rhs_norm;
@@ -144,7 +145,7 @@ namespace mortise
     for (unsigned int start = 0; start < 3 && valid && reached > target &&
                                  report.iterations < options.max_iterations;
          ++start)
-      reached = solver.run(u, lambda, report);
+      reached = solver.run(x, report);
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= target;
     report.solve_seconds     = timer.wall_time();

@@ -21,61 +21,58 @@ namespace mortise
   {
     using Index = types::global_dof_index;
 
-    /// One numbering of (u, lambda), rank by rank: what a rank owns of u, then
-    /// of lambda.
+    constexpr unsigned int n_fields = 3;
+
+    /// One numbering of (u, p, lambda), rank by rank: what a rank owns of u,
+    /// then of p, then of lambda.
     class MonolithicNumbering
     {
     public:
       explicit MonolithicNumbering(const BlockSystem &system)
+        : owned{&system.owned_displacement,
+                &system.owned_pressure,
+                &system.owned_multiplier}
       {
-        const auto n_u =
-          Utilities::MPI::all_gather(system.communicator,
-                                     system.owned_displacement.n_elements());
-        const auto n_l =
-          Utilities::MPI::all_gather(system.communicator,
-                                     system.owned_multiplier.n_elements());
-        u_start.push_back(0);
-        l_start.push_back(0);
-        for (unsigned int r = 0; r < n_u.size(); ++r)
+        std::vector<Index> counts[n_fields];
+        for (unsigned int field = 0; field < n_fields; ++field)
           {
-            u_start.push_back(u_start.back() + n_u[r]);
-            l_start.push_back(l_start.back() + n_l[r]);
+            counts[field] =
+              Utilities::MPI::all_gather(system.communicator,
+                                         owned[field]->n_elements());
+            start[field].push_back(0);
+            for (const Index n : counts[field])
+              start[field].push_back(start[field].back() + n);
           }
-      }
-
-      unsigned int
-      u_owner(const Index i) const
-      {
-        return owner(u_start, i);
-      }
-
-      Index
-      u(const Index i) const
-      {
-        return i + l_start[u_owner(i)];
+        Index next = 0;
+        for (unsigned int r = 0; r < counts[0].size(); ++r)
+          for (unsigned int field = 0; field < n_fields; ++field)
+            {
+              shift[field].push_back(next - start[field][r]);
+              next += counts[field][r];
+            }
+        n = next;
       }
 
       Index
-      l(const Index k) const
+      operator()(const unsigned int field, const Index i) const
       {
-        return k + u_start[owner(l_start, k) + 1];
+        const auto &all = start[field];
+        return i +
+               shift[field][std::upper_bound(all.begin(), all.end(), i) -
+                            all.begin() - 1];
       }
 
       Index
       size() const
       {
-        return u_start.back() + l_start.back();
+        return n;
       }
+
+      const IndexSet *owned[n_fields]; ///< by field
 
     private:
-      static unsigned int
-      owner(const std::vector<Index> &start, const Index i)
-      {
-        return std::upper_bound(start.begin(), start.end(), i) - start.begin() -
-               1;
-      }
-
-      std::vector<Index> u_start, l_start;
+      std::vector<Index> start[n_fields], shift[n_fields]; ///< by rank
+      Index              n = 0;
     };
 
     /// Square roots of the inverse diagonals of the residual's norm, in the
@@ -84,105 +81,136 @@ namespace mortise
     void
     set_scaling(Epetra_Vector        &scale,
                 const ScaledResidual &residual,
-                const int             n_displacements)
+                const BlockSystem    &system)
     {
-      for (int i = 0; i < scale.MyLength(); ++i)
-        scale[i] =
-          std::sqrt(i < n_displacements ?
-                      residual.inverse_diagonal_u()[i] :
-                      residual.inverse_diagonal_lambda()[i - n_displacements]);
+      int        next = 0;
+      const auto add  = [&](const Epetra_Vector &square) {
+        for (int i = 0; i < square.MyLength(); ++i)
+          scale[next++] = std::sqrt(square[i]);
+      };
+      add(residual.inverse_diagonal_u());
+      if (system.mixed())
+        add(residual.inverse_diagonal_p());
+      if (system.owned_multiplier.size() > 0)
+        add(residual.inverse_diagonal_lambda());
     }
 
-    /// [K B^T; B 0], not scaled.
+    /// Gathers the rows of one matrix from blocks.
+    class RowBuilder
+    {
+    public:
+      RowBuilder(const MonolithicNumbering &numbering, Epetra_CrsMatrix &matrix)
+        : numbering(numbering)
+        , matrix(matrix)
+      {}
+
+      /// Row @p local of @p part, whose columns are of @p field.
+      void
+      add(const Epetra_CrsMatrix &part,
+          const int               local,
+          const unsigned int      field,
+          const double            factor = 1.)
+      {
+        const EpetraRow row(part, local);
+        for (int e = 0; e < row.length; ++e)
+          add(numbering(field, part.ColMap().GID(row.columns[e])),
+              factor * row.values[e]);
+      }
+
+      void
+      add(const Index column, const double value)
+      {
+        columns.push_back(static_cast<int>(column));
+        values.push_back(value);
+      }
+
+      void
+      insert(const Index row)
+      {
+        matrix.InsertGlobalValues(static_cast<int>(row),
+                                  static_cast<int>(columns.size()),
+                                  values.data(),
+                                  columns.data());
+        columns.clear();
+        values.clear();
+      }
+
+    private:
+      const MonolithicNumbering &numbering;
+      Epetra_CrsMatrix          &matrix;
+      std::vector<int>           columns;
+      std::vector<double>        values;
+    };
+
+    /// [K G^T B^T; G -C 0; B 0 0], not scaled.
     std::unique_ptr<Epetra_CrsMatrix>
     monolithic_matrix(const BlockSystem         &system,
                       const MonolithicNumbering &numbering)
     {
+      const auto      &K = system.stiffness.trilinos_matrix();
       std::vector<int> my_rows;
-      for (const auto i : system.owned_displacement)
-        my_rows.push_back(numbering.u(i));
-      for (const auto k : system.owned_multiplier)
-        my_rows.push_back(numbering.l(k));
+      for (unsigned int field = 0; field < n_fields; ++field)
+        for (const auto i : *numbering.owned[field])
+          my_rows.push_back(numbering(field, i));
       const Epetra_Map map(static_cast<int>(numbering.size()),
                            static_cast<int>(my_rows.size()),
                            my_rows.data(),
                            0,
-                           system.stiffness.trilinos_matrix().Comm());
+                           K.Comm());
 
-      std::unique_ptr<Epetra_CrsMatrix> transposed;
+      std::unique_ptr<Epetra_CrsMatrix> pressure_force, coupling_force;
+      if (system.mixed())
+        pressure_force =
+          transpose(system.divergence.trilinos_matrix(), K.RowMap());
       if (system.owned_multiplier.size() > 0)
-        transposed = transpose(system.coupling.trilinos_matrix(),
-                               system.stiffness.trilinos_matrix().RowMap());
+        coupling_force = transpose(system.coupling.trilinos_matrix(), K.RowMap());
       auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
-
-      std::vector<int>    columns;
-      std::vector<double> values;
-      const auto          add_row =
-        [&](const Epetra_CrsMatrix &part, const int local, const auto &number) {
-          const EpetraRow row(part, local);
-          for (int e = 0; e < row.length; ++e)
-            {
-              const Index column = part.ColMap().GID(row.columns[e]);
-              columns.push_back(static_cast<int>(number(column)));
-              values.push_back(row.values[e]);
-            }
-        };
-      const auto u      = [&](const Index i) { return numbering.u(i); };
-      const auto l      = [&](const Index k) { return numbering.l(k); };
-      const auto insert = [&](const Index row) {
-        matrix->InsertGlobalValues(static_cast<int>(row),
-                                   static_cast<int>(columns.size()),
-                                   values.data(),
-                                   columns.data());
-        columns.clear();
-        values.clear();
-      };
-      int local = 0;
+      RowBuilder rows(numbering, *matrix);
+      int        local = 0;
       for (const auto i : system.owned_displacement)
         {
-          add_row(system.stiffness.trilinos_matrix(), local, u);
-          if (transposed)
-            add_row(*transposed, local, l);
+          rows.add(K, local, 0);
+          if (pressure_force)
+            rows.add(*pressure_force, local, 1);
+          if (coupling_force)
+            rows.add(*coupling_force, local, 2);
           ++local;
-          insert(numbering.u(i));
+          rows.insert(numbering(0, i));
+        }
+      local = 0;
+      for (const auto k : system.owned_pressure)
+        {
+          rows.add(system.divergence.trilinos_matrix(), local, 0);
+          rows.add(system.compliance.trilinos_matrix(), local++, 1, -1.);
+          rows.insert(numbering(1, k));
         }
       local = 0;
       for (const auto k : system.owned_multiplier)
         {
-          add_row(system.coupling.trilinos_matrix(), local++, u);
-          columns.push_back(static_cast<int>(numbering.l(k)));
-          values.push_back(0.);
-          insert(numbering.l(k));
+          rows.add(system.coupling.trilinos_matrix(), local++, 0);
+          rows.add(numbering(2, k), 0.);
+          rows.insert(numbering(2, k));
         }
       matrix->FillComplete();
       return matrix;
     }
 
-    /// The vector (a, b) in the monolithic numbering of this rank, and back.
+    /// Calls visit(monolithic value, value) for all values of this rank.
+    template <typename Solution, typename Visit>
     void
-    join(Epetra_Vector &v, const Vector &a, const Vector &b)
+    for_each_value(Epetra_Vector &v, Solution &x, const Visit &visit)
     {
-      const unsigned int n = a.locally_owned_size();
-      for (int i = 0; i < v.MyLength(); ++i)
-        v[i] = i < static_cast<int>(n) ? a.trilinos_vector()[0][i] :
-                                         b.trilinos_vector()[0][i - n];
-    }
-
-    void
-    add_parts(Vector &a, Vector &b, const Epetra_Vector &v)
-    {
-      const unsigned int n = a.locally_owned_size();
-      for (int i = 0; i < v.MyLength(); ++i)
-        (i < static_cast<int>(n) ? a.trilinos_vector()[0][i] :
-                                   b.trilinos_vector()[0][i - n]) += v[i];
+      int next = 0;
+      for (auto *part : {&x.displacement, &x.pressure, &x.multiplier})
+        for (unsigned int i = 0; i < part->locally_owned_size(); ++i)
+          visit(v[next++], part->begin()[i]);
     }
   } // namespace
 
   SolveReport
   solve_direct(const BlockSystem   &system,
                const SolverOptions &options,
-               Vector              &u,
-               Vector              &lambda)
+               SystemSolution      &x)
   {
     constexpr unsigned int max_refinements = 4;
 
@@ -194,9 +222,7 @@ namespace mortise
     const auto                matrix = monolithic_matrix(system, numbering);
     const ScaledResidual      residual(system);
     Epetra_Vector             scale(matrix->RowMap());
-    set_scaling(scale,
-                residual,
-                static_cast<int>(system.owned_displacement.n_elements()));
+    set_scaling(scale, residual, system);
     matrix->LeftScale(scale);
     matrix->RightScale(scale);
 
@@ -207,26 +233,25 @@ namespace mortise
     report.setup_seconds  = timer.wall_time();
     timer.restart();
 
-    u.reinit(system.owned_displacement, system.communicator);
-    lambda.reinit(system.owned_multiplier, system.communicator);
-    Vector       r_u(u), r_lambda(lambda);
+    x                     = system.zero_solution();
+    SystemSolution r      = system.zero_solution();
     const double rhs_norm = residual.right_hand_side_norm();
     report.converged      = rhs_norm == 0.;
-    Epetra_Vector r(matrix->RowMap()), x(matrix->RowMap());
+    Epetra_Vector b(matrix->RowMap()), y(matrix->RowMap());
     double        previous = std::numeric_limits<double>::infinity();
     for (unsigned int step = 0;
          factorized && rhs_norm > 0. && step <= max_refinements;
          ++step)
       {
-        residual.compute(u, lambda, r_u, r_lambda);
-        join(r, r_u, r_lambda);
-        r.Multiply(1., scale, r, 0.);
-        if (!factorization.solve(x, r))
+        residual.compute(x, r);
+        for_each_value(b, r, [](double &to, const double from) { to = from; });
+        b.Multiply(1., scale, b, 0.);
+        if (!factorization.solve(y, b))
           break;
-        x.Multiply(1., scale, x, 0.);
-        add_parts(u, lambda, x);
-        residual.compute(u, lambda, r_u, r_lambda);
-        report.relative_residual = residual.norm(r_u, r_lambda) / rhs_norm;
+        y.Multiply(1., scale, y, 0.);
+        for_each_value(y, x, [](const double from, double &to) { to += from; });
+        residual.compute(x, r);
+        report.relative_residual = residual.norm(r) / rhs_norm;
         report.history.push_back(report.relative_residual);
         if (options.monitor)
           options.monitor(step, report.relative_residual);

@@ -9,6 +9,7 @@
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/constraint_projector.h>
 #include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/pressure_preconditioner.h>
 #include <mortise/solvers/saddle_point.h>
 #include <mortise/solvers/scaled_residual.h>
 
@@ -22,21 +23,47 @@ namespace mortise
   {
     using BlockVector = TrilinosWrappers::MPI::BlockVector;
 
-    /// W [K B^T; B 0] W with W^2 = diag(D_u, D_lambda)^{-1}: the Euclidean norm
-    /// of its residual is the norm that all solvers report.
+    /// Numbers of the blocks.
+    constexpr unsigned int u = 0, p = 1, l = 2;
+
+    void
+    copy(BlockVector &to, const SystemSolution &from)
+    {
+      to.block(u) = from.displacement;
+      to.block(p) = from.pressure;
+      to.block(l) = from.multiplier;
+    }
+
+    void
+    add(SystemSolution &to, const BlockVector &from)
+    {
+      to.displacement += from.block(u);
+      to.pressure += from.block(p);
+      to.multiplier += from.block(l);
+    }
+
+    /// W A W with the matrix A of the system and W^2 = diag(D_u, D_p,
+    /// D_lambda)^{-1}: the Euclidean norm of its residual is the norm that all
+    /// solvers report.
     class ScaledOperator
     {
     public:
       ScaledOperator(const BlockSystem &system, const ScaledResidual &residual)
-        : weight({system.owned_displacement, system.owned_multiplier},
+        : weight({system.owned_displacement,
+                  system.owned_pressure,
+                  system.owned_multiplier},
                  system.communicator)
         , system(system)
+        , tied(system.owned_multiplier.size() > 0)
         , scaled(weight)
       {
-        set_root(residual.inverse_diagonal_u(), weight.block(0));
-        set_root(residual.inverse_diagonal_lambda(), weight.block(1));
+        set_root(residual.inverse_diagonal_u(), weight.block(u));
+        if (system.mixed())
+          set_root(residual.inverse_diagonal_p(), weight.block(p));
+        if (tied)
+          set_root(residual.inverse_diagonal_lambda(), weight.block(l));
         inverse = weight;
-        for (unsigned int b = 0; b < 2; ++b)
+        for (unsigned int b = 0; b < 3; ++b)
           for (unsigned int i = 0; i < inverse.block(b).locally_owned_size();
                ++i)
             epetra(inverse.block(b))[0][i] =
@@ -48,9 +75,16 @@ namespace mortise
       {
         scaled = x;
         scaled.scale(weight);
-        system.apply_stiffness(y.block(0), scaled.block(0));
-        system.coupling.Tvmult_add(y.block(0), scaled.block(1));
-        system.coupling.vmult(y.block(1), scaled.block(0));
+        if (system.mixed())
+          system.apply_mixed(
+            y.block(u), y.block(p), scaled.block(u), scaled.block(p));
+        else
+          system.apply_stiffness(y.block(u), scaled.block(u));
+        if (tied)
+          {
+            system.coupling.Tvmult_add(y.block(u), scaled.block(l));
+            system.coupling.vmult(y.block(l), scaled.block(u));
+          }
         y.scale(weight);
       }
 
@@ -65,24 +99,33 @@ namespace mortise
       }
 
       const BlockSystem  &system;
+      const bool          tied;
       mutable BlockVector scaled;
     };
 
     /// The block factorisation of [A^ B^T; B 0] with A^ for K + J, its Schur
     /// complement replaced by C = B T B^T and A^{-1} B^T by T B^T: what it
-    /// returns satisfies the constraint exactly.
+    /// returns satisfies the constraint exactly. Around it the upper triangle
+    /// of a block factorisation with the pressures, whose Schur complement is
+    /// replaced by -P.
     class BlockPreconditioner
     {
     public:
       BlockPreconditioner(const BlockSystem    &system,
                           const ScaledOperator &scaling)
-        : scaling(scaling)
+        : system(system)
+        , scaling(scaling)
         , bulk(make_bulk_preconditioner(system))
         , valid(bulk->initialize(system))
       {
-        if (valid)
+        if (valid && bulk->lifting() != nullptr)
           projector =
             std::make_unique<ConstraintProjector>(system, *bulk->lifting());
+        if (valid && system.mixed())
+          {
+            pressure = std::make_unique<PressurePreconditioner>(system);
+            valid    = pressure->is_valid();
+          }
       }
 
       void
@@ -93,32 +136,47 @@ namespace mortise
           t.reinit(r);
         t = r;
         t.scale(scaling.inverse);
-        Vector &z_u = z.block(0), &z_l = z.block(1);
-        // r_u - B^T y with y = C^{-1} B T r_u
+        Vector &z_u = z.block(u), &z_l = z.block(l);
+        if (pressure)
+          {
+            pressure->vmult(z.block(p), t.block(p));
+            system.add_pressure_force(t.block(u), z.block(p)); // z_p is minus it
+            z.block(p) *= -1.;
+          }
         z_l = 0.;
-        projector->project_residual(t.block(0), z_l);
-        bulk->vmult(z_u, t.block(0));
-        // z_u - T B^T y with y = C^{-1} (B z_u - r_lambda)
-        z_l += projector->project(z_u, &t.block(1));
+        if (projector) // r_u - B^T y with y = C^{-1} B T r_u
+          projector->project_residual(t.block(u), z_l);
+        bulk->vmult(z_u, t.block(u));
+        if (projector) // z_u - T B^T y with y = C^{-1} (B z_u - r_lambda)
+          z_l += projector->project(z_u, &t.block(l));
         z.scale(scaling.inverse);
       }
 
-      /// An estimate of e . K e for the error e that belongs to the residual,
+      /// An estimate of the energy of the error that belongs to the residual,
       /// which is not scaled.
       double
-      error_energy(const BlockVector &r) const
+      error_energy(const SystemSolution &r) const
       {
-        Vector z(r.block(0)), projected(z), multiplier(r.block(1));
-        projector->project_residual(projected, multiplier);
+        Vector z(r.displacement), projected(z), multiplier(r.multiplier);
+        if (projector)
+          projector->project_residual(projected, multiplier);
         bulk->vmult(z, projected);
-        return z * projected;
+        double energy = z * projected;
+        if (pressure)
+          {
+            Vector q(r.pressure);
+            pressure->vmult(q, r.pressure);
+            energy += q * r.pressure;
+          }
+        return energy;
       }
 
       std::string
       description() const
       {
         return "block factorisation: " + bulk->description() +
-               "; interface Schur complement factorised";
+               (pressure ? "; " + pressure->description() : "") +
+               (projector ? "; interface Schur complement factorised" : "");
       }
 
       bool
@@ -128,22 +186,38 @@ namespace mortise
       }
 
     private:
-      const ScaledOperator                &scaling;
-      std::unique_ptr<BulkPreconditioner>  bulk;
-      std::unique_ptr<ConstraintProjector> projector;
-      bool                                 valid;
-      mutable BlockVector                  scratch;
+      const BlockSystem                      &system;
+      const ScaledOperator                   &scaling;
+      std::unique_ptr<BulkPreconditioner>     bulk;
+      std::unique_ptr<ConstraintProjector>    projector;
+      std::unique_ptr<PressurePreconditioner> pressure;
+      bool                                    valid;
+      mutable BlockVector                     scratch;
     };
+
+    /// u . K u + p . C p
+    double
+    energy_of(const SystemSolution &x, const BlockSystem &system)
+    {
+      Vector f(x.displacement);
+      if (!system.mixed())
+        {
+          system.apply_stiffness(f, x.displacement);
+          return f * x.displacement;
+        }
+      Vector g(x.pressure);
+      system.apply_mixed(f, g, x.displacement, x.pressure);
+      return f * x.displacement - g * x.pressure;
+    }
   } // namespace
 
   SolveReport
   solve_saddle_point(const BlockSystem   &system,
                      const SolverOptions &options,
-                     Vector              &u,
-                     Vector              &lambda)
+                     SystemSolution      &solution)
   {
-    if (system.owned_multiplier.size() == 0) // nothing indefinite about it
-      return solve_condensed(system, options, u, lambda);
+    if (system.owned_multiplier.size() == 0 && !system.mixed())
+      return solve_condensed(system, options, solution); // it is definite
 
     constexpr unsigned int max_basis = 60;
     SolveReport            report;
@@ -158,13 +232,13 @@ namespace mortise
     announce_stage("solve");
     timer.restart();
 
-    u.reinit(system.owned_displacement, system.communicator);
-    lambda.reinit(system.owned_multiplier, system.communicator);
+    solution              = system.zero_solution();
     const double rhs_norm = residual.right_hand_side_norm();
     const double target   = options.tolerance * rhs_norm;
     double       reached = rhs_norm, goal = 0.9 * target;
     bool         accurate = rhs_norm == 0.;
-    BlockVector  x(matrix.weight), r(x);
+    BlockVector    x(matrix.weight), r(x);
+    SystemSolution all_r = system.zero_solution();
     // Again from what was reached: rounding makes the recursive residual drift
     // from the true one, and the energy of the error is only looked at here.
     for (unsigned int start = 0;
@@ -172,7 +246,8 @@ namespace mortise
          report.iterations < options.max_iterations;
          ++start)
       {
-        residual.compute(u, lambda, r.block(0), r.block(1));
+        residual.compute(solution, all_r);
+        copy(r, all_r);
         r.scale(matrix.weight);
         x = 0.;
         SolverControl control(options.max_iterations - report.iterations,
@@ -210,16 +285,14 @@ namespace mortise
           run(GMRES(control, GMRES::AdditionalData(max_basis + 2, true)));
         report.iterations += control.last_step();
         x.scale(matrix.weight);
-        u += x.block(0);
-        lambda += x.block(1);
-        residual.compute(u, lambda, r.block(0), r.block(1));
-        reached = residual.norm(r.block(0), r.block(1));
-        goal    = std::min(goal, 0.1 * reached);
-        system.apply_stiffness(x.block(0), u);
-        const double energy = x.block(0) * u;
-        accurate            = reached <= target &&
-                   preconditioner.error_energy(r) <=
-                     std::pow(options.energy_tolerance(), 2) * energy;
+        add(solution, x);
+        residual.compute(solution, all_r);
+        reached  = residual.norm(all_r);
+        goal     = std::min(goal, 0.1 * reached);
+        accurate = reached <= target &&
+                   preconditioner.error_energy(all_r) <=
+                     std::pow(options.energy_tolerance(), 2) *
+                       energy_of(solution, system);
       }
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= target;

@@ -44,6 +44,14 @@ namespace mortise
       system.stiffness.trilinos_matrix().ExtractDiagonalCopy(*weight_u);
     for (int i = 0; i < weight_u->MyLength(); ++i)
       (*weight_u)[i] = inverse((*weight_u)[i]);
+    if (system.mixed())
+      {
+        weight_p = std::make_unique<Epetra_Vector>(
+          system.pressure_load.trilinos_partitioner());
+        system.copy_pressure_norm_diagonal(*weight_p);
+        for (int i = 0; i < weight_p->MyLength(); ++i)
+          (*weight_p)[i] = inverse((*weight_p)[i]);
+      }
     if (interface_present)
       {
         const auto   &coupling = system.coupling.trilinos_matrix();
@@ -64,31 +72,42 @@ namespace mortise
             (*weight_lambda)[i] = inverse(sum);
           }
       }
-    rhs_norm = norm(system.load, system.coupling_rhs);
+    SystemSolution right_hand_side = system.zero_solution();
+    right_hand_side.displacement   = system.load;
+    if (system.mixed())
+      right_hand_side.pressure = system.pressure_load;
+    if (interface_present)
+      right_hand_side.multiplier = system.coupling_rhs;
+    rhs_norm = norm(right_hand_side);
   }
 
   void
-  ScaledResidual::compute(const Vector &u,
-                          const Vector &lambda,
-                          Vector       &r_u,
-                          Vector       &r_lambda) const
+  ScaledResidual::compute(const SystemSolution &x, SystemSolution &r) const
   {
-    system.apply_stiffness(r_u, u);
+    if (system.mixed())
+      {
+        system.apply_mixed(r.displacement, r.pressure, x.displacement, x.pressure);
+        r.pressure.sadd(-1., 1., system.pressure_load);
+      }
+    else
+      system.apply_stiffness(r.displacement, x.displacement);
     if (interface_present)
       {
-        system.coupling.Tvmult_add(r_u, lambda);
-        system.coupling.vmult(r_lambda, u);
-        r_lambda.sadd(-1., 1., system.coupling_rhs);
+        system.coupling.Tvmult_add(r.displacement, x.multiplier);
+        system.coupling.vmult(r.multiplier, x.displacement);
+        r.multiplier.sadd(-1., 1., system.coupling_rhs);
       }
-    r_u.sadd(-1., 1., system.load);
+    r.displacement.sadd(-1., 1., system.load);
   }
 
   double
-  ScaledResidual::norm(const Vector &r_u, const Vector &r_lambda) const
+  ScaledResidual::norm(const SystemSolution &r) const
   {
-    double square = weighted_square(r_u, *weight_u);
+    double square = weighted_square(r.displacement, *weight_u);
+    if (system.mixed())
+      square += weighted_square(r.pressure, *weight_p);
     if (interface_present)
-      square += weighted_square(r_lambda, *weight_lambda);
+      square += weighted_square(r.multiplier, *weight_lambda);
     return std::sqrt(Utilities::MPI::sum(square, system.communicator));
   }
 } // namespace mortise

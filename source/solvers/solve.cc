@@ -45,34 +45,36 @@ namespace mortise
   {
     if (asked != SolverMethod::automatic)
       return {asked, ""};
+    const SolverMethod iterative =
+      scene.mixed ? SolverMethod::saddle_point : SolverMethod::condensed;
+    const std::string form = scene.mixed ? " in mixed form" : "";
     if (scene.nodal)
-      return {SolverMethod::condensed,
-              "chosen for hexahedra of one degree per body"};
+      return {iterative, "chosen for hexahedra of one degree per body" + form};
     const auto limit =
       std::min(direct_dofs * scene.max_degree * scene.max_degree,
                max_direct_dofs);
     if (scene.n_displacements <= limit)
       return {SolverMethod::direct,
               "chosen for at most " + std::to_string(limit) + " dofs"};
-    return {SolverMethod::condensed,
-            "chosen for more than " + std::to_string(limit) + " dofs"};
+    return {iterative,
+            "chosen for more than " + std::to_string(limit) + " dofs" + form};
   }
 
   SolveReport
   solve(const BlockSystem   &system,
         const SolverOptions &options,
-        Vector              &u,
-        Vector              &lambda)
+        SystemSolution      &x)
   {
     const SolverChoice choice = choose_solver(options.method,
                                               {system.owned_displacement.size(),
                                                system.max_degree,
-                                               system.nodal != nullptr});
+                                               system.nodal != nullptr,
+                                               system.mixed()});
     SolveReport        report = choice.method == SolverMethod::direct ?
-                                  solve_direct(system, options, u, lambda) :
+                                  solve_direct(system, options, x) :
                                 choice.method == SolverMethod::saddle_point ?
-                                  solve_saddle_point(system, options, u, lambda) :
-                                  solve_condensed(system, options, u, lambda);
+                                  solve_saddle_point(system, options, x) :
+                                  solve_condensed(system, options, x);
     if (!choice.reason.empty())
       report.preconditioner += "; " + choice.reason;
     return report;

@@ -48,7 +48,7 @@ namespace
   void
   assemble(const Body &body)
   {
-    const DisplacementNumbering numbering({&body.dof_handler}, MPI_COMM_SELF);
+    const FieldNumbering numbering({&body.dof_handler}, MPI_COMM_SELF);
     const double                start = seconds();
     dealii::DynamicSparsityPattern sparsity(numbering.size(), numbering.size());
     SparseMatrix                   stiffness;

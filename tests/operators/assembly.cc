@@ -24,7 +24,7 @@ namespace mortise::testing
   /// Pattern by deal.II, not by what is tested.
   Assembled
   empty_system(const Body                      &body,
-               const DisplacementNumbering     &numbering,
+               const FieldNumbering     &numbering,
                const AffineConstraints<double> &constraints)
   {
     DynamicSparsityPattern sparsity(numbering.size(),
@@ -116,7 +116,7 @@ namespace mortise::testing
 
   Assembled
   textbook(const Body                      &body,
-           const DisplacementNumbering     &numbering,
+           const FieldNumbering     &numbering,
            const AffineConstraints<double> &constraints)
   {
     Assembled system = empty_system(body, numbering, constraints);
@@ -162,7 +162,7 @@ namespace mortise::testing
   }
   Assembled
   tested(const Body                      &body,
-         const DisplacementNumbering     &numbering,
+         const FieldNumbering     &numbering,
          const AffineConstraints<double> &constraints)
   {
     DynamicSparsityPattern sparsity(numbering.size(),
@@ -339,7 +339,7 @@ namespace mortise::testing
     body.create_mesh(mesh, MPI_COMM_WORLD, "test");
     body.mesh.curved = curved;
     body.create_space(degree, by_region, "test");
-    const DisplacementNumbering numbering({&body.dof_handler}, MPI_COMM_WORLD);
+    const FieldNumbering numbering({&body.dof_handler}, MPI_COMM_WORLD);
 
     const std::string what = name + ", p = " + std::to_string(degree) + ": ";
     {

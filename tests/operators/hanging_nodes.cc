@@ -61,11 +61,12 @@ namespace mortise::testing
           conformity.emplace_back();
           conformity[b].copy_from(bodies[b]->conformity);
         }
-      numbering   = DisplacementNumbering(handlers, MPI_COMM_WORLD);
-      constraints = scene_constraints(bodies, numbering, conformity);
-      system      = std::make_unique<NodalSystem>(
+      field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
+      field.constraints = scene_constraints(field.numbering, conformity);
+      system            = std::make_unique<NodalSystem>(
         make_nodal_spaces(pointers, MPI_COMM_WORLD),
-        NodalSystem::Scene{numbering, constraints, {}},
+        nullptr,
+        NodalSystem::Scene{field.numbering, field.constraints, {}},
         MPI_COMM_WORLD);
     }
 
@@ -76,8 +77,7 @@ namespace mortise::testing
     }
 
     Bodies                       bodies;
-    DisplacementNumbering        numbering;
-    AffineConstraints<double>    constraints;
+    SceneField                   field;
     std::unique_ptr<NodalSystem> system;
   };
 
@@ -92,15 +92,12 @@ namespace mortise::testing
   std::vector<BodyVector>
   make_function(const Scene &scene, const unsigned int seed)
   {
-    mortise::Vector u(scene.numbering.owned(), MPI_COMM_WORLD);
-    for (const auto i : scene.numbering.owned())
+    mortise::Vector u(scene.field.numbering.owned(), MPI_COMM_WORLD);
+    for (const auto i : scene.field.numbering.owned())
       u(i) = random_number(seed, i);
     u.compress(VectorOperation::insert);
     return body_displacements(scene.bodies,
-                              scene.numbering,
-                              scene.constraints,
-                              std::vector<CondensedInteriors>(
-                                scene.bodies.size()),
+                              scene.field,
                               u);
   }
 

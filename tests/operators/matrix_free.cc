@@ -52,7 +52,7 @@ namespace mortise::testing
           handlers.push_back(&bodies[b]->dof_handler);
           pointers.push_back(bodies[b].get());
         }
-      numbering = DisplacementNumbering(handlers, MPI_COMM_WORLD);
+      numbering = FieldNumbering(handlers, MPI_COMM_WORLD);
       constraints =
         AffineConstraints<double>(complete_index_set(numbering.size()));
       constraints.close();
@@ -65,7 +65,7 @@ namespace mortise::testing
     Bodies                               bodies;
     std::vector<const DoFHandler<dim> *> handlers;
     std::vector<const Body *>            pointers;
-    DisplacementNumbering                numbering;
+    FieldNumbering                numbering;
     AffineConstraints<double>            constraints;
     std::vector<NodalLevel>              levels;
   };

@@ -44,7 +44,10 @@ namespace
     options.tolerance      = 1e-11;
     options.max_iterations = max_iterations;
     Result result;
-    result.report = solve(system, options, result.u, result.lambda);
+    SystemSolution solution;
+    result.report = solve(system, options, solution);
+    result.u      = solution.displacement;
+    result.lambda = solution.multiplier;
     return result;
   }
 

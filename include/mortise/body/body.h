@@ -16,6 +16,7 @@
 #include <mortise/base/types.h>
 #include <mortise/body/hp_constraints.h>
 #include <mortise/body/mesh_source.h>
+#include <mortise/body/pressure_space.h>
 #include <mortise/material/linear_elastic.h>
 
 #include <map>
@@ -45,8 +46,9 @@ namespace mortise
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
     /// of a cell; mapping of the largest degree on curved meshes; conformity
-    /// constraints. Collective; throws InputError for a region that the mesh
-    /// does not have.
+    /// constraints; pressures if the material is mixed, which needs degrees
+    /// above one. Collective; throws InputError for a region that the mesh does
+    /// not have.
     void
     create_space(
       unsigned int                                          degree,
@@ -106,6 +108,9 @@ namespace mortise
       conformity; ///< hanging nodes and mixed degrees; left open
     std::unique_ptr<EntityDegrees>
       degrees; ///< of edges and faces, by the minimum rule
+
+    /// Of a body in mixed form, else null.
+    std::unique_ptr<PressureSpace> pressure;
 
   private:
     void

@@ -1,4 +1,4 @@
-// The displacements of a whole scene of hexahedra by their values at
+// The displacements (or pressures) of a whole scene of hexahedra by values at
 // Gauss-Lobatto points: the space of the hierarchical element where each body
 // has one degree, in the basis that iterative solvers like better. One
 // numbering of nodes for all bodies, with lower degrees on the same meshes for
@@ -52,8 +52,8 @@ namespace mortise
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Degree @p degrees[b] on body b, of hexahedra. The bodies are kept by
-    /// reference. Collective.
+    /// Degree @p degrees[b] on body b, of hexahedra; 0: nothing there. The
+    /// bodies are kept by reference. Collective.
     NodalSpace(const std::vector<const Body *> &bodies,
                const std::vector<unsigned int> &degrees,
                MPI_Comm                         comm);
@@ -69,6 +69,7 @@ namespace mortise
       return degrees[body];
     }
 
+    /// Those that have nodes.
     const std::vector<const Body *> &
     bodies() const
     {
@@ -131,7 +132,7 @@ namespace mortise
     std::vector<const Body *>                             scene;
     std::vector<unsigned int>                             degrees;
     std::vector<std::unique_ptr<dealii::DoFHandler<dim>>> handlers;
-    DisplacementNumbering                                 numbering;
+    FieldNumbering                                 numbering;
     dealii::IndexSet                                      relevant;
     dealii::AffineConstraints<double>                     hanging;
   };
@@ -142,6 +143,10 @@ namespace mortise
   /// The degrees of each body and the halves of them, down to one. Collective.
   NodalSpaces
   make_nodal_spaces(const std::vector<const Body *> &bodies, MPI_Comm comm);
+
+  /// The pressures of bodies in mixed form. Collective.
+  std::unique_ptr<NodalSpace>
+  make_nodal_pressures(const std::vector<const Body *> &bodies, MPI_Comm comm);
 
   /// Index 3 n + c of each n in @p nodes.
   dealii::IndexSet

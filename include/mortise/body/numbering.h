@@ -1,4 +1,4 @@
-// One numbering of the displacements of all bodies: rank by rank, and within a
+// One numbering of one field (displacements, pressures) of all bodies: rank by rank, and within a
 // rank body by body, so that each rank owns one contiguous range. It never
 // renumbers a DoFHandler.
 #pragma once
@@ -13,16 +13,16 @@
 
 namespace mortise
 {
-  class DisplacementNumbering
+  class FieldNumbering
   {
   public:
     using Index = dealii::types::global_dof_index;
 
-    DisplacementNumbering() = default;
+    FieldNumbering() = default;
 
-    /// Collective. The handlers' dofs must be distributed (contiguous per
-    /// rank).
-    DisplacementNumbering(
+    /// By body; null for a body without the field. Collective. The handlers'
+    /// dofs must be distributed (contiguous per rank).
+    FieldNumbering(
       const std::vector<const dealii::DoFHandler<3> *> &handlers,
       MPI_Comm                                          comm);
 

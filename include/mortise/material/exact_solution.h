@@ -37,12 +37,13 @@ namespace mortise
   };
 
   /// A displacement given by expressions, the same in every body; stresses by
-  /// body's material.
+  /// body's material, and the mean pressure where that is incompressible.
   class ExpressionSolution : public ExactSolution
   {
   public:
     ExpressionSolution(const VectorExpression           &displacement,
-                       const std::vector<LinearElastic> &materials);
+                       const std::vector<LinearElastic> &materials,
+                       const Expression                 &pressure = Expression());
 
     dealii::Tensor<1, 3>
     displacement(const dealii::Point<3> &p, unsigned int body) const override;
@@ -58,6 +59,7 @@ namespace mortise
   private:
     VectorExpression           expression;
     std::vector<LinearElastic> materials;
+    Expression                 pressure;
   };
 
   /// Lame's thick sphere, or thick cylinder in plane strain, of one or more

@@ -1,15 +1,18 @@
 // The assembled saddle-point system of a whole scene, all bodies and all
 // interfaces in one numbering:
 //
-//     [ K  B^T ] [ u      ]   [ f ]
-//     [ B   0  ] [ lambda ] = [ g ]
+//     [ K  G^T  B^T ] [ u      ]   [ f ]
+//     [ G  -C    0  ] [ p      ] = [ h ]
+//     [ B   0    0  ] [ lambda ]   [ g ]
 //
+// where the pressure p is that of bodies in mixed form, if there are any,
 // together with what preconditioners need to know about it. It never solves and
 // knows no mesh.
 #pragma once
 
 #include <deal.II/base/index_set.h>
 
+#include <Epetra_Vector.h>
 #include <mortise/base/types.h>
 #include <mortise/operators/nodal_system.h>
 
@@ -18,6 +21,13 @@
 
 namespace mortise
 {
+  /// (u, p, lambda); p has size zero without mixed bodies, lambda without an
+  /// interface.
+  struct SystemSolution
+  {
+    Vector displacement, pressure, multiplier;
+  };
+
   /// Indices are global, numbered rank by rank, so that what a rank owns is one
   /// contiguous range in the displacement and one in the multiplier numbering;
   /// either may be empty on a rank.
@@ -26,11 +36,13 @@ namespace mortise
     MPI_Comm communicator = MPI_COMM_NULL;
 
     dealii::IndexSet owned_displacement;
+    dealii::IndexSet owned_pressure; ///< empty (of size 0) without mixed bodies
     dealii::IndexSet owned_multiplier;
 
     /// K without a matrix, where it is to be had: displacements are then values
     /// at its nodes, indices are those of its finest level, and stiffness,
-    /// jump_penalty, vertex_dofs, vertex_points and entity_blocks are empty.
+    /// divergence, compliance, pressure_norm, jump_penalty, vertex_dofs,
+    /// vertex_points and entity_blocks are empty.
     std::unique_ptr<NodalSystem> nodal;
 
     /// K, symmetric, the interiors of cells eliminated; a constrained or
@@ -39,6 +51,14 @@ namespace mortise
     /// and zero in f. Singular when a body is held only by its interfaces.
     SparseMatrix stiffness;
     Vector       load;
+
+    /// G = -int q div u and C = int c p q, c the compressibility; constrained
+    /// rows and columns are zero, but for a positive diagonal of C.
+    SparseMatrix divergence, compliance;
+    Vector       pressure_load;
+    /// P = int p q (c + 1 / (2 mu + lambda_u)), which C + G K^{-1} G^T is
+    /// spectrally equivalent to, whatever c is.
+    SparseMatrix pressure_norm;
 
     /// B: rows are multipliers, columns displacements; columns of constrained
     /// dofs are zero. No rows at all when the scene has no interface. The
@@ -67,14 +87,39 @@ namespace mortise
     /// Largest polynomial degree in the scene.
     unsigned int max_degree = 1;
 
+    /// Are there bodies in mixed form?
+    bool
+    mixed() const
+    {
+      return owned_pressure.size() > 0;
+    }
+
     /// dst = K src. Collective.
     void
-    apply_stiffness(Vector &dst, const Vector &src) const
+    apply_stiffness(Vector &dst, const Vector &src) const;
+
+    /// dst_u = K u + G^T p, dst_p = G u - C p. Collective.
+    void
+    apply_mixed(Vector       &dst_u,
+                Vector       &dst_p,
+                const Vector &u,
+                const Vector &p) const;
+
+    /// dst += G^T p. Collective.
+    void
+    add_pressure_force(Vector &dst, const Vector &p) const;
+
+    /// diag(P) on the owned pressures.
+    void
+    copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const;
+
+    /// Zero, on the owned ranges. Collective.
+    SystemSolution
+    zero_solution() const
     {
-      if (nodal)
-        nodal->apply_stiffness(dst, src);
-      else
-        stiffness.vmult(dst, src);
+      return {Vector(owned_displacement, communicator),
+              Vector(owned_pressure, communicator),
+              Vector(owned_multiplier, communicator)};
     }
   };
 } // namespace mortise

@@ -18,6 +18,17 @@ namespace mortise
   stiffness_quadrature(const dealii::FiniteElement<dim> &element,
                        unsigned int                      mapping_degree);
 
+  /// Gradients of the functions of a scalar element on the reference cell,
+  /// [q][a][i].
+  std::vector<double>
+  gradient_table(const dealii::FiniteElement<dim> &element,
+                 const dealii::Quadrature<dim>    &quadrature);
+
+  /// Their values, [q][i].
+  std::vector<double>
+  value_table(const dealii::FiniteElement<dim> &element,
+              const dealii::Quadrature<dim>    &quadrature);
+
   /// What the cells of one element share. One scalar element serves the three
   /// components.
   class CellKernel

@@ -29,22 +29,27 @@ namespace mortise
   /// Couplings of the dofs of each cell of @p body. @p constraints are those of the scene.
   void
   add_cell_couplings(const Body                              &body,
-                     const DisplacementNumbering             &numbering,
+                     const FieldNumbering             &numbering,
                      const dealii::AffineConstraints<double> &constraints,
                      dealii::DynamicSparsityPattern          &sparsity);
 
+  class PressureScatter;
+
   /// Add int sigma(u):eps(v) and int b.v + int t.v to @p stiffness and @p load, interiors of cells
   /// eliminated and constraints resolved; the caller compresses. The row of an
-  /// interior dof has nothing but its diagonal. Returns the interiors of the
-  /// owned cells, in the order of iteration; none at degree 1. Collective;
-  /// throws InputError on all ranks for a cell of negative volume.
+  /// interior dof has nothing but its diagonal. What pressures bring goes to
+  /// @p pressures, which only bodies in mixed form need. Returns the interiors of the
+  /// owned cells, in the order of iteration, none at degree 1; their boundaries
+  /// include the pressures. Collective; throws InputError on all ranks for a
+  /// cell of negative volume.
   CondensedInteriors
   assemble_elasticity(const Body                              &body,
                       const Loads                             &loads,
-                      const DisplacementNumbering             &numbering,
+                      const FieldNumbering                    &numbering,
                       const dealii::AffineConstraints<double> &constraints,
                       SparseMatrix                            &stiffness,
-                      Vector                                  &load);
+                      Vector                                  &load,
+                      PressureScatter *pressures = nullptr);
 
   /// Calls @p visit with the owned cells that may have loads and int b.v + int
   /// t.v in the cell's numbering.

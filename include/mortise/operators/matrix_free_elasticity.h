@@ -26,6 +26,9 @@ namespace mortise
     /// [batch][node, lexicographic][lane]: place of the first component. Lanes
     /// without a cell repeat the first and have no metric.
     dealii::AlignedVector<unsigned int> nodes;
+    /// The same of the pressures in mixed form, else empty: places.
+    dealii::AlignedVector<unsigned int> pressure_nodes;
+    double compressibility = 0., pressure_norm = 0.;
     /// dxi_a/dx_e sqrt(|J|) as [batch][a][e][lane] on affine cells; after these
     /// dxi_a/dx_e sqrt(w |J|) as [batch][point][a][e][lane].
     dealii::AlignedVector<Number> metric;
@@ -44,14 +47,23 @@ namespace mortise
     metric_of(unsigned int batch) const;
   };
 
+  /// The pressures that belong to a space of displacements.
+  struct PressureNodes
+  {
+    const NodalSpace                          &space;
+    const dealii::Utilities::MPI::Partitioner &layout; ///< node n has index n
+  };
+
   template <typename Number>
   class MatrixFreeElasticity
   {
   public:
     /// @p layout: where the components 3 n + c of node n stand in vectors; owned
-    /// and relevant ones. Collective; throws InputError for a tangled cell.
+    /// and relevant ones; @p pressures: what the products in mixed form need.
+    /// Collective; throws InputError for a tangled cell.
     MatrixFreeElasticity(const NodalSpace                          &space,
-                         const dealii::Utilities::MPI::Partitioner &layout);
+                         const dealii::Utilities::MPI::Partitioner &layout,
+                         const PressureNodes *pressures = nullptr);
     ~MatrixFreeElasticity();
 
     /// dst += K src, both local with ghost entries, contributions of owned
@@ -62,6 +74,28 @@ namespace mortise
     /// dst += diag(K), as above.
     void
     add_diagonal(Number *dst) const;
+
+    /// Of displacements and pressures; the same vector may not stand twice.
+    struct Fields
+    {
+      Number *displacement = nullptr, *pressure = nullptr;
+    };
+
+    /// dst += [K G^T; G -C] src, see BlockSystem.
+    void
+    add_mixed_product(const Fields &src, const Fields &dst) const;
+
+    /// dst += G^T p.
+    void
+    add_pressure_force(const Number *p, Number *dst) const;
+
+    /// dst += P p.
+    void
+    add_pressure_norm(const Number *p, Number *dst) const;
+
+    /// dst += diag(P).
+    void
+    add_pressure_norm_diagonal(Number *dst) const;
 
     /// By body.
     const std::vector<CellBatches<Number>> &
@@ -74,9 +108,13 @@ namespace mortise
     class Kernel; ///< of one degree
     template <int n>
     class KernelOfSize;
+    template <int n>
+    class MixedKernelOfSize;
 
     static std::unique_ptr<Kernel>
     make_kernel(unsigned int degree);
+    static std::unique_ptr<Kernel>
+    make_mixed_kernel(unsigned int degree);
 
     std::vector<CellBatches<Number>>     bodies;
     std::vector<std::unique_ptr<Kernel>> kernels; ///< by body

@@ -24,6 +24,28 @@ namespace mortise
                 Number                    *dst) = 0;
     virtual void
     add_diagonal(const CellBatches<Number> &cells, Number *dst) = 0;
+
+    // in mixed form only
+    virtual void
+    add_mixed_product(const CellBatches<Number> &, const Fields &, const Fields &)
+    {
+      Assert(false, dealii::ExcNotImplemented());
+    }
+    virtual void
+    add_pressure_force(const CellBatches<Number> &, const Number *, Number *)
+    {
+      Assert(false, dealii::ExcNotImplemented());
+    }
+    virtual void
+    add_pressure_norm(const CellBatches<Number> &, const Number *, Number *)
+    {
+      Assert(false, dealii::ExcNotImplemented());
+    }
+    virtual void
+    add_pressure_norm_diagonal(const CellBatches<Number> &, Number *)
+    {
+      Assert(false, dealii::ExcNotImplemented());
+    }
   };
 
   /// n nodes and n Gauss points in each direction.
@@ -108,10 +130,7 @@ namespace mortise
         }
     }
 
-  private:
-    using Line          = LineMatrix<Number, n, n>;
-    using Antisymmetric = LineMatrix<Number, n, n, true>;
-
+  protected:
     /// Gradients with respect to xi at all points, g[3 c + a], from values at
     /// nodes, which are overwritten.
     void
@@ -142,6 +161,59 @@ namespace mortise
         }
     }
 
+    /// The metric at point @p q, weights included: sqrt(w |J|) dxi_a/dx_e as
+    /// G[a][e].
+    template <bool affine>
+    void
+    metric_at(const V *metric, const int q, V (&G)[dim][dim]) const
+    {
+      for (unsigned int a = 0; a < dim; ++a)
+        for (unsigned int e = 0; e < dim; ++e)
+          G[a][e] = affine ? metric[dim * a + e] * root_weights[q] :
+                             metric[q * n9 + dim * a + e];
+    }
+
+    /// sqrt(w |J|) times grad u, du_c/dx_e as h[c][e].
+    static void
+    gradient_at(const V *g, const int q, const V (&G)[dim][dim], V (&h)[dim][dim])
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          const V g0 = g[(dim * c) * N + q], g1 = g[(dim * c + 1) * N + q],
+                  g2 = g[(dim * c + 2) * N + q];
+          for (unsigned int e = 0; e < dim; ++e)
+            h[c][e] = g0 * G[0][e] + g1 * G[1][e] + g2 * G[2][e];
+        }
+    }
+
+    /// What is tested with gradients of v, from a stress times sqrt(w |J|).
+    static void
+    set_stress(const V (&s)[dim][dim], const V (&G)[dim][dim], const int q, V *g)
+    {
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int a = 0; a < dim; ++a)
+          g[(dim * c + a) * N + q] =
+            s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
+    }
+
+    static void
+    stress_of(const V (&h)[dim][dim],
+              const Number lambda,
+              const Number mu,
+              V (&s)[dim][dim])
+    {
+      const V mean = lambda * (h[0][0] + h[1][1] + h[2][2]);
+      for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int e = c; e < dim; ++e)
+          s[c][e] = s[e][c] = mu * (h[c][e] + h[e][c]);
+      for (unsigned int c = 0; c < dim; ++c)
+        s[c][c] += mean;
+    }
+
+  private:
+    using Line          = LineMatrix<Number, n, n>;
+    using Antisymmetric = LineMatrix<Number, n, n, true>;
+
     /// Gradients of u to what is tested with gradients of v, weights included.
     template <bool affine>
     void
@@ -149,30 +221,11 @@ namespace mortise
     {
       for (int q = 0; q < N; ++q)
         {
-          V G[dim][dim];
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int e = 0; e < dim; ++e)
-              G[a][e] = affine ? metric[dim * a + e] * root_weights[q] :
-                                 metric[q * n9 + dim * a + e];
-          V h[dim][dim];
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              const V g0 = g[(dim * c) * N + q], g1 = g[(dim * c + 1) * N + q],
-                      g2 = g[(dim * c + 2) * N + q];
-              for (unsigned int e = 0; e < dim; ++e)
-                h[c][e] = g0 * G[0][e] + g1 * G[1][e] + g2 * G[2][e];
-            }
-          const V pressure = lambda * (h[0][0] + h[1][1] + h[2][2]);
-          V       s[dim][dim];
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int e = c; e < dim; ++e)
-              s[c][e] = s[e][c] = mu * (h[c][e] + h[e][c]);
-          for (unsigned int c = 0; c < dim; ++c)
-            s[c][c] += pressure;
-          for (unsigned int c = 0; c < dim; ++c)
-            for (unsigned int a = 0; a < dim; ++a)
-              g[(dim * c + a) * N + q] =
-                s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
+          V G[dim][dim], h[dim][dim], s[dim][dim];
+          metric_at<affine>(metric, q, G);
+          gradient_at(g, q, G, h);
+          stress_of(h, lambda, mu, s);
+          set_stress(s, G, q, g);
         }
     }
 
@@ -231,7 +284,9 @@ namespace mortise
     Line          to_points, from_points;
     Antisymmetric derivative, derivative_transposed;
     /// N N, N N' and N' N' of one direction, [point][node].
-    Number                        squares[3][n][n];
+    Number squares[3][n][n];
+
+  protected:
     Number                        root_weights[N];
     dealii::AlignedVector<Number> scratch;
   };

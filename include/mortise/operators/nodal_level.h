@@ -51,7 +51,7 @@ namespace mortise
   NodalLevel
   make_nodal_level(std::unique_ptr<NodalSpace>              space,
                    unsigned int                             number,
-                   const DisplacementNumbering             &numbering,
+                   const FieldNumbering             &numbering,
                    const dealii::AffineConstraints<double> &constraints,
                    const std::vector<Coupling>             &couplings,
                    MPI_Comm                                 comm);
@@ -67,9 +67,11 @@ namespace mortise
   class LevelOperator
   {
   public:
-    /// @p level is kept by reference. Collective; throws InputError for tangled
-    /// cells.
-    LevelOperator(const NodalLevel &level, bool with_penalty);
+    /// @p level is kept by reference; @p pressures as for MatrixFreeElasticity.
+    /// Collective; throws InputError for tangled cells.
+    LevelOperator(const NodalLevel    &level,
+                  bool                 with_penalty,
+                  const PressureNodes *pressures = nullptr);
 
     /// dst = A src. Collective.
     void
@@ -124,6 +126,13 @@ namespace mortise
     cells() const
     {
       return stiffness.cells();
+    }
+
+    /// The products of this rank's cells, K alone.
+    const MatrixFreeElasticity<Number> &
+    elasticity() const
+    {
+      return stiffness;
     }
 
   private:

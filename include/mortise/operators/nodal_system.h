@@ -5,8 +5,10 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <Epetra_Vector.h>
+
 #include <mortise/operators/elasticity.h>
-#include <mortise/operators/nodal_level.h>
+#include <mortise/operators/nodal_pressure.h>
 
 #include <memory>
 #include <vector>
@@ -19,14 +21,17 @@ namespace mortise
     /// What the constructor reads and does not keep.
     struct Scene
     {
-      const DisplacementNumbering             &numbering;
+      const FieldNumbering             &numbering;
       const dealii::AffineConstraints<double> &constraints; ///< of the scene
       const std::vector<Coupling>             &couplings;
     };
 
-    /// The traces of the couplings have the nodes of @p spaces. Collective;
-    /// throws InputError for tangled cells.
-    NodalSystem(NodalSpaces spaces, const Scene &scene, MPI_Comm comm);
+    /// The traces of the couplings have the nodes of @p spaces; @p pressures
+    /// may be null. Collective; throws InputError for tangled cells.
+    NodalSystem(NodalSpaces                 spaces,
+                std::unique_ptr<NodalSpace> pressures,
+                const Scene                &scene,
+                MPI_Comm                    comm);
 
     /// The finest first.
     const std::vector<NodalLevel> &
@@ -39,6 +44,29 @@ namespace mortise
     void
     apply_stiffness(Vector &dst, const Vector &src) const;
 
+    /// dst_u = K u + G^T p, dst_p = G u - C p, see BlockSystem. Collective.
+    void
+    apply_mixed(Vector       &dst_u,
+                Vector       &dst_p,
+                const Vector &u,
+                const Vector &p) const;
+
+    /// dst += G^T p. Collective.
+    void
+    add_pressure_force(Vector &dst, const Vector &p) const;
+
+    /// dst = P p, see BlockSystem; zero where nodes hang. Collective.
+    void
+    apply_pressure_norm(LevelVector<double>       &dst,
+                        const LevelVector<double> &p) const;
+
+    /// diag(P), 1 where nodes hang.
+    const LevelVector<double> &
+    pressure_norm_diagonal() const
+    {
+      return norm_diagonal;
+    }
+
     /// diag(K), 1 where held.
     const LevelVector<double> &
     diagonal() const
@@ -46,12 +74,14 @@ namespace mortise
       return stiffness_diagonal;
     }
 
-    /// int b.v + int t.v less the work of prescribed displacements; zero where
-    /// held. @p loads: by body. Collective.
+    /// int b.v + int t.v less the work of prescribed displacements, zero where
+    /// held, and what these leave to the pressures (not touched without mixed
+    /// bodies). @p loads: by body. Collective.
     void
     assemble_load(const std::vector<Loads> &loads,
                   const Scene              &scene,
-                  Vector                   &load) const;
+                  Vector                   &load,
+                  Vector                   &pressure_load) const;
 
     /// B without the columns of prescribed components, which hanging nodes
     /// bring in. Collective.
@@ -68,13 +98,30 @@ namespace mortise
                                dealii::types::global_dof_index dof,
                                double value)> &set) const;
 
+    /// The same of the pressures, one per dof of the PressureSpace of each owned
+    /// cell of bodies in mixed form.
+    void
+    for_each_pressure_coefficient(
+      const Vector                            &pressure,
+      const std::function<void(unsigned int                    body,
+                               dealii::types::global_dof_index dof,
+                               double value)> &set) const;
+
   private:
     void
-    subtract_prescribed(const Scene &scene, LevelVector<double> &load) const;
+    subtract_prescribed(const Scene         &scene,
+                        LevelVector<double> &load,
+                        Vector              &pressure_load) const;
+
+    /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is held.
+    void
+    apply_mixed_free() const;
 
     std::vector<NodalLevel>                all_levels;
     std::unique_ptr<LevelOperator<double>> stiffness;
     LevelVector<double>                    stiffness_diagonal;
-    mutable LevelVector<double>            in, out;
+    std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
+    LevelVector<double>                    norm_diagonal;
+    mutable LevelVector<double>            in, out, p_in, p_out;
   };
 } // namespace mortise

@@ -7,6 +7,7 @@
 
 #include <mortise/operators/block_system.h>
 #include <mortise/operators/elasticity.h>
+#include <mortise/operators/pressure_scatter.h>
 
 #include <memory>
 #include <vector>
@@ -16,46 +17,64 @@ namespace mortise
   using Bodies = std::vector<std::unique_ptr<Body>>;
 
   /// The constraints of all bodies (conformity and Dirichlet, each in its
-  /// body's numbering, not closed) in the numbering of the scene, closed.
+  /// body's numbering, not closed) in the numbering of the scene, closed. Bodies
+  /// without the field have empty ones.
   dealii::AffineConstraints<double>
   scene_constraints(
-    const Bodies                                         &bodies,
-    const DisplacementNumbering                          &numbering,
+    const FieldNumbering                                 &numbering,
     const std::vector<dealii::AffineConstraints<double>> &body_constraints);
 
-  /// Assemble stiffness and load of @p system, the interiors of cells eliminated; these are returned
-  /// by body. Collective; throws InputError for tangled cells.
-  std::vector<CondensedInteriors>
-  assemble_bodies(const Bodies                            &bodies,
-                  const std::vector<Loads>                &loads,
-                  const DisplacementNumbering             &numbering,
-                  const dealii::AffineConstraints<double> &constraints,
-                  BlockSystem                             &system);
+  /// The pressures of the bodies in mixed form.
+  SceneField
+  pressure_field(const Bodies &bodies, MPI_Comm comm);
 
-  /// The displacement of one body in the numbering of its DoFHandler, with
-  /// ghost values.
+  /// Assemble stiffness and load of @p system, and what pressures need, the
+  /// interiors of cells eliminated; these are returned by body. Collective;
+  /// throws InputError for tangled cells.
+  std::vector<CondensedInteriors>
+  assemble_bodies(const Bodies             &bodies,
+                  const std::vector<Loads> &loads,
+                  const SceneField         &displacement,
+                  const SceneField         &pressure,
+                  BlockSystem              &system);
+
+  /// A field of one body in the numbering of its DoFHandler, with ghost values.
   using BodyVector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /// The displacements of all bodies out of the solution of the system:
-  /// constraints distributed, interiors of cells recovered. Collective.
-  std::vector<BodyVector>
-  body_displacements(const Bodies                            &bodies,
-                     const DisplacementNumbering             &numbering,
-                     const dealii::AffineConstraints<double> &constraints,
-                     const std::vector<CondensedInteriors>   &interiors,
-                     const Vector                            &displacement);
+  /// What was solved for on one body.
+  struct BodySolution
+  {
+    BodyVector displacement;
+    BodyVector pressure; ///< in mixed form, else empty
+  };
 
-  /// The same where @p displacement holds values at the nodes of @p nodal.
+  /// The displacements of all bodies out of @p displacement, constraints
+  /// distributed, interiors of cells as they stand there. Collective.
   std::vector<BodyVector>
-  body_displacements(const Bodies                            &bodies,
-                     const DisplacementNumbering             &numbering,
-                     const dealii::AffineConstraints<double> &constraints,
-                     const NodalSystem                       &nodal,
-                     const Vector                            &displacement);
+  body_displacements(const Bodies     &bodies,
+                     const SceneField &field,
+                     const Vector     &displacement);
+
+  /// The solution by body: constraints distributed, interiors of cells
+  /// recovered. Collective.
+  std::vector<BodySolution>
+  body_solutions(const Bodies                          &bodies,
+                 const SceneField                      &displacement,
+                 const SceneField                      &pressure,
+                 const std::vector<CondensedInteriors> &interiors,
+                 const SystemSolution                  &solution);
+
+  /// The same where @p solution holds values at the nodes of @p nodal.
+  std::vector<BodySolution>
+  body_solutions(const Bodies         &bodies,
+                 const SceneField     &displacement,
+                 const SceneField     &pressure,
+                 const NodalSystem    &nodal,
+                 const SystemSolution &solution);
 
   /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
   void
   describe_structure(const Bodies                &bodies,
-                     const DisplacementNumbering &numbering,
-                     BlockSystem                 &system);
+                     const FieldNumbering &numbering,
+                     BlockSystem          &system);
 } // namespace mortise

@@ -160,6 +160,31 @@ namespace mortise
         }
   }
 
+  /// One value at each node, as above.
+  template <int n_nodes, typename Number>
+  inline void
+  gather_scalar(const Number                   *source,
+                const unsigned int             *nodes,
+                typename Batch<Number>::Vector *values)
+  {
+    constexpr unsigned int width = Batch<Number>::size;
+    for (int i = 0; i < n_nodes; ++i)
+      for (unsigned int l = 0; l < width; ++l)
+        values[i][l] = source[nodes[i * width + l]];
+  }
+
+  template <int n_nodes, typename Number>
+  inline void
+  scatter_add_scalar(const typename Batch<Number>::Vector *values,
+                     const unsigned int                   *nodes,
+                     Number                               *target)
+  {
+    constexpr unsigned int width = Batch<Number>::size;
+    for (int i = 0; i < n_nodes; ++i)
+      for (unsigned int l = 0; l < width; ++l)
+        target[nodes[i * width + l]] += values[i][l];
+  }
+
   template <int n_nodes, typename Number>
   inline void
   scatter_add(const typename Batch<Number>::Vector *values,

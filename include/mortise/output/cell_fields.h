@@ -1,4 +1,4 @@
-// A displacement and its gradient at the quadrature points of cells, by sum
+// A displacement, its gradient and a pressure at the quadrature points of cells, by sum
 // factorisation on hexahedra. It never integrates and never writes.
 #pragma once
 
@@ -19,25 +19,26 @@ namespace mortise
     CellFields(const Body &body, unsigned int extra_points);
     ~CellFields();
 
-    /// Evaluate @p displacement on @p cell: fills the members below.
+    /// Evaluate @p solution on @p cell: fills the members below.
     void
-    reinit(const Body::CellIterator &cell, const BodyVector &displacement);
+    reinit(const Body::CellIterator &cell, const BodySolution &solution);
 
     std::vector<dealii::Point<dim>>     points;
     std::vector<double>                 weights; ///< JxW
     std::vector<dealii::Tensor<1, dim>> values;
     std::vector<dealii::Tensor<2, dim>> gradients; ///< du_c/dx_e as [c][e]
+    std::vector<double> pressures; ///< of the mixed form, else empty
 
   private:
     struct Hexahedra; ///< of one degree
 
     void
     evaluate_hexahedron(const Body::CellIterator &cell,
-                        const BodyVector         &displacement);
+                        const BodySolution       &solution);
 
     const Body                                        &body;
     const unsigned int                                 extra_points;
     std::map<unsigned int, std::unique_ptr<Hexahedra>> hexahedra;
-    ValuesByElement<dealii::FEValues<dim>>             tetrahedra;
+    ValuesByElement<dealii::FEValues<dim>> tetrahedra, tetrahedra_pressure;
   };
 } // namespace mortise

@@ -61,6 +61,23 @@ namespace mortise
     return result;
   }
 
+  /// The pressure at all points of @p values; @p cell is one of the pressure's.
+  template <typename Values>
+  std::vector<double>
+  pressures_at(const PressureSpace::CellIterator &cell,
+               const Values                      &values,
+               const BodyVector                  &pressure)
+  {
+    std::vector<dealii::types::global_dof_index> dofs(
+      cell->get_fe().n_dofs_per_cell());
+    cell->get_dof_indices(dofs);
+    std::vector<double> result(values.n_quadrature_points);
+    for (unsigned int q = 0; q < result.size(); ++q)
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        result[q] += pressure(dofs[i]) * values.shape_value(i, q);
+    return result;
+  }
+
   /// FEValues or FEFaceValues of the scalar elements of a body, made when an
   /// element first appears.
   template <typename Values>

@@ -14,17 +14,24 @@
 namespace mortise
 {
   /// Relative errors over the whole scene.
-  struct DisplacementErrors
+  struct SolutionErrors
   {
-    double l2     = 0.; ///< |u - u_h| / |u| in L2
-    double energy = 0.; ///< |u - u_h| / |u| in the norm int sigma : eps
+    double displacement_l2 = 0.; ///< |u - u_h| / |u| in L2
+    double displacement_h1 = 0.; ///< |grad(u - u_h)| / |grad u| in L2
+    /// |u - u_h| / |u| in the norm int sigma : eps; in mixed form that of
+    /// displacement and pressure, int 2 mu eps : eps + lambda_u (tr eps)^2 + c
+    /// p^2, which is the same for the exact solution.
+    double energy = 0.;
+    /// Of the mean pressure -tr(sigma) / 3 over the bodies in mixed form (over
+    /// |sigma| there if it is zero).
+    double pressure_l2 = 0.;
   };
 
   /// Gauss rule of degree + 3 points per direction. Collective.
-  DisplacementErrors
-  displacement_errors(const Bodies                  &bodies,
-                      const std::vector<BodyVector> &displacements,
-                      const ExactSolution           &exact);
+  SolutionErrors
+  solution_errors(const Bodies                    &bodies,
+                  const std::vector<BodySolution> &solutions,
+                  const ExactSolution             &exact);
 
   /// |lambda - t| / |t| in L2 over the slave faces with a partner, t the exact
   /// traction, all
@@ -47,6 +54,6 @@ namespace mortise
   /// Force on a boundary, int sigma_h n. Collective.
   dealii::Tensor<1, dim>
   resultant(const Body                &body,
-            const BodyVector          &displacement,
+            const BodySolution        &solution,
             dealii::types::boundary_id boundary);
 } // namespace mortise

@@ -13,15 +13,16 @@ namespace mortise
   {
     bool displacement = false; ///< length
     bool stress       = false; ///< force per area: tensor and von Mises
+    bool pressure     = false; ///< mean pressure, -tr(stress) / 3
     bool traction     = false; ///< on slave surfaces: traction and gap
   };
 
-  /// DIRECTORY/NAME.vtu with displacement and stress of one body; higher-order
+  /// DIRECTORY/NAME.vtu with displacement, stress and pressure of one body; higher-order
   /// cells, so that a high degree looks as smooth as it is. Collective; all
   /// ranks write one file.
   void
   write_body_fields(const Body           &body,
-                    const BodyVector     &displacement,
+                    const BodySolution   &solution,
                     const FieldSelection &selection,
                     const std::string    &directory);
 

@@ -12,7 +12,7 @@ namespace mortise
   /// As write_body_fields(), for tetrahedra. Collective.
   void
   write_tetrahedra(const Body           &body,
-                   const BodyVector     &displacement,
+                   const BodySolution   &solution,
                    const FieldSelection &selection,
                    const std::string    &directory);
 

@@ -34,7 +34,7 @@ namespace mortise
   {
     std::string law           = "linear elastic";
     double      young_modulus = 1.;  ///< force per area
-    double      poisson_ratio = 0.3; ///< -1 < nu < 0.5
+    double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
   };
 
   /// What acts on one named boundary. Nothing at all: free of traction.
@@ -46,12 +46,21 @@ namespace mortise
     std::optional<Components> displacement; ///< "-": free; or "exact"
   };
 
+  /// Unknowns of a body: displacement, or displacement and pressure.
+  enum class Formulation
+  {
+    automatic, ///< mixed from nu = 0.49 on
+    displacement,
+    mixed
+  };
+
   struct BodyParameters
   {
     std::string  name;
     unsigned int degree = 1;
     std::map<unsigned int, unsigned int>
                        degree_by_region; ///< material id of the mesh -> degree
+    Formulation        formulation = Formulation::automatic;
     MeshParameters     mesh;
     MaterialParameters material;
     /// Force per volume. Absent ("auto"): from the exact solution if that is
@@ -92,6 +101,8 @@ namespace mortise
   {
     ExactKind  kind = ExactKind::none;
     Components displacement; ///< for ExactKind::expressions
+    /// Mean pressure, for ExactKind::expressions with nu = 0.5.
+    std::optional<std::string> pressure;
   };
 
   struct SolverParameters

@@ -87,17 +87,18 @@ namespace mortise
     Bodies                                         bodies;
     std::vector<std::vector<DirichletCondition>>   dirichlet;
     std::vector<dealii::AffineConstraints<double>> body_constraints;
-    DisplacementNumbering                          numbering;
-    dealii::AffineConstraints<double>              constraints;
+    SceneField                                     displacement_field;
+    SceneField                                     pressure_field;
     SolverMethod method = SolverMethod::automatic; ///< chosen
     NodalSpaces  nodal_spaces; ///< for a bulk without a matrix, until assembly
+    std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
     std::vector<Coupling>           couplings;
     std::vector<std::vector<bool>>  occupied; ///< by body, owned dofs
     BlockSystem                     system;
     std::vector<CondensedInteriors> interiors; ///< by body
-    Vector                          displacement, multiplier;
+    SystemSolution                  solution;
     SolveReport                     solve_report;
-    std::vector<BodyVector>         displacements;
+    std::vector<BodySolution>       solutions; ///< by body
     std::vector<std::vector<std::vector<double>>>
       tractions; ///< by interface and face
   };

@@ -15,6 +15,5 @@ namespace mortise
   SolveReport
   solve_condensed(const BlockSystem   &system,
                   const SolverOptions &options,
-                  Vector              &u,
-                  Vector              &lambda);
+                  SystemSolution      &x);
 } // namespace mortise

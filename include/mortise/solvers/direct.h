@@ -1,4 +1,4 @@
-// Direct solution of the monolithic saddle-point system [K B^T; B 0] with
+// Direct solution of the monolithic saddle-point system [K G^T B^T; G -C 0; B 0 0] with
 // iterative refinement: small scenes and reference. It never approximates and
 // never looks at the preconditioner's data except for scaling.
 #pragma once
@@ -14,6 +14,5 @@ namespace mortise
   SolveReport
   solve_direct(const BlockSystem   &system,
                const SolverOptions &options,
-               Vector              &u,
-               Vector              &lambda);
+               SystemSolution      &x);
 } // namespace mortise

@@ -1,5 +1,5 @@
-// GMRES on the indefinite system [K B^T; B 0] with a block factorisation as
-// preconditioner. It never needs K to be regular.
+// GMRES on the indefinite system of displacements, pressures and multipliers
+// with a block factorisation as preconditioner. It never needs K to be regular.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -9,11 +9,10 @@
 namespace mortise
 {
   /// Solve by preconditioned GMRES; the preconditioner takes a
-  /// HierarchicalPreconditioner for K + J and the Schur complement of an
-  /// InterfaceLifting. See solve().
+  /// BulkPreconditioner, the Schur complement of its Lifting for the multipliers
+  /// and a PressurePreconditioner. See solve().
   SolveReport
   solve_saddle_point(const BlockSystem   &system,
                      const SolverOptions &options,
-                     Vector              &u,
-                     Vector              &lambda);
+                     SystemSolution      &x);
 } // namespace mortise

@@ -11,30 +11,26 @@ namespace mortise
   /// The true residual of the whole system in a norm that does not depend on
   /// units:
   ///
-  ///     |(r_u, r_lambda)|^2 = r_u . D_u^{-1} r_u + r_lambda . D_lambda^{-1}
-  ///     r_lambda
+  ///     |(r_u, r_p, r_lambda)|^2 = r_u . D_u^{-1} r_u + r_p . D_p^{-1} r_p +
+  ///     r_lambda . D_lambda^{-1} r_lambda
   ///
-  /// with D_u = diag(K) and D_lambda = diag(B D_u^{-1} B^T). Both terms are
-  /// energies, so that scaling the lengths, the modulus or the load changes
-  /// nothing in the relative residual.
+  /// with D_u = diag(K), D_p = diag(P) and D_lambda = diag(B D_u^{-1} B^T). All
+  /// terms are energies, so that scaling the lengths, the modulus or the load
+  /// changes nothing in the relative residual.
   class ScaledResidual
   {
   public:
     explicit ScaledResidual(const BlockSystem &system);
 
-    /// r_u = f - K u - B^T lambda, r_lambda = g - B u. Collective.
+    /// r = (f, h, g) - [K G^T B^T; G -C 0; B 0 0] x. Collective.
     void
-    compute(const Vector &u,
-            const Vector &lambda,
-            Vector       &r_u,
-            Vector       &r_lambda) const;
+    compute(const SystemSolution &x, SystemSolution &r) const;
 
-    /// The norm above; r_lambda is not looked at without an interface.
-    /// Collective.
+    /// The norm above. Collective.
     double
-    norm(const Vector &r_u, const Vector &r_lambda) const;
+    norm(const SystemSolution &r) const;
 
-    /// Norm of the right hand side (f, g), for relative residuals.
+    /// Norm of the right hand side, for relative residuals.
     double
     right_hand_side_norm() const
     {
@@ -48,6 +44,13 @@ namespace mortise
       return *weight_u;
     }
 
+    /// 1 / D_p, on the owned pressures; only with mixed bodies.
+    const Epetra_Vector &
+    inverse_diagonal_p() const
+    {
+      return *weight_p;
+    }
+
     /// 1 / D_lambda, on the owned multipliers; only with an interface.
     const Epetra_Vector &
     inverse_diagonal_lambda() const
@@ -57,7 +60,7 @@ namespace mortise
 
   private:
     const BlockSystem             &system;
-    std::unique_ptr<Epetra_Vector> weight_u, weight_lambda;
+    std::unique_ptr<Epetra_Vector> weight_u, weight_p, weight_lambda;
     double                         rhs_norm          = 0.;
     bool                           interface_present = false;
   };

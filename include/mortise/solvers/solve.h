@@ -20,6 +20,7 @@ namespace mortise
     dealii::types::global_dof_index n_displacements;
     unsigned int                    max_degree;
     bool nodal; ///< has a NodalSpace and more than degree one
+    bool mixed; ///< has pressures
   };
 
   /// The method for a scene: what was asked for, else the one that measurements
@@ -29,14 +30,13 @@ namespace mortise
 
   /// Solve the system by the method asked for. Collective.
   ///
-  /// @p u and @p lambda are (re)initialised to the owned ranges of the system; what they held is
-  /// not used. lambda has size zero without an interface.
+  /// @p x is (re)initialised to the owned ranges of the system; what it held is
+  /// not used.
   /// A solve that does not reach the tolerance returns converged == false and
   /// the last iterate; nothing is thrown. The reported residual is always
   /// recomputed from the equations.
   SolveReport
   solve(const BlockSystem   &system,
         const SolverOptions &options,
-        Vector              &u,
-        Vector              &lambda);
+        SystemSolution      &x);
 } // namespace mortise

@@ -1,0 +1,26 @@
+// The hierarchical elements of a space and which of them each cell takes, for
+// both shapes of cells. It never makes constraints.
+#pragma once
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/hp/fe_collection.h>
+
+#include <functional>
+#include <set>
+
+namespace mortise
+{
+  /// Systems of @p n_components FE_Legendre or FE_SimplexLegendre (the element
+  /// itself for one component), rising @p degrees, in @p fe, and the dofs of
+  /// @p dof_handler, whose owned cells have the degree @p degree_of. Collective.
+  void
+  distribute_legendre_dofs(
+    const std::set<unsigned int> &degrees,
+    const std::function<
+      unsigned int(const dealii::DoFHandler<3>::active_cell_iterator &)>
+                                &degree_of,
+    unsigned int                 n_components,
+    dealii::hp::FECollection<3> &fe,
+    dealii::DoFHandler<3>       &dof_handler);
+} // namespace mortise

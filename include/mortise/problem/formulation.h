@@ -1,0 +1,34 @@
+// Which bodies have a pressure of their own, and what that asks of the other
+// parameters. It never builds a space.
+#pragma once
+
+#include <mortise/problem/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// "auto", "displacement", "mixed"
+  std::vector<std::string>
+  formulation_names();
+
+  /// Throws InputError listing the names.
+  Formulation
+  formulation_from_name(const std::string &name);
+
+  /// Is the body in mixed form? As asked; by itself from nu = 0.49 on, but below
+  /// 0.5 only if all its degrees are above one, which the form needs.
+  bool
+  is_mixed(const BodyParameters &body);
+
+  /// Does the body lock: displacement form, of its own choice, with nu = 0.49
+  /// or more?
+  bool
+  locks(const BodyParameters &body);
+
+  /// Throws InputError for a form that does not exist with the material, the
+  /// degrees, the solver or the exact solution of the scene.
+  void
+  check_formulations(const Parameters &parameters);
+} // namespace mortise

@@ -1,0 +1,51 @@
+#include <Epetra_CrsMatrix.h>
+#include <mortise/operators/block_system.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  void
+  BlockSystem::apply_stiffness(Vector &dst, const Vector &src) const
+  {
+    if (nodal)
+      nodal->apply_stiffness(dst, src);
+    else
+      stiffness.vmult(dst, src);
+  }
+
+  void
+  BlockSystem::apply_mixed(Vector       &dst_u,
+                           Vector       &dst_p,
+                           const Vector &u,
+                           const Vector &p) const
+  {
+    if (nodal)
+      return nodal->apply_mixed(dst_u, dst_p, u, p);
+    stiffness.vmult(dst_u, u);
+    divergence.Tvmult_add(dst_u, p);
+    compliance.vmult(dst_p, p);
+    dst_p *= -1.;
+    divergence.vmult_add(dst_p, u);
+  }
+
+  void
+  BlockSystem::add_pressure_force(Vector &dst, const Vector &p) const
+  {
+    if (nodal)
+      nodal->add_pressure_force(dst, p);
+    else
+      divergence.Tvmult_add(dst, p);
+  }
+
+  void
+  BlockSystem::copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const
+  {
+    if (nodal)
+      std::copy_n(nodal->pressure_norm_diagonal().begin(),
+                  diagonal.MyLength(),
+                  diagonal.Values());
+    else
+      pressure_norm.trilinos_matrix().ExtractDiagonalCopy(diagonal);
+  }
+} // namespace mortise
