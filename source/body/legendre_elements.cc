@@ -14,14 +14,14 @@ namespace mortise
   void
   distribute_legendre_dofs(
     const std::set<unsigned int> &degrees,
-    const std::function<unsigned int(
-      const DoFHandler<3>::active_cell_iterator &)> &degree_of,
-    const unsigned int                               n_components,
-    hp::FECollection<3>                             &fe,
-    DoFHandler<3>                                   &dof_handler)
+    const std::function<
+      unsigned int(const DoFHandler<3>::active_cell_iterator &)> &degree_of,
+    const unsigned int                                            n_components,
+    hp::FECollection<3>                                          &fe,
+    DoFHandler<3>                                                &dof_handler)
   {
     const std::vector<unsigned int> all(degrees.begin(), degrees.end());
-    const bool tetrahedra =
+    const bool                      tetrahedra =
       !dof_handler.get_triangulation().all_reference_cells_are_hyper_cube();
     const SimplexElements simplices(tetrahedra ? all :
                                                  std::vector<unsigned int>(),
@@ -40,10 +40,9 @@ namespace mortise
       if (cell->is_locally_owned())
         {
           const unsigned int p = degree_of(cell);
-          cell->set_active_fe_index(tetrahedra ?
-                                      simplices.index(cell, p) :
-                                      std::find(all.begin(), all.end(), p) -
-                                        all.begin());
+          cell->set_active_fe_index(
+            tetrahedra ? simplices.index(cell, p) :
+                         std::find(all.begin(), all.end(), p) - all.begin());
         }
     dof_handler.distribute_dofs(fe);
   }

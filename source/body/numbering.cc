@@ -58,8 +58,8 @@ namespace mortise
 
   void
   FieldNumbering::add_to(const unsigned int body,
-                                const IndexSet    &body_set,
-                                IndexSet          &scene_set) const
+                         const IndexSet    &body_set,
+                         IndexSet          &scene_set) const
   {
     for (auto interval = body_set.begin_intervals();
          interval != body_set.end_intervals();

@@ -39,7 +39,7 @@ namespace mortise
     face_trace(const Body                      &body,
                const Body::CellIterator        &cell,
                const unsigned int               f,
-               const FieldNumbering     &numbering,
+               const FieldNumbering            &numbering,
                const AffineConstraints<double> &constraints)
     {
       FaceTrace trace;
@@ -89,7 +89,7 @@ namespace mortise
   BodySurface
   extract_surface(const Body                      &body,
                   const types::boundary_id         boundary,
-                  const FieldNumbering     &numbering,
+                  const FieldNumbering            &numbering,
                   const AffineConstraints<double> &constraints,
                   const NodalSpaces               &levels)
   {

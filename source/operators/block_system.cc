@@ -39,6 +39,15 @@ namespace mortise
   }
 
   void
+  BlockSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
+  {
+    if (nodal)
+      nodal->apply_pressure_norm(dst, p);
+    else
+      pressure_norm.vmult(dst, p);
+  }
+
+  void
   BlockSystem::copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const
   {
     if (nodal)

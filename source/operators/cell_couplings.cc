@@ -47,7 +47,7 @@ namespace mortise
     /// @p sparsity.
     CoupledDofs
     coupled_dofs(const Body                      &body,
-                 const FieldNumbering     &numbering,
+                 const FieldNumbering            &numbering,
                  const AffineConstraints<double> &constraints,
                  DynamicSparsityPattern          &sparsity)
     {
@@ -82,7 +82,7 @@ namespace mortise
 
   void
   add_cell_couplings(const Body                      &body,
-                     const FieldNumbering     &numbering,
+                     const FieldNumbering            &numbering,
                      const AffineConstraints<double> &constraints,
                      DynamicSparsityPattern          &sparsity)
   {

@@ -23,9 +23,9 @@ namespace mortise
   namespace
   {
     std::vector<types::global_dof_index>
-    scene_dofs(const Body                  &body,
-               const Body::CellIterator    &cell,
-               const FieldNumbering &numbering)
+    scene_dofs(const Body               &body,
+               const Body::CellIterator &cell,
+               const FieldNumbering     &numbering)
     {
       std::vector<types::global_dof_index> dofs(
         cell->get_fe().n_dofs_per_cell());
@@ -204,11 +204,11 @@ namespace mortise
     {
       const unsigned int n_b = kernel.system.get_first_hex_index(),
                          n_p = pressures.size(), n = dofs.size() + n_p;
-      const FullMatrix<double> &G        = kernel.pressure->divergence(),
-                               &M        = kernel.pressure->mass();
-      const LinearElastic      &material = kernel.body.material;
-      const double              c        = material.compressibility();
-      const auto place = [&](const unsigned int i) {
+      const FullMatrix<double> &G   = kernel.pressure->divergence(),
+                               &M   = kernel.pressure->mass();
+      const LinearElastic &material = kernel.body.material;
+      const double         c        = material.compressibility();
+      const auto           place    = [&](const unsigned int i) {
         return i < n_b ? i : i + n_p;
       };
       FullMatrix<double>     all(n);
@@ -253,7 +253,7 @@ namespace mortise
   CondensedInteriors
   assemble_elasticity(const Body                      &body,
                       const Loads                     &loads,
-                      const FieldNumbering     &numbering,
+                      const FieldNumbering            &numbering,
                       const AffineConstraints<double> &constraints,
                       SparseMatrix                    &stiffness,
                       Vector                          &load,

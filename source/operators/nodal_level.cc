@@ -40,7 +40,7 @@ namespace mortise
     std::vector<unsigned int>
     find_held(const NodalSpace                  &space,
               const Utilities::MPI::Partitioner &layout,
-              const FieldNumbering       &numbering,
+              const FieldNumbering              &numbering,
               const AffineConstraints<double>   &constraints)
     {
       std::vector<char>                    held(layout.locally_owned_size());
@@ -90,7 +90,7 @@ namespace mortise
   NodalLevel
   make_nodal_level(std::unique_ptr<NodalSpace>      space,
                    const unsigned int               number,
-                   const FieldNumbering     &numbering,
+                   const FieldNumbering            &numbering,
                    const AffineConstraints<double> &constraints,
                    const std::vector<Coupling>     &couplings,
                    const MPI_Comm                   comm)

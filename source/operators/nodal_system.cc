@@ -96,10 +96,9 @@ namespace mortise
           all_levels.back().penalty =
             make_nodal_penalty(all_levels.back(), number, scene.couplings);
       }
-    stiffness =
-      std::make_unique<LevelOperator<double>>(all_levels.front(),
-                                              false,
-                                              nodes.get());
+    stiffness = std::make_unique<LevelOperator<double>>(all_levels.front(),
+                                                        false,
+                                                        nodes.get());
     stiffness->initialize(in);
     stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
@@ -173,6 +172,28 @@ namespace mortise
     stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
     pressures->release(p);
     pressures->gather(dst);
+  }
+
+  void
+  NodalSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
+  {
+    copy(p_in, p);
+    apply_pressure_norm(p_out, p_in);
+    copy(dst, p_out);
+  }
+
+  void
+  NodalSystem::set_constant_pressure(const Body &given, Vector &p) const
+  {
+    const auto pressure_nodes = pressures->nodes();
+    pressure_nodes.space.for_each_cell(
+      [&](const Body &body, const auto &, const auto &nodes) {
+        if (body.index == given.index)
+          for (const auto node : nodes)
+            if (pressure_nodes.layout.in_local_range(node) &&
+                !pressure_nodes.space.hanging_nodes().is_constrained(node))
+              p.begin()[pressure_nodes.layout.global_to_local(node)] = 1.;
+      });
   }
 
   void
@@ -313,10 +334,10 @@ namespace mortise
 
   void
   NodalSystem::for_each_pressure_coefficient(
-    const Vector                            &pressure,
-    const std::function<void(unsigned int                    body,
-                             types::global_dof_index dof,
-                             double                          value)> &set) const
+    const Vector &pressure,
+    const std::function<
+      void(unsigned int body, types::global_dof_index dof, double value)> &set)
+    const
   {
     copy(p_in, pressure);
     pressures->complete(p_in);
@@ -332,8 +353,8 @@ namespace mortise
         own->get_dof_indices(dofs);
         values.resize(order.size());
         for (unsigned int i = 0; i < order.size(); ++i)
-          values[i] = p_in.local_element(
-            nodes.layout.global_to_local(of_cell[order[i]]));
+          values[i] =
+            p_in.local_element(nodes.layout.global_to_local(of_cell[order[i]]));
         transform(nodes_to_modes(degree), values);
         for (unsigned int i = 0; i < order.size(); ++i)
           set(body.index, dofs[order[i]], values[i]);

@@ -41,9 +41,9 @@ namespace mortise
     for (int q = 0; q < n_points; ++q)
       {
         const CellGeometry::Jacobian &jacobian = constant ? *constant : all[q];
-        const double                  weight = weights[q] * determinant(jacobian);
+        const double weight = weights[q] * determinant(jacobian);
         const CellGeometry::Jacobian inverse = weight * invert(jacobian);
-        const double                *in = &reference_gradients[q * columns];
+        const double                *in  = &reference_gradients[q * columns];
         double                      *out = &gradients[q * columns];
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int i = 0; i < n; ++i)

@@ -28,16 +28,16 @@ namespace mortise
   } // namespace
 
   PressureScatter::PressureScatter(const std::vector<const Body *> &bodies,
-                                   const SceneField                &displacement,
-                                   const SceneField                &pressure,
-                                   BlockSystem                     &system)
+                                   const SceneField &displacement,
+                                   const SceneField &pressure,
+                                   BlockSystem      &system)
     : displacement(displacement)
     , pressure(pressure)
     , system(system)
   {
-    const IndexSet &rows    = pressure.numbering.owned();
-    const IndexSet &columns = displacement.numbering.owned();
-    const IndexSet &local   = pressure.constraints.get_local_lines();
+    const IndexSet        &rows    = pressure.numbering.owned();
+    const IndexSet        &columns = displacement.numbering.owned();
+    const IndexSet        &local   = pressure.constraints.get_local_lines();
     DynamicSparsityPattern divergence(rows.size(), columns.size(), local),
       square(rows.size(), rows.size(), local);
     Dofs cell_dofs;
@@ -69,8 +69,7 @@ namespace mortise
   }
 
   std::vector<types::global_dof_index>
-  PressureScatter::dofs(const Body               &body,
-                        const Body::CellIterator &cell) const
+  PressureScatter::dofs(const Body &body, const Body::CellIterator &cell) const
   {
     const auto own = body.pressure->cell(cell);
     Dofs       result(own->get_fe().n_dofs_per_cell());

@@ -61,9 +61,7 @@ namespace mortise
     {
       // rows of all dofs that the cells of this rank touch
       DynamicSparsityPattern sparsity(
-        owned.size(),
-        owned.size(),
-        displacement.constraints.get_local_lines());
+        owned.size(), owned.size(), displacement.constraints.get_local_lines());
       for (const auto &body : bodies)
         add_cell_couplings(*body,
                            displacement.numbering,
@@ -199,7 +197,7 @@ namespace mortise
                  const SystemSolution                  &solution)
   {
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
-    const Vector   u    = distributed(displacement, solution.displacement, comm);
+    const Vector   u = distributed(displacement, solution.displacement, comm);
     Vector         p;
     if (pressure.numbering.size() > 0)
       p = distributed(pressure, solution.pressure, comm);
@@ -258,15 +256,15 @@ namespace mortise
         u(dof) = value + displacement.constraints.get_inhomogeneity(index);
       });
     if (pressure.numbering.size() > 0)
-      nodal.for_each_pressure_coefficient(
-        solution.pressure,
-        [&](const unsigned int            body,
-            const types::global_dof_index dof,
-            const double                  value) {
-          BodyVector &p = result[body].pressure;
-          if (p.in_local_range(dof))
-            p(dof) = value;
-        });
+      nodal.for_each_pressure_coefficient(solution.pressure,
+                                          [&](const unsigned int body,
+                                              const types::global_dof_index dof,
+                                              const double value) {
+                                            BodyVector &p =
+                                              result[body].pressure;
+                                            if (p.in_local_range(dof))
+                                              p(dof) = value;
+                                          });
     for (BodySolution &own : result)
       {
         own.displacement.update_ghost_values();
@@ -311,9 +309,9 @@ namespace mortise
   } // namespace
 
   void
-  describe_structure(const Bodies                &bodies,
+  describe_structure(const Bodies         &bodies,
                      const FieldNumbering &numbering,
-                     BlockSystem                 &system)
+                     BlockSystem          &system)
   {
     BlockCollector                       collector(numbering.owned());
     std::vector<types::global_dof_index> dofs;

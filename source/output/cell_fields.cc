@@ -110,8 +110,8 @@ namespace mortise
       shared = std::make_unique<Hexahedra>(body,
                                            body.degree(cell),
                                            body.degree(cell) + extra_points);
-    const auto coefficients = cell_coefficients(cell, solution.displacement);
-    const auto        &jacobians    = shared->geometry.jacobians(cell);
+    const auto  coefficients = cell_coefficients(cell, solution.displacement);
+    const auto &jacobians    = shared->geometry.jacobians(cell);
     const unsigned int n_points = jacobians.size(), n = shared->degree + 1;
     points = shared->geometry.points(cell);
     values.resize(n_points);
@@ -139,7 +139,7 @@ namespace mortise
       }
     if (body.pressure)
       {
-        const auto own = body.pressure->cell(cell);
+        const auto                           own = body.pressure->cell(cell);
         std::vector<types::global_dof_index> dofs(
           own->get_fe().n_dofs_per_cell());
         own->get_dof_indices(dofs);

@@ -42,8 +42,9 @@ namespace mortise
                    const double                   pressure)
     {
       return material.stress(strain, 0.) * strain +
-             (material.mixed ? material.compressibility() * pressure * pressure :
-                               0.);
+             (material.mixed ?
+                material.compressibility() * pressure * pressure :
+                0.);
     }
 
     void
@@ -60,7 +61,7 @@ namespace mortise
       const auto           u        = exact.displacement(x, body.index);
       const auto           gradient = exact.gradient(x, body.index);
       const auto           strain   = symmetrize(gradient);
-      const auto strain_error = symmetrize(fields.gradients[q]) - strain;
+      const auto strain_error       = symmetrize(fields.gradients[q]) - strain;
       error.l2 += weight * (fields.values[q] - u).norm_square();
       norm.l2 += weight * u.norm_square();
       error.h1 += weight * (fields.gradients[q] - gradient).norm_square();
@@ -71,14 +72,14 @@ namespace mortise
           const auto stress = exact.stress(x, body.index);
           p                 = material.pressure(strain, stress);
           p_error           = fields.pressures[q] - p;
-          const double mean       = trace(stress) / dim,
-                       mean_error = trace(material.stress(strain_error, p_error)) / dim;
+          const double mean = trace(stress) / dim,
+                       mean_error =
+                         trace(material.stress(strain_error, p_error)) / dim;
           error.pressure += weight * mean_error * mean_error;
           norm.pressure += weight * mean * mean;
           norm.stress += weight * (stress * stress);
         }
-      error.energy +=
-        weight * energy_density(material, strain_error, p_error);
+      error.energy += weight * energy_density(material, strain_error, p_error);
       norm.energy += weight * energy_density(material, strain, p);
     }
   } // namespace
@@ -245,9 +246,9 @@ namespace mortise
             }
           for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
             force += values.JxW(q) *
-                     (body.material.stress(
-                        symmetrize(gradient(values, coefficients, q)),
-                        pressures[q]) *
+                     (body.material.stress(symmetrize(
+                                             gradient(values, coefficients, q)),
+                                           pressures[q]) *
                       values.normal_vector(q));
         }
     return Utilities::MPI::sum(force, body.triangulation().get_communicator());

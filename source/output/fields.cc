@@ -289,8 +289,8 @@ namespace mortise
   {
     if (body.mesh.tetrahedra)
       return write_tetrahedra(body, solution, selection, directory);
-    const unsigned int        degree = body.max_degree();
-    const StressPostprocessor stress(body.material, selection);
+    const unsigned int          degree = body.max_degree();
+    const StressPostprocessor   stress(body.material, selection);
     std::unique_ptr<MixedField> mixed;
     DataOut<dim>                output;
     output.set_flags(flags(degree));

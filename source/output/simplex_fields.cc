@@ -65,10 +65,8 @@ namespace mortise
     const Quadrature<dim> points(output.lattice.points);
 
     const auto rule = [&](const FiniteElement<dim> &) { return points; };
-    ValuesByElement<FEValues<dim>> by_element(body,
-                                              rule,
-                                              update_values | update_gradients |
-                                                update_quadrature_points),
+    ValuesByElement<FEValues<dim>> by_element(
+      body, rule, update_values | update_gradients | update_quadrature_points),
       pressure_by_element(body, rule, update_values);
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())

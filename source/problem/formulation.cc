@@ -49,9 +49,8 @@ namespace mortise
              "\"mixed\"" + with_nu.str() + ", where no pressure is needed",
              "displacement or auto for a Poisson ratio of 0 or less");
       if (least_degree(body) < 2)
-        fail(parameters.where(section + (body.degree < 2 ?
-                                           "/Degree" :
-                                           "/Degree by region")),
+        fail(parameters.where(
+               section + (body.degree < 2 ? "/Degree" : "/Degree by region")),
              "degree 1 in mixed form" + with_nu.str(),
              "degrees from 2 to " + std::to_string(max_degree) +
                " (the pressure has one less, and is continuous)");
@@ -104,13 +103,11 @@ namespace mortise
     for (const BodyParameters &body : parameters.bodies)
       {
         check_body(parameters, body);
-        incompressible =
-          incompressible || body.material.poisson_ratio == 0.5;
+        incompressible = incompressible || body.material.poisson_ratio == 0.5;
       }
     const ExactSolutionParameters &exact = parameters.exact_solution;
-    const std::string              where =
-      parameters.where("Exact solution/Pressure");
-    const bool by_expressions = exact.kind == ExactKind::expressions;
+    const std::string where = parameters.where("Exact solution/Pressure");
+    const bool        by_expressions = exact.kind == ExactKind::expressions;
     if (exact.pressure && !(by_expressions && incompressible))
       fail(where,
            "\"" + *exact.pressure + "\"",

@@ -67,10 +67,11 @@ namespace mortise
              E,
              "a positive number (force per area)");
       if (!(nu > -1. && nu <= 0.5))
-        fail(parameters,
-             section + "/Poisson ratio",
-             nu,
-             "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)");
+        fail(
+          parameters,
+          section + "/Poisson ratio",
+          nu,
+          "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)");
     }
 
     /// Components are "-" (if @p may_be_free), "exact" (if there is an exact solution), or parse.

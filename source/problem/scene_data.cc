@@ -13,10 +13,9 @@ namespace mortise
   {
     std::vector<LinearElastic> result;
     for (const BodyParameters &body : parameters.bodies)
-      result.push_back(
-        {body.material.young_modulus,
-         body.material.poisson_ratio,
-         is_mixed(body)});
+      result.push_back({body.material.young_modulus,
+                        body.material.poisson_ratio,
+                        is_mixed(body)});
     return result;
   }
 
@@ -143,7 +142,7 @@ namespace mortise
                                     LameSolution::Geometry::cylinder);
         case ExactKind::expressions:
           {
-            const Components &text = parameters.exact_solution.displacement;
+            const Components &text     = parameters.exact_solution.displacement;
             const auto       &pressure = parameters.exact_solution.pressure;
             return std::make_shared<ExpressionSolution>(
               VectorExpression(text[0] + ";" + text[1] + ";" + text[2],

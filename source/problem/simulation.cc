@@ -365,11 +365,10 @@ namespace mortise
         const NodalSystem::Scene scene{displacement_field.numbering,
                                        displacement_field.constraints,
                                        couplings};
-        system.nodal =
-          std::make_unique<NodalSystem>(std::move(nodal_spaces),
-                                        std::move(nodal_pressures),
-                                        scene,
-                                        comm);
+        system.nodal = std::make_unique<NodalSystem>(std::move(nodal_spaces),
+                                                     std::move(nodal_pressures),
+                                                     scene,
+                                                     comm);
         system.nodal->assemble_load(loads,
                                     scene,
                                     system.load,
@@ -389,6 +388,8 @@ namespace mortise
   void
   Simulation::solve()
   {
+    if (system.mixed())
+      find_free_pressures();
     SolverOptions options;
     options.method         = parameters.solver.method;
     options.tolerance      = parameters.solver.tolerance;

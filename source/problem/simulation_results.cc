@@ -74,17 +74,12 @@ namespace mortise
   {
     auto         stage = log.stage(timers, "postprocess");
     StepSummary &step  = summary.steps.back();
-    solutions = system.nodal ?
-                  body_solutions(bodies,
-                                 displacement_field,
-                                 pressure_field,
-                                 *system.nodal,
-                                 solution) :
-                  body_solutions(bodies,
-                                 displacement_field,
-                                 pressure_field,
-                                 interiors,
-                                 solution);
+    solutions =
+      system.nodal ?
+        body_solutions(
+          bodies, displacement_field, pressure_field, *system.nodal, solution) :
+        body_solutions(
+          bodies, displacement_field, pressure_field, interiors, solution);
 
     std::vector<unsigned int> slave_bodies;
     for (unsigned int i = 0; i < couplings.size(); ++i)
@@ -99,8 +94,9 @@ namespace mortise
       }
     if (exact)
       {
-        const SolutionErrors errors = solution_errors(bodies, solutions, *exact);
-        ErrorSummary         result;
+        const SolutionErrors errors =
+          solution_errors(bodies, solutions, *exact);
+        ErrorSummary result;
         result.displacement_l2 = errors.displacement_l2;
         result.displacement_h1 = errors.displacement_h1;
         result.energy          = errors.energy;
@@ -220,12 +216,11 @@ namespace mortise
     if (step.errors)
       {
         log.line();
-        rows = {{"relative error", ""},
-                {"displacement, L2",
-                 RunLog::number(*step.errors->displacement_l2)},
-                {"displacement, H1",
-                 RunLog::number(*step.errors->displacement_h1)},
-                {"energy", RunLog::number(*step.errors->energy)}};
+        rows = {
+          {"relative error", ""},
+          {"displacement, L2", RunLog::number(*step.errors->displacement_l2)},
+          {"displacement, H1", RunLog::number(*step.errors->displacement_h1)},
+          {"energy", RunLog::number(*step.errors->energy)}};
         if (step.errors->pressure_l2)
           rows.push_back(
             {"pressure, L2", RunLog::number(*step.errors->pressure_l2)});

@@ -57,9 +57,8 @@ namespace mortise
       operator()(const unsigned int field, const Index i) const
       {
         const auto &all = start[field];
-        return i +
-               shift[field][std::upper_bound(all.begin(), all.end(), i) -
-                            all.begin() - 1];
+        return i + shift[field][std::upper_bound(all.begin(), all.end(), i) -
+                                all.begin() - 1];
       }
 
       Index
@@ -145,6 +144,7 @@ namespace mortise
     /// [K G^T B^T; G -C 0; B 0 0], not scaled.
     std::unique_ptr<Epetra_CrsMatrix>
     monolithic_matrix(const BlockSystem         &system,
+                      const ScaledResidual      &residual,
                       const MonolithicNumbering &numbering)
     {
       const auto      &K = system.stiffness.trilinos_matrix();
@@ -163,7 +163,8 @@ namespace mortise
         pressure_force =
           transpose(system.divergence.trilinos_matrix(), K.RowMap());
       if (system.owned_multiplier.size() > 0)
-        coupling_force = transpose(system.coupling.trilinos_matrix(), K.RowMap());
+        coupling_force =
+          transpose(system.coupling.trilinos_matrix(), K.RowMap());
       auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
       RowBuilder rows(numbering, *matrix);
       int        local = 0;
@@ -181,7 +182,11 @@ namespace mortise
       for (const auto k : system.owned_pressure)
         {
           rows.add(system.divergence.trilinos_matrix(), local, 0);
-          rows.add(system.compliance.trilinos_matrix(), local++, 1, -1.);
+          rows.add(system.compliance.trilinos_matrix(), local, 1, -1.);
+          if (system.free_pressures.is_pinned(local))
+            rows.add(numbering(1, k),
+                     -1. / residual.inverse_diagonal_p()[local]);
+          ++local;
           rows.insert(numbering(1, k));
         }
       local = 0;
@@ -219,9 +224,9 @@ namespace mortise
     Timer timer;
 
     const MonolithicNumbering numbering(system);
-    const auto                matrix = monolithic_matrix(system, numbering);
     const ScaledResidual      residual(system);
-    Epetra_Vector             scale(matrix->RowMap());
+    const auto    matrix = monolithic_matrix(system, residual, numbering);
+    Epetra_Vector scale(matrix->RowMap());
     set_scaling(scale, residual, system);
     matrix->LeftScale(scale);
     matrix->RightScale(scale);
@@ -233,10 +238,10 @@ namespace mortise
     report.setup_seconds  = timer.wall_time();
     timer.restart();
 
-    x                     = system.zero_solution();
-    SystemSolution r      = system.zero_solution();
-    const double rhs_norm = residual.right_hand_side_norm();
-    report.converged      = rhs_norm == 0.;
+    x                       = system.zero_solution();
+    SystemSolution r        = system.zero_solution();
+    const double   rhs_norm = residual.right_hand_side_norm();
+    report.converged        = rhs_norm == 0.;
     Epetra_Vector b(matrix->RowMap()), y(matrix->RowMap());
     double        previous = std::numeric_limits<double>::infinity();
     for (unsigned int step = 0;
@@ -250,6 +255,7 @@ namespace mortise
           break;
         y.Multiply(1., scale, y, 0.);
         for_each_value(y, x, [](const double from, double &to) { to += from; });
+        system.free_pressures.project(x.pressure);
         residual.compute(x, r);
         report.relative_residual = residual.norm(r) / rhs_norm;
         report.history.push_back(report.relative_residual);

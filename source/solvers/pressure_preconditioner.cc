@@ -48,8 +48,9 @@ namespace mortise
       const NodalSystem &nodal;
     };
 
-    using Diagonal  = DiagonalMatrix<LevelVector<double>>;
-    using Chebyshev = PreconditionChebyshev<Matrix, LevelVector<double>, Diagonal>;
+    using Diagonal = DiagonalMatrix<LevelVector<double>>;
+    using Chebyshev =
+      PreconditionChebyshev<Matrix, LevelVector<double>, Diagonal>;
 
     explicit Polynomial(const NodalSystem &nodal)
       : matrix(nodal)
@@ -57,10 +58,9 @@ namespace mortise
       const LevelVector<double> &diagonal = nodal.pressure_norm_diagonal();
       const double               least    = Utilities::MPI::min(
         diagonal.locally_owned_size() == 0 ?
-                           1. :
-                           *std::min_element(diagonal.begin(),
-                                             diagonal.begin() +
-                                               diagonal.locally_owned_size()),
+          1. :
+          *std::min_element(diagonal.begin(),
+                            diagonal.begin() + diagonal.locally_owned_size()),
         diagonal.get_mpi_communicator());
       valid = least > 0.;
       if (!valid)

@@ -86,8 +86,12 @@ namespace mortise
   {
     if (system.mixed())
       {
-        system.apply_mixed(r.displacement, r.pressure, x.displacement, x.pressure);
+        system.apply_mixed(r.displacement,
+                           r.pressure,
+                           x.displacement,
+                           x.pressure);
         r.pressure.sadd(-1., 1., system.pressure_load);
+        system.free_pressures.project_residual(r.pressure);
       }
     else
       system.apply_stiffness(r.displacement, x.displacement);

@@ -49,7 +49,7 @@ namespace
   assemble(const Body &body)
   {
     const FieldNumbering numbering({&body.dof_handler}, MPI_COMM_SELF);
-    const double                start = seconds();
+    const double         start = seconds();
     dealii::DynamicSparsityPattern sparsity(numbering.size(), numbering.size());
     SparseMatrix                   stiffness;
     Vector                         load;

@@ -24,7 +24,7 @@ namespace mortise::testing
   /// Pattern by deal.II, not by what is tested.
   Assembled
   empty_system(const Body                      &body,
-               const FieldNumbering     &numbering,
+               const FieldNumbering            &numbering,
                const AffineConstraints<double> &constraints)
   {
     DynamicSparsityPattern sparsity(numbering.size(),
@@ -116,7 +116,7 @@ namespace mortise::testing
 
   Assembled
   textbook(const Body                      &body,
-           const FieldNumbering     &numbering,
+           const FieldNumbering            &numbering,
            const AffineConstraints<double> &constraints)
   {
     Assembled system = empty_system(body, numbering, constraints);
@@ -162,7 +162,7 @@ namespace mortise::testing
   }
   Assembled
   tested(const Body                      &body,
-         const FieldNumbering     &numbering,
+         const FieldNumbering            &numbering,
          const AffineConstraints<double> &constraints)
   {
     DynamicSparsityPattern sparsity(numbering.size(),

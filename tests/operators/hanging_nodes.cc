@@ -96,9 +96,7 @@ namespace mortise::testing
     for (const auto i : scene.field.numbering.owned())
       u(i) = random_number(seed, i);
     u.compress(VectorOperation::insert);
-    return body_displacements(scene.bodies,
-                              scene.field,
-                              u);
+    return body_displacements(scene.bodies, scene.field, u);
   }
 
   /// Values of one component at the nodes of a cell, in the order of both

@@ -65,7 +65,7 @@ namespace mortise::testing
     Bodies                               bodies;
     std::vector<const DoFHandler<dim> *> handlers;
     std::vector<const Body *>            pointers;
-    FieldNumbering                numbering;
+    FieldNumbering                       numbering;
     AffineConstraints<double>            constraints;
     std::vector<NodalLevel>              levels;
   };

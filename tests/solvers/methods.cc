@@ -43,7 +43,7 @@ namespace
     options.method         = solver_method_from_name(method);
     options.tolerance      = 1e-11;
     options.max_iterations = max_iterations;
-    Result result;
+    Result         result;
     SystemSolution solution;
     result.report = solve(system, options, solution);
     result.u      = solution.displacement;

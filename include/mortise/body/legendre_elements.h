@@ -16,11 +16,10 @@ namespace mortise
   /// @p dof_handler, whose owned cells have the degree @p degree_of. Collective.
   void
   distribute_legendre_dofs(
-    const std::set<unsigned int> &degrees,
-    const std::function<
-      unsigned int(const dealii::DoFHandler<3>::active_cell_iterator &)>
-                                &degree_of,
-    unsigned int                 n_components,
-    dealii::hp::FECollection<3> &fe,
-    dealii::DoFHandler<3>       &dof_handler);
+    const std::set<unsigned int>                            &degrees,
+    const std::function<unsigned int(
+      const dealii::DoFHandler<3>::active_cell_iterator &)> &degree_of,
+    unsigned int                                             n_components,
+    dealii::hp::FECollection<3>                             &fe,
+    dealii::DoFHandler<3>                                   &dof_handler);
 } // namespace mortise

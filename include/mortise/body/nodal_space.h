@@ -132,7 +132,7 @@ namespace mortise
     std::vector<const Body *>                             scene;
     std::vector<unsigned int>                             degrees;
     std::vector<std::unique_ptr<dealii::DoFHandler<dim>>> handlers;
-    FieldNumbering                                 numbering;
+    FieldNumbering                                        numbering;
     dealii::IndexSet                                      relevant;
     dealii::AffineConstraints<double>                     hanging;
   };

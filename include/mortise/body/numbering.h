@@ -1,6 +1,6 @@
-// One numbering of one field (displacements, pressures) of all bodies: rank by rank, and within a
-// rank body by body, so that each rank owns one contiguous range. It never
-// renumbers a DoFHandler.
+// One numbering of one field (displacements, pressures) of all bodies: rank by
+// rank, and within a rank body by body, so that each rank owns one contiguous
+// range. It never renumbers a DoFHandler.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -22,9 +22,8 @@ namespace mortise
 
     /// By body; null for a body without the field. Collective. The handlers'
     /// dofs must be distributed (contiguous per rank).
-    FieldNumbering(
-      const std::vector<const dealii::DoFHandler<3> *> &handlers,
-      MPI_Comm                                          comm);
+    FieldNumbering(const std::vector<const dealii::DoFHandler<3> *> &handlers,
+                   MPI_Comm                                          comm);
 
     /// Index in the numbering of the scene of dof @p dof of body @p body; any rank's dof.
     Index

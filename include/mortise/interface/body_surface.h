@@ -71,7 +71,7 @@ namespace mortise
   BodySurface
   extract_surface(const Body                              &body,
                   dealii::types::boundary_id               boundary,
-                  const FieldNumbering             &numbering,
+                  const FieldNumbering                    &numbering,
                   const dealii::AffineConstraints<double> &constraints,
                   const NodalSpaces                       &levels = {});
 

@@ -43,7 +43,7 @@ namespace mortise
   public:
     ExpressionSolution(const VectorExpression           &displacement,
                        const std::vector<LinearElastic> &materials,
-                       const Expression                 &pressure = Expression());
+                       const Expression &pressure = Expression());
 
     dealii::Tensor<1, 3>
     displacement(const dealii::Point<3> &p, unsigned int body) const override;

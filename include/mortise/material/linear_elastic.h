@@ -17,7 +17,8 @@ namespace mortise
     double poisson_ratio = 0.3; ///< nu, -1 < nu < 0.5; 0 < nu <= 0.5 if mixed
     /// The form in which a body has the law: with a pressure of its own,
     ///
-    ///     sigma = 2 mu strain + lambda_u tr(strain) I - p I,  tr(strain) + c p = 0,
+    ///     sigma = 2 mu strain + lambda_u tr(strain) I - p I,  tr(strain) + c p
+    ///     = 0,
     ///
     /// with lambda_u and c below; else by stress(strain).
     bool mixed = false;
@@ -44,9 +45,9 @@ namespace mortise
     }
 
     /// lambda_u, what the displacement keeps of lambda: all of it, or if mixed
-    /// 1 / (1 / lambda + 1 / (kept mu)), which is bounded. The more it keeps the
-    /// better a mass matrix of pressures stands for their Schur complement, and
-    /// the worse conditioned is the displacement's own block.
+    /// 1 / (1 / lambda + 1 / (kept mu)), which is bounded. The more it keeps
+    /// the better a mass matrix of pressures stands for their Schur complement,
+    /// and the worse conditioned is the displacement's own block.
     double
     displacement_lambda() const;
 
@@ -54,8 +55,8 @@ namespace mortise
     double
     compressibility() const;
 
-    /// c + 1 / (2 mu + lambda_u): with it a mass matrix of pressures is as large
-    /// as their Schur complement.
+    /// c + 1 / (2 mu + lambda_u): with it a mass matrix of pressures is as
+    /// large as their Schur complement.
     double
     pressure_norm() const
     {
@@ -74,7 +75,8 @@ namespace mortise
       return sigma;
     }
 
-    /// The pressure p of the mixed form that belongs to a strain and its stress.
+    /// The pressure p of the mixed form that belongs to a strain and its
+    /// stress.
     double
     pressure(const dealii::SymmetricTensor<2, 3> &strain,
              const dealii::SymmetricTensor<2, 3> &stress) const

@@ -14,6 +14,7 @@
 
 #include <Epetra_Vector.h>
 #include <mortise/base/types.h>
+#include <mortise/operators/free_pressures.h>
 #include <mortise/operators/nodal_system.h>
 
 #include <memory>
@@ -59,6 +60,8 @@ namespace mortise
     /// P = int p q (c + 1 / (2 mu + lambda_u)), which C + G K^{-1} G^T is
     /// spectrally equivalent to, whatever c is.
     SparseMatrix pressure_norm;
+    /// Constants that the equations leave free: solutions have none of them.
+    FreePressures free_pressures;
 
     /// B: rows are multipliers, columns displacements; columns of constrained
     /// dofs are zero. No rows at all when the scene has no interface. The
@@ -108,6 +111,10 @@ namespace mortise
     /// dst += G^T p. Collective.
     void
     add_pressure_force(Vector &dst, const Vector &p) const;
+
+    /// dst = P p. Collective.
+    void
+    apply_pressure_norm(Vector &dst, const Vector &p) const;
 
     /// diag(P) on the owned pressures.
     void

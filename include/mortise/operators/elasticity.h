@@ -29,7 +29,7 @@ namespace mortise
   /// Couplings of the dofs of each cell of @p body. @p constraints are those of the scene.
   void
   add_cell_couplings(const Body                              &body,
-                     const FieldNumbering             &numbering,
+                     const FieldNumbering                    &numbering,
                      const dealii::AffineConstraints<double> &constraints,
                      dealii::DynamicSparsityPattern          &sparsity);
 

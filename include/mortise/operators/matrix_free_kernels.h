@@ -27,7 +27,9 @@ namespace mortise
 
     // in mixed form only
     virtual void
-    add_mixed_product(const CellBatches<Number> &, const Fields &, const Fields &)
+    add_mixed_product(const CellBatches<Number> &,
+                      const Fields &,
+                      const Fields &)
     {
       Assert(false, dealii::ExcNotImplemented());
     }
@@ -175,7 +177,10 @@ namespace mortise
 
     /// sqrt(w |J|) times grad u, du_c/dx_e as h[c][e].
     static void
-    gradient_at(const V *g, const int q, const V (&G)[dim][dim], V (&h)[dim][dim])
+    gradient_at(const V  *g,
+                const int q,
+                const V (&G)[dim][dim],
+                V (&h)[dim][dim])
     {
       for (unsigned int c = 0; c < dim; ++c)
         {
@@ -188,7 +193,10 @@ namespace mortise
 
     /// What is tested with gradients of v, from a stress times sqrt(w |J|).
     static void
-    set_stress(const V (&s)[dim][dim], const V (&G)[dim][dim], const int q, V *g)
+    set_stress(const V (&s)[dim][dim],
+               const V (&G)[dim][dim],
+               const int q,
+               V        *g)
     {
       for (unsigned int c = 0; c < dim; ++c)
         for (unsigned int a = 0; a < dim; ++a)

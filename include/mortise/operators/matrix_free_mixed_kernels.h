@@ -99,8 +99,7 @@ namespace mortise
           std::fill(sums, sums + M, V{});
           for (int q = 0; q < N; ++q)
             for (int k = 0; k < M; ++k)
-              sums[k] += squares[q % n][k % m] *
-                         squares[q / n % n][k / m % m] *
+              sums[k] += squares[q % n][k % m] * squares[q / n % n][k / m % m] *
                          squares[q / n / n][k / m / m] * values[q];
           scatter_add_scalar<M>(sums, pressure_nodes_of(cells, batch), dst);
         }
@@ -120,7 +119,8 @@ namespace mortise
     pressure_nodes_of(const CellBatches<Number> &cells,
                       const unsigned int         batch)
     {
-      return &cells.pressure_nodes[std::size_t(batch) * M * Batch<Number>::size];
+      return &cells
+                .pressure_nodes[std::size_t(batch) * M * Batch<Number>::size];
     }
 
     /// In the first half of the scratch.
@@ -169,7 +169,7 @@ namespace mortise
               V                         *g,
               V                         *p) const
     {
-      const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      const V     *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
       const Number lambda = cells.lambda, mu = cells.mu,
                    compressibility = cells.compressibility;
       for (int q = 0; q < N; ++q)
@@ -182,7 +182,8 @@ namespace mortise
           for (unsigned int c = 0; c < dim; ++c)
             s[c][c] -= weighted;
           this->set_stress(s, G, q, g);
-          p[q] = -w * (h[0][0] + h[1][1] + h[2][2] + compressibility * weighted);
+          p[q] =
+            -w * (h[0][0] + h[1][1] + h[2][2] + compressibility * weighted);
         }
     }
 
@@ -210,7 +211,7 @@ namespace mortise
                      const unsigned int         batch,
                      V                         *p) const
     {
-      const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      const V     *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
       const Number factor = cells.pressure_norm;
       for (int q = 0; q < N; ++q)
         {

@@ -51,7 +51,7 @@ namespace mortise
   NodalLevel
   make_nodal_level(std::unique_ptr<NodalSpace>              space,
                    unsigned int                             number,
-                   const FieldNumbering             &numbering,
+                   const FieldNumbering                    &numbering,
                    const dealii::AffineConstraints<double> &constraints,
                    const std::vector<Coupling>             &couplings,
                    MPI_Comm                                 comm);

@@ -6,7 +6,6 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <Epetra_Vector.h>
-
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/nodal_pressure.h>
 
@@ -21,7 +20,7 @@ namespace mortise
     /// What the constructor reads and does not keep.
     struct Scene
     {
-      const FieldNumbering             &numbering;
+      const FieldNumbering                    &numbering;
       const dealii::AffineConstraints<double> &constraints; ///< of the scene
       const std::vector<Coupling>             &couplings;
     };
@@ -59,6 +58,13 @@ namespace mortise
     void
     apply_pressure_norm(LevelVector<double>       &dst,
                         const LevelVector<double> &p) const;
+
+    void
+    apply_pressure_norm(Vector &dst, const Vector &p) const;
+
+    /// 1 at the nodes of @p body that do not hang; others are left alone.
+    void
+    set_constant_pressure(const Body &body, Vector &p) const;
 
     /// diag(P), 1 where nodes hang.
     const LevelVector<double> &
@@ -98,8 +104,8 @@ namespace mortise
                                dealii::types::global_dof_index dof,
                                double value)> &set) const;
 
-    /// The same of the pressures, one per dof of the PressureSpace of each owned
-    /// cell of bodies in mixed form.
+    /// The same of the pressures, one per dof of the PressureSpace of each
+    /// owned cell of bodies in mixed form.
     void
     for_each_pressure_coefficient(
       const Vector                            &pressure,

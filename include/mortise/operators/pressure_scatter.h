@@ -21,9 +21,9 @@ namespace mortise
   /// The blocks of one cell, rows by pressure.
   struct PressureBlocks
   {
-    dealii::FullMatrix<double> divergence;  ///< G
-    dealii::FullMatrix<double> compliance;  ///< C
-    dealii::FullMatrix<double> norm;        ///< P, see BlockSystem
+    dealii::FullMatrix<double> divergence; ///< G
+    dealii::FullMatrix<double> compliance; ///< C
+    dealii::FullMatrix<double> norm;       ///< P, see BlockSystem
     dealii::Vector<double>     load;
   };
 

@@ -17,8 +17,8 @@ namespace mortise
   using Bodies = std::vector<std::unique_ptr<Body>>;
 
   /// The constraints of all bodies (conformity and Dirichlet, each in its
-  /// body's numbering, not closed) in the numbering of the scene, closed. Bodies
-  /// without the field have empty ones.
+  /// body's numbering, not closed) in the numbering of the scene, closed.
+  /// Bodies without the field have empty ones.
   dealii::AffineConstraints<double>
   scene_constraints(
     const FieldNumbering                                 &numbering,
@@ -74,7 +74,7 @@ namespace mortise
 
   /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
   void
-  describe_structure(const Bodies                &bodies,
+  describe_structure(const Bodies         &bodies,
                      const FieldNumbering &numbering,
                      BlockSystem          &system);
 } // namespace mortise

@@ -1,5 +1,6 @@
-// A displacement, its gradient and a pressure at the quadrature points of cells, by sum
-// factorisation on hexahedra. It never integrates and never writes.
+// A displacement, its gradient and a pressure at the quadrature points of
+// cells, by sum factorisation on hexahedra. It never integrates and never
+// writes.
 #pragma once
 
 #include <mortise/operators/cell_geometry.h>

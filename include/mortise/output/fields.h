@@ -17,9 +17,9 @@ namespace mortise
     bool traction     = false; ///< on slave surfaces: traction and gap
   };
 
-  /// DIRECTORY/NAME.vtu with displacement, stress and pressure of one body; higher-order
-  /// cells, so that a high degree looks as smooth as it is. Collective; all
-  /// ranks write one file.
+  /// DIRECTORY/NAME.vtu with displacement, stress and pressure of one body;
+  /// higher-order cells, so that a high degree looks as smooth as it is.
+  /// Collective; all ranks write one file.
   void
   write_body_fields(const Body           &body,
                     const BodySolution   &solution,

@@ -17,8 +17,8 @@ namespace mortise
   Formulation
   formulation_from_name(const std::string &name);
 
-  /// Is the body in mixed form? As asked; by itself from nu = 0.49 on, but below
-  /// 0.5 only if all its degrees are above one, which the form needs.
+  /// Is the body in mixed form? As asked; by itself from nu = 0.49 on, but
+  /// below 0.5 only if all its degrees are above one, which the form needs.
   bool
   is_mixed(const BodyParameters &body);
 

@@ -60,6 +60,11 @@ namespace mortise
     number_multipliers();
     void
     assemble();
+    /// Which constants of the pressure nothing determines; throws InputError
+    /// where prescribed displacements change the volume of an incompressible
+    /// body.
+    void
+    find_free_pressures();
     void
     solve();
     void
@@ -91,10 +96,10 @@ namespace mortise
     SceneField                                     pressure_field;
     SolverMethod method = SolverMethod::automatic; ///< chosen
     NodalSpaces  nodal_spaces; ///< for a bulk without a matrix, until assembly
-    std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
-    std::vector<Coupling>           couplings;
-    std::vector<std::vector<bool>>  occupied; ///< by body, owned dofs
-    BlockSystem                     system;
+    std::unique_ptr<NodalSpace>    nodal_pressures; ///< likewise, in mixed form
+    std::vector<Coupling>          couplings;
+    std::vector<std::vector<bool>> occupied; ///< by body, owned dofs
+    BlockSystem                    system;
     std::vector<CondensedInteriors> interiors; ///< by body
     SystemSolution                  solution;
     SolveReport                     solve_report;

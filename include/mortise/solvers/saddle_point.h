@@ -9,8 +9,8 @@
 namespace mortise
 {
   /// Solve by preconditioned GMRES; the preconditioner takes a
-  /// BulkPreconditioner, the Schur complement of its Lifting for the multipliers
-  /// and a PressurePreconditioner. See solve().
+  /// BulkPreconditioner, the Schur complement of its Lifting for the
+  /// multipliers and a PressurePreconditioner. See solve().
   SolveReport
   solve_saddle_point(const BlockSystem   &system,
                      const SolverOptions &options,

@@ -1,0 +1,50 @@
+// Constants that may be added to the pressure: those of incompressible bodies
+// that nothing lets expand, or of groups of such bodies tied to each other. It
+// never finds them.
+#pragma once
+
+#include <mortise/base/types.h>
+
+#include <vector>
+
+namespace mortise
+{
+  class FreePressures
+  {
+  public:
+    /// @p one: the constant 1 on one such group, zero elsewhere; @p mass: its
+    /// integrals against all pressures, int q. Collective.
+    void
+    add(const Vector &one, const Vector &mass);
+
+    bool
+    empty() const
+    {
+      return groups.empty();
+    }
+
+    /// For factorisations, which have to have a regular system: is the owned
+    /// pressure number @p i the one of its group that is to be held?
+    bool
+    is_pinned(unsigned int i) const;
+
+    /// p less its mean over each group. Collective.
+    void
+    project(Vector &p) const;
+
+    /// r less what a constant change of volume brings into it, so that it does
+    /// not see the constants. Collective.
+    void
+    project_residual(Vector &r) const;
+
+  private:
+    struct Group
+    {
+      Vector one, mass;
+      double volume;
+      int    pinned; ///< owned pressure, -1 on all ranks but one
+    };
+
+    std::vector<Group> groups;
+  };
+} // namespace mortise
