@@ -22,20 +22,11 @@ namespace mortise
       groups.back().pinned = first - begin;
   }
 
-  bool
-  FreePressures::is_pinned(const unsigned int i) const
-  {
-    for (const Group &group : groups)
-      if (group.pinned == static_cast<int>(i))
-        return true;
-    return false;
-  }
-
   void
   FreePressures::project(Vector &p) const
   {
-    for (const Group &group : groups)
-      p.add(-(group.mass * p) / group.volume, group.one);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      p.add(-mean(g, p), groups[g].one);
   }
 
   void

@@ -183,9 +183,10 @@ namespace mortise
         {
           rows.add(system.divergence.trilinos_matrix(), local, 0);
           rows.add(system.compliance.trilinos_matrix(), local, 1, -1.);
-          if (system.free_pressures.is_pinned(local))
-            rows.add(numbering(1, k),
-                     -1. / residual.inverse_diagonal_p()[local]);
+          for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
+            if (system.free_pressures.pinned(g) == local)
+              rows.add(numbering(1, k),
+                       -1. / residual.inverse_diagonal_p()[local]);
           ++local;
           rows.insert(numbering(1, k));
         }
@@ -209,6 +210,45 @@ namespace mortise
       for (auto *part : {&x.displacement, &x.pressure, &x.multiplier})
         for (unsigned int i = 0; i < part->locally_owned_size(); ++i)
           visit(v[next++], part->begin()[i]);
+    }
+
+    void
+    add(const double factor, const SystemSolution &from, SystemSolution &to)
+    {
+      to.displacement.add(factor, from.displacement);
+      to.pressure.add(factor, from.pressure);
+      to.multiplier.add(factor, from.multiplier);
+    }
+
+    /// What the system without pins leaves free, a constant pressure of mean
+    /// one and the multipliers that come with it, by group of FreePressures:
+    /// with a pin c at pressure k, (A + c e e^T) n = c e for A n = 0 and n_k
+    /// = 1.
+    std::vector<SystemSolution>
+    free_constants(const BlockSystem         &system,
+                   const Epetra_CrsMatrix    &matrix,
+                   const Epetra_Vector       &scale,
+                   const SparseFactorization &factorization)
+    {
+      std::vector<SystemSolution> result;
+      for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
+        {
+          Epetra_Vector b(matrix.RowMap()), y(b);
+          if (const int pinned = system.free_pressures.pinned(g); pinned >= 0)
+            b[system.owned_displacement.n_elements() + pinned] = 1.;
+          factorization.solve(y, b);
+          y.Multiply(1., scale, y, 0.);
+          SystemSolution constant = system.zero_solution();
+          for_each_value(y, constant, [](const double from, double &to) {
+            to = from;
+          });
+          SystemSolution scaled = system.zero_solution();
+          add(1. / system.free_pressures.mean(g, constant.pressure),
+              constant,
+              scaled);
+          result.push_back(scaled);
+        }
+      return result;
     }
   } // namespace
 
@@ -238,6 +278,9 @@ namespace mortise
     report.setup_seconds  = timer.wall_time();
     timer.restart();
 
+    std::vector<SystemSolution> constants;
+    if (factorized)
+      constants = free_constants(system, *matrix, scale, factorization);
     x                       = system.zero_solution();
     SystemSolution r        = system.zero_solution();
     const double   rhs_norm = residual.right_hand_side_norm();
@@ -255,7 +298,8 @@ namespace mortise
           break;
         y.Multiply(1., scale, y, 0.);
         for_each_value(y, x, [](const double from, double &to) { to += from; });
-        system.free_pressures.project(x.pressure);
+        for (unsigned int g = 0; g < constants.size(); ++g)
+          add(-system.free_pressures.mean(g, x.pressure), constants[g], x);
         residual.compute(x, r);
         report.relative_residual = residual.norm(r) / rhs_norm;
         report.history.push_back(report.relative_residual);

@@ -23,10 +23,26 @@ namespace mortise
       return groups.empty();
     }
 
-    /// For factorisations, which have to have a regular system: is the owned
-    /// pressure number @p i the one of its group that is to be held?
-    bool
-    is_pinned(unsigned int i) const;
+    unsigned int
+    size() const
+    {
+      return groups.size();
+    }
+
+    /// For factorisations, which have to have a regular system: the owned
+    /// pressure of group @p g that is to be held, -1 on all ranks but one.
+    int
+    pinned(const unsigned int g) const
+    {
+      return groups[g].pinned;
+    }
+
+    /// Mean of p over group @p g. Collective.
+    double
+    mean(const unsigned int g, const Vector &p) const
+    {
+      return (groups[g].mass * p) / groups[g].volume;
+    }
 
     /// p less its mean over each group. Collective.
     void
