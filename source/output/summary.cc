@@ -108,10 +108,10 @@ namespace mortise
     {
       Json json = Json::object();
       set(json, "displacement_l2", errors.displacement_l2);
-      set(json, "displacement_h1", errors.displacement_h1);
       set(json, "energy", errors.energy);
-      set(json, "pressure_l2", errors.pressure_l2);
       set(json, "multiplier_l2", errors.multiplier_l2);
+      set(json, "displacement_h1", errors.displacement_h1);
+      set(json, "pressure_l2", errors.pressure_l2);
       return json;
     }
 

@@ -243,6 +243,65 @@ namespace
             1e-9);
   }
 
+  /// Without divergence, at nu = 0.5, with a mean pressure.
+  void
+  check_incompressible()
+  {
+    const LinearElastic      material{10., 0.5, true};
+    const ExpressionSolution solution(
+      VectorExpression("sin(2*y + z); cos(x - 2*z); exp(x*y/2)"),
+      {material},
+      Expression("cos(2*x)*sin(y + z)"));
+    const Point<3> p(0.3, 0.4, 0.5);
+    const auto     stress = solution.stress(p, 0);
+    const double   mean   = std::cos(0.6) * std::sin(0.9);
+    const auto     strain = symmetrize(solution.gradient(p, 0));
+    at_most("incompressible: mean pressure",
+            std::fabs(-trace(stress) / 3. - mean),
+            1e-14);
+    at_most("incompressible: shear",
+            (deviator(stress) - 2. * material.lame_mu() * strain).norm(),
+            1e-13);
+    at_most("incompressible: pressure of the mixed form is the mean one",
+            std::fabs(material.pressure(strain, stress) - mean),
+            1e-13);
+    at_most("incompressible: stress by that pressure",
+            (material.stress(strain, mean) - stress).norm(),
+            1e-13);
+    Tensor<1, 3> divergence;
+    for (unsigned int j = 0; j < 3; ++j)
+      {
+        const auto slope = difference<SymmetricTensor<2, 3>>(
+          [&](const Point<3> &x) { return solution.stress(x, 0); }, p, j, 2e-3);
+        for (unsigned int i = 0; i < 3; ++i)
+          divergence[i] += slope[i][j];
+      }
+    at_most("incompressible: body force against differences of the stress",
+            (divergence + solution.body_force(p, 0)).norm(),
+            1e-8);
+  }
+
+  /// The two shares of the mixed form add up to the law, and both are bounded
+  /// where the law is not.
+  void
+  check_mixed()
+  {
+    for (const double nu : {0.1, 0.3, 0.49, 0.499999})
+      {
+        const LinearElastic material{10., nu, true};
+        const double        sum =
+          material.displacement_lambda() + 1. / material.compressibility();
+        at_most("mixed form, nu = " + std::to_string(nu) + ": lambda",
+                relative(sum, material.lame_lambda()),
+                1e-9);
+      }
+    const LinearElastic limit{10., 0.5, true};
+    at_most("mixed form: compressibility at 0.5", limit.compressibility(), 0.);
+    at_most("mixed form: lambda of the displacement at 0.5",
+            limit.displacement_lambda(),
+            limit.lame_mu());
+  }
+
   void
   refused(const std::string                      &what,
           const std::vector<LameSolution::Layer> &layers,
@@ -291,6 +350,8 @@ main()
   check_contrast("sphere", sphere);
   check_contrast("cylinder", cylinder);
   check_expressions();
+  check_incompressible();
+  check_mixed();
   refused("inner radius zero", {{0., 1., {}}}, "0 < inner < outer");
   refused("radii exchanged", {{2., 1., {}}}, "0 < inner < outer");
   refused("layers with a gap",

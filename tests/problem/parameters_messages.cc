@@ -330,13 +330,12 @@ namespace
                {"Body inner/Material/Young modulus (line 15",
                 "got -10",
                 "positive"});
-    check_edit("Poisson's ratio 0.5",
+    check_edit("Poisson's ratio 0.6",
                "ratio = 0.25",
-               "ratio = 0.5",
+               "ratio = 0.6",
                {"Body inner/Material/Poisson ratio (line 16",
-                "got 0.5",
-                "below 0.5",
-                "not available yet"});
+                "got 0.6",
+                "not above 0.5"});
     check_edit("Poisson's ratio -1",
                "ratio = 0.25",
                "ratio = -1",

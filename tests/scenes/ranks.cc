@@ -45,6 +45,13 @@ namespace
     same("multiplier error",
          *together.errors->multiplier_l2,
          *alone.errors->multiplier_l2);
+    if (alone.dofs.pressure)
+      {
+        same("pressures", *together.dofs.pressure, *alone.dofs.pressure);
+        same("pressure error",
+             *together.errors->pressure_l2,
+             *alone.errors->pressure_l2);
+      }
     for (unsigned int i = 0; i < alone.quantities.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
         same(alone.quantities[i].first + " " + std::to_string(c),
@@ -83,6 +90,27 @@ main(int argc, char *argv[])
   check("sphere with hanging nodes and mixed degrees",
         two_layers(true),
         settings);
+  const Settings incompressible = {"Body inner/Material/Poisson ratio=0.5",
+                                   "Body outer/Material/Poisson ratio=0.5"};
+  check("incompressible, hanging nodes and mixed degrees",
+        two_layers(true),
+        quantities + incompressible +
+          Settings{"Solver/Method=direct",
+                   "Body inner/Degree=2",
+                   "Body outer/Degree=2",
+                   "Body inner/Degree by region=0: 3",
+                   "Body outer/Degree by region=1: 4",
+                   "Body inner/Mesh/Refine near=0, 0, 1.5, 0.6, 1",
+                   "Body outer/Mesh/Refine near=1.5, 0, 0, 0.5, 1"});
+  for (const std::string method : {"direct", "saddle point"})
+    check("incompressible tetrahedra on hexahedra, " + method,
+          two_layers(true),
+          quantities + incompressible +
+            Settings{"Solver/Method=" + method,
+                     "Solver/Tolerance=1e-12",
+                     "Body inner/Mesh/Cells=tetrahedra",
+                     "Body inner/Degree=2",
+                     "Body outer/Degree=3"});
   check("no vertex of the slave free along the axis",
         two_layers(false),
         {"Solver/Method=direct",

@@ -40,7 +40,9 @@ scene=$prm/patch.prm
 expect 2 'Degree' "$scene" --set 'Body lower/Degre=2'
 expect 2 'Degree' "$scene" --set 'Body lower/Degree=two'
 expect 2 '1.*8' "$scene" --set 'Body lower/Degree=9'
-expect 2 '0.5' "$scene" --set 'Body lower/Material/Poisson ratio=0.5'
+expect 2 'not above 0.5' "$scene" --set 'Body lower/Material/Poisson ratio=0.51'
+expect 2 'Exact solution/Pressure' "$scene" --set 'Body lower/Material/Poisson ratio=0.5' --set 'Body lower/Degree=2'
+expect 2 'degree 1 in mixed form' "$scene" --set 'Body lower/Formulation=mixed' --set 'Body lower/Degree=1'
 expect 2 'Young' "$scene" --set 'Body lower/Material/Young modulus=-1'
 expect 2 'missing.msh' "$scene" --set 'Body lower/Mesh/Source=file' --set 'Body lower/Mesh/File=missing.msh' \
   --set 'Body lower/Mesh/Extent=' --set 'Body lower/Mesh/Subdivisions='

@@ -75,10 +75,10 @@ namespace mortise
   struct ErrorSummary
   {
     std::optional<double> displacement_l2;
-    std::optional<double> displacement_h1;
     std::optional<double> energy;
-    std::optional<double> pressure_l2; ///< with bodies in mixed form
     std::optional<double> multiplier_l2;
+    std::optional<double> displacement_h1;
+    std::optional<double> pressure_l2; ///< with bodies in mixed form
   };
 
   struct StepSummary

@@ -1,0 +1,285 @@
+// Proves that the matrix-free products in mixed form are those of the matrices
+// of cells in another basis, for p = 2..8 on affine, straight and curved cells
+// and beside bodies in displacement form: displacement and pressure tested with
+// other fields, the force of a pressure, the norm of pressures and its
+// diagonal; that with hanging nodes they are symmetric. The same on every
+// number of ranks.
+#include <deal.II/fe/fe_q.h>
+
+#include <mortise/operators/cell_kernel.h>
+#include <mortise/operators/nodal_system.h>
+#include <mortise/operators/pressure_kernel.h>
+#include <mortise/operators/scene_system.h>
+
+#include <cmath>
+
+#include "../scenes/scene.h"
+
+namespace mortise::testing
+{
+  using namespace dealii;
+
+  MeshParameters
+  mesh(const std::string &kind)
+  {
+    MeshParameters result;
+    if (kind == "curved" || kind == "hanging")
+      {
+        result.source       = "shell octant";
+        result.extent       = {1., 2.};
+        result.subdivisions = {2, 1};
+        if (kind == "hanging")
+          result.refine_near = "0, 0, 1, 0.1, 1";
+        return result;
+      }
+    result.source       = "box";
+    result.extent       = {0., 0., 0., 1., 2., 3.};
+    result.subdivisions = {3, 2, 3};
+    result.rotate       = {{20., 30., 40.}};
+    result.distort      = kind == "straight" ? 0.2 : 0.;
+    return result;
+  }
+
+  struct Scene
+  {
+    /// Bodies of degree one are in displacement form.
+    Scene(const std::vector<std::string>  &kinds,
+          const std::vector<unsigned int> &degrees)
+    {
+      std::vector<const DoFHandler<dim> *>   handlers;
+      std::vector<AffineConstraints<double>> conformity(kinds.size());
+      for (unsigned int b = 0; b < kinds.size(); ++b)
+        {
+          bodies.push_back(std::make_unique<Body>(
+            "body", b, LinearElastic{1. + b, 0.4, degrees[b] > 1}));
+          bodies[b]->create_mesh(mesh(kinds[b]), MPI_COMM_WORLD, "");
+          bodies[b]->create_space(degrees[b], {}, "");
+          handlers.push_back(&bodies[b]->dof_handler);
+          pointers.push_back(bodies[b].get());
+          conformity[b].copy_from(bodies[b]->conformity);
+        }
+      field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
+      field.constraints = scene_constraints(field.numbering, conformity);
+      auto spaces       = make_nodal_spaces(pointers, MPI_COMM_WORLD);
+      auto pressures    = make_nodal_pressures(pointers, MPI_COMM_WORLD);
+      u_nodes           = displacement_indices(spaces.front()->owned_nodes());
+      p_nodes           = pressures->owned_nodes();
+      system            = std::make_unique<NodalSystem>(
+        std::move(spaces),
+        std::move(pressures),
+        NodalSystem::Scene{field.numbering, field.constraints, {}},
+        MPI_COMM_WORLD);
+      pressure_space = make_nodal_pressures(pointers, MPI_COMM_WORLD);
+    }
+
+    Bodies                       bodies;
+    std::vector<const Body *>    pointers;
+    SceneField                   field;
+    IndexSet                     u_nodes, p_nodes;
+    std::unique_ptr<NodalSystem> system;
+    std::unique_ptr<NodalSpace>  pressure_space; ///< equal to the system's
+  };
+
+  double
+  random_number(const unsigned int seed, const types::global_dof_index i)
+  {
+    const double x = std::sin(12.9898 * (i + 1.) + 78.233 * seed) * 43758.5453;
+    return x - std::floor(x) - 0.5;
+  }
+
+  /// Random where nothing hangs, zero elsewhere.
+  mortise::Vector
+  random_vector(const IndexSet    &owned,
+                const NodalSpace  &space,
+                const unsigned int n_components,
+                const unsigned int seed)
+  {
+    mortise::Vector v(owned, MPI_COMM_WORLD);
+    for (const auto i : owned)
+      if (!space.hanging_nodes().is_constrained(i / n_components))
+        v[i] = random_number(seed, i);
+    v.compress(VectorOperation::insert);
+    return v;
+  }
+
+  /// Values that a rank needs, of index i.
+  mortise::Vector
+  ghosted(const mortise::Vector &v,
+          const IndexSet        &owned,
+          const IndexSet        &relevant)
+  {
+    mortise::Vector result(owned, relevant, MPI_COMM_WORLD);
+    result = v;
+    return result;
+  }
+
+  struct Expected
+  {
+    double mixed = 0., force = 0., norm = 0., trace = 0.;
+  };
+
+  struct Fields
+  {
+    mortise::Vector u, p;
+  };
+
+  /// (w, q) [K G^T; G -C] (u, p), w G^T p, q P p and the trace of P by the
+  /// matrices of cells in the nodal bases of deal.II.
+  Expected
+  by_matrices(const Scene &scene, const Fields &left, const Fields &right)
+  {
+    const NodalSpace &space     = *scene.system->levels().front().space,
+                     &pressures = *scene.pressure_space;
+    const auto on_cells         = [&](const Fields &fields) {
+      return Fields{ghosted(fields.u,
+                            scene.u_nodes,
+                            displacement_indices(space.relevant_nodes())),
+                    ghosted(fields.p,
+                            scene.p_nodes,
+                            pressures.relevant_nodes())};
+    };
+    const Fields                   a = on_cells(left), b = on_cells(right);
+    Expected                       sum;
+    std::vector<NodalSpace::Index> nodes, p_nodes;
+    for (const Body *body : space.bodies())
+      {
+        const unsigned int              p = space.degree(body->index);
+        const FESystem<dim>             system(FE_Q<dim>(p), dim);
+        CellKernel                      stiffness(*body, system);
+        FullMatrix<double>              K(system.n_dofs_per_cell());
+        std::unique_ptr<PressureKernel> kernel;
+        if (body->pressure)
+          kernel =
+            std::make_unique<PressureKernel>(*body, system, FE_Q<dim>(p - 1));
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              stiffness.compute(cell, K);
+              space.get_nodes(body->index, cell, nodes);
+              dealii::Vector<double> w(K.m()), u(K.m());
+              for (unsigned int i = 0; i < K.m(); ++i)
+                {
+                  const auto [c, k] = system.system_to_component_index(i);
+                  w(i)              = a.u(dim * nodes[k] + c);
+                  u(i)              = b.u(dim * nodes[k] + c);
+                }
+              sum.mixed += K.matrix_scalar_product(w, u);
+              if (!kernel)
+                continue;
+              kernel->compute(cell);
+              const auto &M = kernel->mass();
+              pressures.get_nodes(body->index, cell, p_nodes);
+              dealii::Vector<double> q(M.m()), r(M.m());
+              for (unsigned int i = 0; i < M.m(); ++i)
+                {
+                  q(i) = a.p(p_nodes[i]);
+                  r(i) = b.p(p_nodes[i]);
+                  sum.trace += body->material.pressure_norm() * M(i, i);
+                }
+              const double force =
+                kernel->divergence().matrix_scalar_product(r, w);
+              sum.force += force;
+              sum.mixed += force +
+                           kernel->divergence().matrix_scalar_product(q, u) -
+                           body->material.compressibility() *
+                             M.matrix_scalar_product(q, r);
+              sum.norm +=
+                body->material.pressure_norm() * M.matrix_scalar_product(q, r);
+            }
+      }
+    for (double *value : {&sum.mixed, &sum.force, &sum.norm, &sum.trace})
+      *value = Utilities::MPI::sum(*value, MPI_COMM_WORLD);
+    return sum;
+  }
+
+  Fields
+  random_fields(const Scene &scene, const unsigned int seed)
+  {
+    return {random_vector(
+              scene.u_nodes, *scene.system->levels().front().space, dim, seed),
+            random_vector(scene.p_nodes, *scene.pressure_space, 1, seed + 1)};
+  }
+
+  double
+  relative(const double got, const double expected)
+  {
+    return std::fabs(got / expected - 1.);
+  }
+
+  void
+  check(const std::string               &name,
+        const std::vector<std::string>  &kinds,
+        const std::vector<unsigned int> &degrees)
+  {
+    const Scene  scene(kinds, degrees);
+    const Fields left       = random_fields(scene, 1),
+                 right      = random_fields(scene, 3);
+    const Expected expected = by_matrices(scene, left, right);
+    Fields         product  = right;
+    scene.system->apply_mixed(product.u, product.p, right.u, right.p);
+    verdict(name + ": product",
+            relative(left.u * product.u + left.p * product.p, expected.mixed),
+            1e-11);
+    product.u = 0.;
+    scene.system->add_pressure_force(product.u, right.p);
+    verdict(name + ": force of a pressure",
+            relative(left.u * product.u, expected.force),
+            1e-11);
+    scene.system->apply_pressure_norm(product.p, right.p);
+    verdict(name + ": norm of pressures",
+            relative(left.p * product.p, expected.norm),
+            1e-11);
+    verdict(name + ": its diagonal",
+            relative(scene.system->pressure_norm_diagonal().l1_norm(),
+                     expected.trace),
+            1e-11);
+  }
+
+  void
+  check_symmetry(const std::string &name, const unsigned int p)
+  {
+    const Scene  scene({"hanging"}, {p});
+    const Fields left  = random_fields(scene, 1),
+                 right = random_fields(scene, 3);
+    Fields a = left, b = right;
+    scene.system->apply_mixed(a.u, a.p, left.u, left.p);
+    scene.system->apply_mixed(b.u, b.p, right.u, right.p);
+    const double ab = a.u * right.u + a.p * right.p,
+                 ba = b.u * left.u + b.p * left.p;
+    verdict(name + ": symmetric", relative(ab, ba), 1e-10);
+    a.u = 0.;
+    scene.system->add_pressure_force(a.u, right.p);
+    Fields constant = right;
+    scene.system->apply_mixed(b.u,
+                              b.p,
+                              left.u,
+                              mortise::Vector(scene.p_nodes, MPI_COMM_WORLD));
+    verdict(name + ": force of a pressure",
+            relative(a.u * left.u, b.p * right.p),
+            1e-10);
+    constant.p = 0.;
+    scene.system->set_constant_pressure(*scene.bodies.front(), constant.p);
+    scene.system->apply_pressure_norm(b.p, constant.p);
+    const LinearElastic &material = scene.bodies.front()->material;
+    // an eighth of a shell
+    verdict(name + ": volume",
+            relative(constant.p * b.p / material.pressure_norm(),
+                     numbers::PI / 6. * 7.),
+            p < 4 ? 1e-3 : 1e-6);
+  }
+} // namespace mortise::testing
+
+int
+main(int argc, char **argv)
+{
+  using namespace mortise::testing;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (const std::string kind : {"affine", "straight", "curved"})
+    for (unsigned int p = 2; p <= mortise::max_degree; ++p)
+      check(kind + ", p = " + std::to_string(p), {kind}, {p});
+  check("three bodies, p = 5, 1, 2",
+        {"curved", "affine", "straight"},
+        {5, 1, 2});
+  for (const unsigned int p : {2, 3, 5})
+    check_symmetry("hanging nodes, p = " + std::to_string(p), p);
+}

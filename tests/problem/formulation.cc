@@ -1,0 +1,104 @@
+// Proves which bodies take the mixed form by themselves, and that every form
+// which does not exist with the rest of a scene gives one message with what,
+// where, what was got and what is allowed.
+#include <mortise/problem/formulation.h>
+
+#include "parameter_checks.h"
+
+using namespace parameter_checks;
+
+namespace
+{
+  bool
+  mixed(const double                                nu,
+        const unsigned int                          degree,
+        const std::map<unsigned int, unsigned int> &regions = {},
+        const Formulation formulation = Formulation::automatic)
+  {
+    BodyParameters body;
+    body.degree                 = degree;
+    body.degree_by_region       = regions;
+    body.material.poisson_ratio = nu;
+    body.formulation            = formulation;
+    return is_mixed(body);
+  }
+
+  /// The scene with nu and the degrees of the inner body replaced.
+  Parameters
+  scene_with(const std::string &nu, const Settings &settings)
+  {
+    Settings all = {"Body inner/Material/Poisson ratio=" + nu,
+                    "Body inner/Degree by region="};
+    all.insert(all.end(), settings.begin(), settings.end());
+    return parse_parameters(scene, "a.prm", all);
+  }
+
+  void
+  check(const std::string              &what,
+        const std::string              &nu,
+        const Settings                 &settings,
+        const std::vector<std::string> &parts)
+  {
+    check_message(
+      what, [&] { validate(scene_with(nu, settings)); }, parts);
+  }
+} // namespace
+
+int
+main()
+{
+  verdict(!mixed(0.489, 2), "displacement below 0.49");
+  verdict(mixed(0.49, 2), "mixed from 0.49 on");
+  verdict(!mixed(0.49, 1), "displacement at degree 1");
+  verdict(!mixed(0.49, 2, {{3, 1}}),
+          "displacement where a region has degree 1");
+  verdict(mixed(0.5, 1), "mixed at 0.5 whatever the degree");
+  verdict(mixed(0.3, 2, {}, Formulation::mixed), "mixed when asked for");
+  verdict(!mixed(0.499, 2, {}, Formulation::displacement),
+          "displacement when asked for");
+  check_message("0.5 is allowed",
+                [] { validate(scene_with("0.5", {})); },
+                {"(no error)"});
+  check("an unknown form",
+        "0.3",
+        {"Body inner/Formulation=mixd"},
+        {"Body inner/Formulation", "mixd", "auto, displacement, mixed"});
+  check("displacement form at 0.5",
+        "0.5",
+        {"Body inner/Formulation=displacement"},
+        {"Body inner/Formulation (--set",
+         "displacement",
+         "Poisson ratio 0.5",
+         "allowed: mixed or auto"});
+  check("degree 1 at 0.5",
+        "0.5",
+        {"Body inner/Degree=1"},
+        {"Body inner/Degree (--set", "degree 1", "degrees from 2 to 8"});
+  check("degree 1 in a region at 0.5",
+        "0.5",
+        {"Body inner/Degree by region=3: 1"},
+        {"Body inner/Degree by region (--set",
+         "degree 1",
+         "degrees from 2 to 8"});
+  check("mixed form at 0",
+        "0",
+        {"Body inner/Formulation=mixed"},
+        {"Body inner/Formulation (--set", "Poisson ratio 0", "displacement"});
+  check("conjugate gradients in mixed form",
+        "0.5",
+        {"Solver/Method=condensed"},
+        {"Solver/Method (--set", "inner", "auto, saddle point, direct"});
+  check("a pressure beside a named solution",
+        "0.5",
+        {"Exact solution/Pressure=1"},
+        {"Exact solution/Pressure (--set", "allowed: nothing"});
+  const std::string field = "Exact solution/Displacement=x; -y; 0";
+  check("no pressure for an expression at 0.5",
+        "0.5",
+        {field},
+        {"Exact solution/Pressure", "got nothing", "mean pressure"});
+  check("a pressure that does not parse",
+        "0.5",
+        {field, "Exact solution/Pressure=1 +"},
+        {"Exact solution/Pressure (--set"});
+}
