@@ -8,6 +8,7 @@
 #include <mortise/body/simplex_quadrature.h>
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/elasticity.h>
+#include <mortise/operators/element_schur.h>
 #include <mortise/operators/matrix_scatter.h>
 #include <mortise/operators/pressure_kernel.h>
 #include <mortise/operators/pressure_scatter.h>
@@ -192,12 +193,27 @@ namespace mortise
       scatter.add(kernel.matrix, kernel.load, dofs);
     }
 
+    /// Which displacements of the boundary of a cell are not prescribed.
+    std::vector<unsigned int>
+    not_prescribed(const AffineConstraints<double>            &constraints,
+                   const std::vector<types::global_dof_index> &dofs,
+                   const FiniteElement<dim>                   &system)
+    {
+      std::vector<unsigned int> free;
+      for (unsigned int i = 0; i < system.get_first_hex_index(); ++i)
+        if (const auto *entries = constraints.get_constraint_entries(dofs[i]);
+            entries == nullptr || !entries->empty())
+          free.push_back(i);
+      return free;
+    }
+
     /// The same in mixed form: with what is eliminated counted last, the cell
     /// has the displacements of its boundary, its pressures, and the rest.
     void
     add_mixed(Kernel                                     &kernel,
               std::vector<types::global_dof_index>        dofs,
               const std::vector<types::global_dof_index> &pressures,
+              const std::vector<unsigned int>            &free,
               CondensedInteriors                         &interiors,
               MatrixScatter                              &scatter,
               PressureScatter                            &pressure_scatter)
@@ -235,8 +251,6 @@ namespace mortise
       PressureBlocks &blocks = kernel.blocks;
       blocks.divergence.reinit(n_p, n_b);
       blocks.compliance.reinit(n_p, n_p);
-      blocks.norm = M;
-      blocks.norm *= material.pressure_norm();
       blocks.load.reinit(n_p);
       for (unsigned int k = 0; k < n_p; ++k)
         {
@@ -245,6 +259,16 @@ namespace mortise
           for (unsigned int l = 0; l < n_p; ++l)
             blocks.compliance(k, l) = -all(n_b + k, n_b + l);
           blocks.load(k) = load(n_b + k);
+        }
+      blocks.norm = M;
+      blocks.norm *= material.pressure_norm();
+      if (free.size() < n_b)
+        {
+          blocks.norm *= 1e-3; // regular even where no displacement is free
+          blocks.norm.add(1.,
+                          element_schur(all, blocks.divergence, free),
+                          1.,
+                          blocks.compliance);
         }
       pressure_scatter.add(blocks, pressures, dofs);
     }
@@ -288,6 +312,7 @@ namespace mortise
               add_mixed(*kernel,
                         dofs,
                         pressures->dofs(body, cell),
+                        not_prescribed(constraints, dofs, cell->get_fe()),
                         interiors,
                         scatter,
                         *pressures);

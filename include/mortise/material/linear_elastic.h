@@ -55,12 +55,13 @@ namespace mortise
     double
     compressibility() const;
 
-    /// c + 1 / (2 mu + lambda_u): with it a mass matrix of pressures is as
-    /// large as their Schur complement.
+    /// c + 1 / (2/3 mu + lambda_u): with it a mass matrix of pressures bounds
+    /// their Schur complement from above, to which dilations come closest.
     double
     pressure_norm() const
     {
-      return compressibility() + 1. / (2. * lame_mu() + displacement_lambda());
+      return compressibility() +
+             1. / (2. / 3. * lame_mu() + displacement_lambda());
     }
 
     /// The stress by displacement and pressure, which is zero if not mixed.

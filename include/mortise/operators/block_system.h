@@ -57,8 +57,9 @@ namespace mortise
     /// rows and columns are zero, but for a positive diagonal of C.
     SparseMatrix divergence, compliance;
     Vector       pressure_load;
-    /// P = int p q (c + 1 / (2 mu + lambda_u)), which C + G K^{-1} G^T is
-    /// spectrally equivalent to, whatever c is.
+    /// P = int p q (c + 1 / (2/3 mu + lambda_u)), which C + G K^{-1} G^T is
+    /// spectrally equivalent to, whatever c is; in cells some of whose
+    /// displacements are prescribed, what element_schur() has instead.
     SparseMatrix pressure_norm;
     /// Constants that the equations leave free: solutions have none of them.
     FreePressures free_pressures;
