@@ -108,12 +108,14 @@ namespace mortise::testing
                    const Indices      &rows,
                    const Places       &columns)
   {
-    const auto         &a = A.trilinos_matrix(), &b = B.trilinos_matrix();
+    const auto &a = A.trilinos_matrix(), &b = B.trilinos_matrix();
+    DenseMatrix S(rows.size(), rows.size());
+    if (a.NumGlobalRows() == 0) // nothing is free
+      return S;
     SparseFactorization factors;
     if (!factors.initialize(a, MatrixKind::positive_definite))
       throw std::runtime_error("the inner product is not positive definite");
     Epetra_Vector x(a.RowMap()), y(a.RowMap());
-    DenseMatrix   S(rows.size(), rows.size());
     const auto    for_entries = [&](const unsigned int row, const auto &visit) {
       const EpetraRow view(b, rows[row]);
       for (int k = 0; k < view.length; ++k)

@@ -248,8 +248,8 @@ namespace mortise::testing
     double slave = 0.; ///< by the slave's displacements alone, in their norm
   };
 
-  /// How the norm sees displacements: the slave's mesh, mirrored at the
-  /// interface, halved and raised in degree.
+  /// Displacements that the norm is computed with: the slave's box, mirrored at
+  /// the interface, its subdivisions halved and the degree raised.
   struct NormSpace
   {
     unsigned int halvings = 1, degrees = 2;
@@ -274,7 +274,8 @@ namespace mortise::testing
       const double top = box[5];
       box[5] += top - box[2];
       box[2] = top;
-      rich.mesh.refinements += space.halvings;
+      for (auto &n : rich.mesh.subdivisions)
+        n <<= space.halvings;
       return InfSupInterface(slave, rich, reduced).schur(1, 0);
     };
     const DenseMatrix N_slave = norm(slave.clamped);
