@@ -156,6 +156,11 @@ as slaves have lower constants than hexahedra, which fall with p without rims, t
 from {simplices}). The least of all the cases above, without those that ignore the
 rims, is {float(worst["beta"]):.3f} (p = {worst["degree"]}, {pair(worst)}, {rim(worst)}{", " + worst["cells"] if worst["cells"] else ""}).
 
+The rule of an integration cell is exact for total degree 2p + 2, not for all products of two Q_p functions. Where cells are
+triangles of a square slave face (master of tetrahedra, or turned against the slave) that weakens the highest
+modes of D: squares on triangles, free, have constants of the slave that fall with p, while those on squares do not; with 14 points
+per direction they are the same.
+
 The norm is rich enough: a richer space changes the constants by a hundredth or two.
 
 A zero in brackets says that no displacement of the slave's is left to feel some multiplier. That happens once with the
@@ -207,7 +212,8 @@ that is much richer than either body's: the slave's box, halved cells, degree p 
 each with the Dirichlet conditions of its side. It is equivalent to the H^{-1/2} norm with constants that depend on the boxes
 only, and beta = 1 would mean that the two bodies feel a multiplier as well as all displacements do. Where the slave is much finer
 the master feels nearly nothing of its short waves, so that 1/sqrt(2) = 0.707 is the most to be had. In brackets: the same with the
-slave's displacements alone against the slave's half of N, which is what the theory bounds; it doesn't depend on the master.
+slave's displacements alone against the slave's half of N, which is what the theory bounds;
+it depends on the master only through the points that D is integrated with.
 A couples no components, so that one of the three is enough.
 
 Strips for large ratios: the interface is 1 long and 1/10 wide (1/20 for ratios of 20), one cell across, bodies as high as wide; the
