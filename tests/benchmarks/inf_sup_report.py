@@ -157,7 +157,7 @@ from {simplices}). The least of all the cases above, without those that ignore t
 rims, is {float(worst["beta"]):.3f} (p = {worst["degree"]}, {pair(worst)}, {rim(worst)}{", " + worst["cells"] if worst["cells"] else ""}).
 
 The rule of an integration cell is exact for total degree 2p + 2, not for all products of two Q_p functions. Where cells are
-triangles of a square slave face (master of tetrahedra, or turned against the slave) that weakens the highest
+triangles of a square slave face (a master of tetrahedra) that weakens the highest
 modes of D: squares on triangles, free, have constants of the slave that fall with p, while those on squares do not; with 14 points
 per direction they are the same.
 
