@@ -50,7 +50,9 @@ namespace mortise
             for (const Triangle &base : cut_quadrilateral(face))
               {
                 CellData<3> cell(4);
-                cell.vertices    = {lowest, base[0], base[1], base[2]};
+                cell.vertices = {lowest, base[0], base[1], base[2]};
+                if (f % 2 == 0) // seen from inside, deal.II's order goes round
+                  std::swap(cell.vertices[2], cell.vertices[3]);
                 cell.material_id = hexahedron.material_id;
                 cells.push_back(cell);
               }

@@ -1,0 +1,285 @@
+// Inf-sup constants as eigenvalues, for meshes so small that dense matrices
+// serve: of pressures against displacements, by the scene's own assembly. No
+// preconditioner of the program is used. It never judges a number.
+#pragma once
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <Teuchos_LAPACK.hpp>
+#include <mortise/body/boundary_conditions.h>
+#include <mortise/body/legendre_elements.h>
+#include <mortise/operators/scene_system.h>
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/sparse_factorization.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mortise::testing
+{
+  using DenseMatrix = dealii::LAPACKFullMatrix<double>;
+  using Indices     = std::vector<unsigned int>;
+
+  /// The eigenvalues of S x = e N x, rising; S symmetric, N symmetric and
+  /// positive definite.
+  inline std::vector<double>
+  generalized_eigenvalues(const DenseMatrix &S, const DenseMatrix &N)
+  {
+    const int           n = S.m();
+    std::vector<double> scale(n), a(n * n), b(n * n), values(n), work(64 * n);
+    for (int i = 0; i < n; ++i)
+      scale[i] = 1. / std::sqrt(N(i, i));
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        {
+          const double both = 0.5 * scale[i] * scale[j];
+          a[j * n + i]      = both * (S(i, j) + S(j, i));
+          b[j * n + i]      = both * (N(i, j) + N(j, i));
+        }
+    int info = 0;
+    Teuchos::LAPACK<int, double>().SYGV(1,
+                                        'N',
+                                        'U',
+                                        n,
+                                        a.data(),
+                                        n,
+                                        b.data(),
+                                        n,
+                                        values.data(),
+                                        work.data(),
+                                        work.size(),
+                                        &info);
+    if (info != 0)
+      throw std::runtime_error("the norm is not positive definite");
+    return values;
+  }
+
+  /// Which rows or columns of a matrix are taken: their place, or -1.
+  using Places = std::vector<int>;
+
+  inline Places
+  places(const unsigned int n, const Indices &taken)
+  {
+    Places result(n, -1);
+    for (unsigned int i = 0; i < taken.size(); ++i)
+      result[taken[i]] = i;
+    return result;
+  }
+
+  /// The rows and columns @p taken of @p A. One rank.
+  inline SparseMatrix
+  submatrix(const SparseMatrix &A, const Indices &taken)
+  {
+    const Places place = places(A.m(), taken);
+    const auto   visit = [&](const auto &entry) {
+      for (unsigned int i = 0; i < taken.size(); ++i)
+        {
+          const EpetraRow row(A.trilinos_matrix(), taken[i]);
+          for (int k = 0; k < row.length; ++k)
+            if (const int j = place[A.trilinos_matrix().GCID(row.columns[k])];
+                j >= 0)
+              entry(i, j, row.values[k]);
+        }
+    };
+    dealii::DynamicSparsityPattern sparsity(taken.size(), taken.size());
+    visit([&](const unsigned int i, const unsigned int j, const double) {
+      sparsity.add(i, j);
+    });
+    SparseMatrix result;
+    const auto   all = dealii::complete_index_set(taken.size());
+    result.reinit(all, all, sparsity, MPI_COMM_WORLD, true);
+    visit([&](const unsigned int i, const unsigned int j, const double value) {
+      result.set(i, j, value);
+    });
+    result.compress(dealii::VectorOperation::insert);
+    return result;
+  }
+
+  /// B A^{-1} B^T with @p rows of B and those of its columns that have a place
+  /// in A. One rank.
+  inline DenseMatrix
+  schur_complement(const SparseMatrix &A,
+                   const SparseMatrix &B,
+                   const Indices      &rows,
+                   const Places       &columns)
+  {
+    const auto &a = A.trilinos_matrix(), &b = B.trilinos_matrix();
+    DenseMatrix S(rows.size(), rows.size());
+    if (a.NumGlobalRows() == 0) // nothing is free
+      return S;
+    SparseFactorization factors;
+    if (!factors.initialize(a, MatrixKind::positive_definite))
+      throw std::runtime_error("the inner product is not positive definite");
+    Epetra_Vector x(a.RowMap()), y(a.RowMap());
+    const auto    for_entries = [&](const unsigned int row, const auto &visit) {
+      const EpetraRow view(b, rows[row]);
+      for (int k = 0; k < view.length; ++k)
+        if (const int j = columns[b.GCID(view.columns[k])]; j >= 0)
+          visit(j, view.values[k]);
+    };
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        y.PutScalar(0.);
+        for_entries(i, [&](const int j, const double value) { y[j] += value; });
+        if (!factors.solve(x, y))
+          throw std::runtime_error("the solve failed");
+        for (unsigned int k = 0; k <= i; ++k)
+          {
+            double sum = 0.;
+            for_entries(k, [&](const int j, const double value) {
+              sum += value * x[j];
+            });
+            S(i, k) = S(k, i) = sum;
+          }
+      }
+    return S;
+  }
+
+  /// Add @p rows and columns of a sparse matrix.
+  inline void
+  add_dense(const SparseMatrix &matrix, const Indices &rows, DenseMatrix &dense)
+  {
+    const auto  &sparse = matrix.trilinos_matrix();
+    const Places place  = places(matrix.m(), rows);
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        const EpetraRow view(sparse, rows[i]);
+        for (int k = 0; k < view.length; ++k)
+          if (const int j = place[sparse.GCID(view.columns[k])]; j >= 0)
+            dense(i, j) += view.values[k];
+      }
+  }
+
+  /// One body, homogeneous conditions.
+  struct InfSupBody
+  {
+    MeshParameters                                 mesh;
+    unsigned int                                   degree = 2;
+    std::map<dealii::types::material_id, unsigned> degree_by_region;
+    std::vector<std::string>                       clamped; ///< boundaries
+  };
+
+  inline std::unique_ptr<Body>
+  make_body(const InfSupBody   &given,
+            const unsigned int  index,
+            const LinearElastic material)
+  {
+    auto body =
+      std::make_unique<Body>("body " + std::to_string(index), index, material);
+    body->create_mesh(given.mesh, MPI_COMM_WORLD, "inf-sup");
+    body->create_space(given.degree, given.degree_by_region, "inf-sup");
+    return body;
+  }
+
+  /// Conformity and the conditions, open.
+  inline dealii::AffineConstraints<double>
+  make_constraints(const Body &body, const InfSupBody &given)
+  {
+    dealii::AffineConstraints<double> constraints;
+    constraints.copy_from(body.conformity);
+    std::vector<DirichletCondition> conditions;
+    for (const std::string &name : given.clamped)
+      conditions.push_back(
+        {body.boundary_id(name, "inf-sup"), {{true, true, true}}, {}});
+    add_dirichlet_constraints(body, conditions, constraints);
+    return constraints;
+  }
+
+  /// Replace the pressures of @p body by those of the displacement's degree.
+  inline void
+  set_equal_order(Body &body)
+  {
+    dealii::hp::FECollection<dim> fe;
+    dealii::DoFHandler<dim>       higher(body.triangulation());
+    std::set<unsigned int>        degrees;
+    for (unsigned int i = 0; i < body.fe.size(); ++i)
+      degrees.insert(body.fe[i].degree + 1);
+    distribute_legendre_dofs(
+      degrees,
+      [&](const auto &cell) {
+        return Body::CellIterator(&body.triangulation(),
+                                  cell->level(),
+                                  cell->index(),
+                                  &body.dof_handler)
+                 ->get_fe()
+                 .degree +
+               1;
+      },
+      1,
+      fe,
+      higher);
+    body.pressure = std::make_unique<PressureSpace>(higher);
+  }
+
+  /// What the eigenvalues of (G K^{-1} G^T, M) say.
+  struct PressureInfSup
+  {
+    unsigned int displacements = 0, pressures = 0; ///< free ones
+    unsigned int kernel  = 0;  ///< zeros, the constant among them if clamped
+    double       beta    = 0.; ///< root of the least that is not the constant's
+    double       largest = 0.; ///< root of the largest
+  };
+
+  /// Of one body whose boundary is held on @p given.clamped; if that is all of
+  /// it (@p closed) the constant pressure is left out. K is the displacement's
+  /// block of the mixed form at nu = 1/2 with mu = 1/2,
+  ///
+  ///     u.K v = int eps(u):eps(v) + 1/4 div u div v.
+  inline PressureInfSup
+  pressure_inf_sup(const InfSupBody &given,
+                   const bool        closed,
+                   const bool        equal_order = false)
+  {
+    Bodies bodies;
+    bodies.push_back(make_body(given, 0, LinearElastic{1.5, 0.5, true}));
+    Body &body = *bodies[0];
+    if (equal_order)
+      set_equal_order(body);
+    SceneField u;
+    u.numbering        = FieldNumbering({&body.dof_handler}, MPI_COMM_WORLD);
+    u.constraints      = scene_constraints(u.numbering, [&] {
+      std::vector<dealii::AffineConstraints<double>> constraints(1);
+      constraints[0].copy_from(make_constraints(body, given));
+      return constraints;
+    }());
+    const SceneField p = pressure_field(bodies, MPI_COMM_WORLD);
+    BlockSystem      system;
+    system.communicator       = MPI_COMM_WORLD;
+    system.owned_displacement = u.numbering.owned();
+    system.owned_pressure     = p.numbering.owned();
+    assemble_bodies(bodies, {Loads()}, u, p, system);
+
+    Indices free;
+    for (unsigned int i = 0; i < p.numbering.size(); ++i)
+      if (!p.constraints.is_constrained(i))
+        free.push_back(i);
+    Indices all(u.numbering.size());
+    std::iota(all.begin(), all.end(), 0);
+    // interiors of cells are eliminated: what they see of the pressure is in C
+    DenseMatrix S = schur_complement(system.stiffness,
+                                     system.divergence,
+                                     free,
+                                     places(u.numbering.size(), all));
+    add_dense(system.compliance, free, S);
+    DenseMatrix M(free.size(), free.size());
+    add_dense(system.pressure_norm, free, M);
+    M /= body.material.pressure_norm();
+
+    const auto     values = generalized_eigenvalues(S, M);
+    PressureInfSup result;
+    result.displacements = u.numbering.size() - u.constraints.n_constraints();
+    result.pressures     = free.size();
+    result.kernel =
+      std::count_if(values.begin(), values.end(), [](const double value) {
+        return value < 1e-10;
+      });
+    result.beta    = std::sqrt(std::max(0., values[closed ? 1 : 0]));
+    result.largest = std::sqrt(values.back());
+    return result;
+  }
+} // namespace mortise::testing
