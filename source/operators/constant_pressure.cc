@@ -1,39 +1,88 @@
 #include <mortise/operators/constant_pressure.h>
+#include <mortise/operators/pressure_kernel.h>
+
+#include <map>
 
 namespace mortise
 {
   using namespace dealii;
 
-  ConstantPressure
+  namespace
+  {
+    /// Calls @p visit(cell of the displacement, cell of the pressure, indices of
+    /// its pressures in the scene) for the owned cells.
+    template <typename Visit>
+    void
+    for_each_pressure_cell(const Body       &body,
+                           const SceneField &pressure,
+                           const Visit      &visit)
+    {
+      std::vector<types::global_dof_index> dofs;
+      for (const auto &cell : body.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const auto own = body.pressure->cell(cell);
+            dofs.resize(own->get_fe().n_dofs_per_cell());
+            own->get_dof_indices(dofs);
+            for (auto &dof : dofs)
+              dof = pressure.numbering(body.index, dof);
+            visit(cell, own, dofs);
+          }
+    }
+  } // namespace
+
+  Vector
   constant_pressure(const Body        &body,
                     const SceneField  &pressure,
                     const BlockSystem &system)
   {
-    ConstantPressure result;
-    result.one.reinit(system.owned_pressure, system.communicator);
-    result.mass.reinit(result.one);
+    Vector one(system.owned_pressure, system.communicator);
     if (system.nodal)
-      system.nodal->set_constant_pressure(body, result.one);
-    else
       {
-        // the functions of the vertices add up to one
-        std::vector<types::global_dof_index> dofs;
-        for (const auto &cell :
-             body.pressure->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              dofs.resize(cell->get_fe().n_dofs_per_cell());
-              cell->get_dof_indices(dofs);
-              for (unsigned int v = 0; v < cell->n_vertices(); ++v)
-                if (const auto dof = pressure.numbering(body.index, dofs[v]);
-                    system.owned_pressure.is_element(dof) &&
-                    !pressure.constraints.is_constrained(dof))
-                  result.one[dof] = 1.;
-            }
-        result.one.compress(VectorOperation::insert);
+        system.nodal->set_constant_pressure(body, one);
+        return one;
       }
-    system.apply_pressure_norm(result.mass, result.one);
-    result.mass /= body.material.pressure_norm();
-    return result;
+    // the functions of the vertices add up to one
+    for_each_pressure_cell(
+      body, pressure, [&](const auto &cell, const auto &, const auto &dofs) {
+        for (unsigned int v = 0; v < cell->n_vertices(); ++v)
+          if (system.owned_pressure.is_element(dofs[v]) &&
+              !pressure.constraints.is_constrained(dofs[v]))
+            one[dofs[v]] = 1.;
+      });
+    one.compress(VectorOperation::insert);
+    return one;
+  }
+
+  Vector
+  pressure_integrals(const Body        &body,
+                     const SceneField  &pressure,
+                     const BlockSystem &system,
+                     const Vector      &one)
+  {
+    Vector integrals(system.owned_pressure, system.communicator);
+    if (system.nodal)
+      {
+        system.nodal->apply_pressure_mass(integrals, one);
+        return integrals;
+      }
+    std::map<unsigned int, std::unique_ptr<PressureKernel>> kernels;
+    dealii::Vector<double>                                  local;
+    for_each_pressure_cell(
+      body, pressure, [&](const auto &cell, const auto &own, const auto &dofs) {
+        auto &kernel = kernels[cell->active_fe_index()];
+        if (!kernel)
+          kernel = std::make_unique<PressureKernel>(body,
+                                                    cell->get_fe(),
+                                                    own->get_fe());
+        kernel->compute(cell);
+        local.reinit(dofs.size());
+        for (unsigned int k = 0; k < dofs.size(); ++k)
+          for (unsigned int v = 0; v < cell->n_vertices(); ++v)
+            local(k) += kernel->mass()(k, v);
+        pressure.constraints.distribute_local_to_global(local, dofs, integrals);
+      });
+    integrals.compress(VectorOperation::add);
+    return integrals;
   }
 } // namespace mortise

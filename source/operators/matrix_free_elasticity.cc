@@ -8,6 +8,7 @@
 #include <mortise/operators/matrix_free_elasticity.h>
 #include <mortise/operators/matrix_free_kernels.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mortise
@@ -22,14 +23,24 @@ namespace mortise
       SortedCells(const Body &body, const CellGeometry &geometry)
       {
         std::vector<Body::CellIterator> curved;
+        std::vector<unsigned int>       curved_numbers;
+        unsigned int                    next = 0;
         for (const auto &cell : body.dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
-            (geometry.constant_jacobian(cell) ? all : curved).push_back(cell);
+            {
+              const bool affine = bool(geometry.constant_jacobian(cell));
+              (affine ? all : curved).push_back(cell);
+              (affine ? numbers : curved_numbers).push_back(next++);
+            }
         n_affine = all.size();
         all.insert(all.end(), curved.begin(), curved.end());
+        numbers.insert(numbers.end(),
+                       curved_numbers.begin(),
+                       curved_numbers.end());
       }
 
       std::vector<Body::CellIterator> all;
+      std::vector<unsigned int>       numbers; ///< in the order of iteration
       unsigned int                    n_affine;
     };
 
@@ -83,6 +94,12 @@ namespace mortise
                                 quadrature.size() * point);
         batches.pressure_nodes.resize(batches.n_batches *
                                       pressure_lexicographic.size() * width);
+        if (pressures != nullptr)
+          {
+            batches.cell_numbers.assign(batches.n_batches * width,
+                                        numbers::invalid_unsigned_int);
+            batches.has_mass.resize(batches.n_batches * width, Number(1));
+          }
         for (unsigned int i = 0; i < cells.all.size(); ++i)
           {
             const bool         affine = i < cells.n_affine;
@@ -91,7 +108,11 @@ namespace mortise
               (affine ? 0 : batches.n_affine) + place / width;
             set_nodes(cells.all[i], batch, place % width);
             if (pressures != nullptr)
-              set_pressure_nodes(cells.all[i], batch, place % width);
+              {
+                set_pressure_nodes(cells.all[i], batch, place % width);
+                batches.cell_numbers[batch * width + place % width] =
+                  cells.numbers[i];
+              }
             if (!set_metric(cells.all[i], affine, batch, place % width))
               return tangled_message(body, cells.all[i]);
           }
@@ -264,12 +285,36 @@ namespace mortise
 
   template <typename Number>
   void
+  MatrixFreeElasticity<Number>::leave_out_of_norm(
+    const unsigned int               body,
+    const std::vector<unsigned int> &numbers)
+  {
+    CellBatches<Number> &batches = bodies[body];
+    for (unsigned int i = 0; i < batches.cell_numbers.size(); ++i)
+      if (std::binary_search(numbers.begin(),
+                             numbers.end(),
+                             batches.cell_numbers[i]))
+        batches.has_mass[i] = 0;
+  }
+
+  template <typename Number>
+  void
   MatrixFreeElasticity<Number>::add_pressure_norm(const Number *p,
                                                   Number       *dst) const
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (!bodies[b].pressure_nodes.empty())
         kernels[b]->add_pressure_norm(bodies[b], p, dst);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_pressure_mass(const Number *p,
+                                                  Number       *dst) const
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (!bodies[b].pressure_nodes.empty())
+        kernels[b]->add_pressure_mass(bodies[b], p, dst);
   }
 
   template <typename Number>

@@ -106,7 +106,10 @@ namespace mortise
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})
       pressures->initialize(*vector);
+    held_pressures =
+      HeldPressures(all_levels.front(), *pressures, stiffness->elasticity());
     stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
+    held_pressures.add_diagonal(norm_diagonal.begin());
     pressures->gather_diagonal(norm_diagonal);
   }
 
@@ -170,6 +173,7 @@ namespace mortise
     pressures->complete(p);
     dst = 0.;
     stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
+    held_pressures.add_product(p.begin(), dst.begin());
     pressures->release(p);
     pressures->gather(dst);
   }
@@ -179,6 +183,18 @@ namespace mortise
   {
     copy(p_in, p);
     apply_pressure_norm(p_out, p_in);
+    copy(dst, p_out);
+  }
+
+  void
+  NodalSystem::apply_pressure_mass(Vector &dst, const Vector &p) const
+  {
+    copy(p_in, p);
+    pressures->complete(p_in);
+    p_out = 0.;
+    stiffness->elasticity().add_pressure_mass(p_in.begin(), p_out.begin());
+    pressures->release(p_in);
+    pressures->gather(p_out);
     copy(dst, p_out);
   }
 

@@ -45,19 +45,17 @@ namespace mortise
                      bodies[b]->material.incompressible();
             }))
           continue;
-        ConstantPressure sum;
-        sum.one.reinit(system.owned_pressure, comm);
-        sum.mass.reinit(system.owned_pressure, comm);
-        std::string names;
+        Vector              all(system.owned_pressure, comm);
+        std::vector<Vector> ones;
+        std::string         names;
         for (const unsigned int b : group)
           {
-            const auto own =
-              constant_pressure(*bodies[b], pressure_field, system);
-            sum.one += own.one;
-            sum.mass += own.mass;
+            ones.push_back(
+              constant_pressure(*bodies[b], pressure_field, system));
+            all += ones.back();
             names += (names.empty() ? "" : ", ") + bodies[b]->name;
           }
-        const EnclosureTest test = test_enclosure(system, sum.one);
+        const EnclosureTest test = test_enclosure(system, all);
         if (!test.enclosed)
           continue;
         if (test.flux > 0.01)
@@ -68,7 +66,13 @@ namespace mortise
             " % of what flows in and out does not cancel), and Poisson ratio "
             "0.5 lets no volume change; allowed: displacements that keep it, "
             "a boundary that is free, or a smaller ratio");
-        system.free_pressures.add(sum.one, sum.mass);
+        Vector integrals(system.owned_pressure, comm);
+        for (unsigned int i = 0; i < group.size(); ++i)
+          integrals += pressure_integrals(*bodies[group[i]],
+                                          pressure_field,
+                                          system,
+                                          ones[i]);
+        system.free_pressures.add(all, integrals);
         log.warning("body " + names +
                     ": incompressible and held all around, so a constant "
                     "pressure has no effect; the mean pressure is set to zero");

@@ -7,15 +7,17 @@
 
 namespace mortise
 {
-  struct ConstantPressure
-  {
-    Vector one;
-    Vector mass; ///< int_body q for all pressures q
-  };
-
   /// Of @p body in mixed form. Collective.
-  ConstantPressure
+  Vector
   constant_pressure(const Body        &body,
                     const SceneField  &pressure,
                     const BlockSystem &system);
+
+  /// int_body q for all pressures q; @p one: constant_pressure() of the body.
+  /// Collective.
+  Vector
+  pressure_integrals(const Body        &body,
+                     const SceneField  &pressure,
+                     const BlockSystem &system,
+                     const Vector      &one);
 } // namespace mortise

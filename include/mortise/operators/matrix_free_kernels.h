@@ -44,6 +44,11 @@ namespace mortise
       Assert(false, dealii::ExcNotImplemented());
     }
     virtual void
+    add_pressure_mass(const CellBatches<Number> &, const Number *, Number *)
+    {
+      Assert(false, dealii::ExcNotImplemented());
+    }
+    virtual void
     add_pressure_norm_diagonal(const CellBatches<Number> &, Number *)
     {
       Assert(false, dealii::ExcNotImplemented());

@@ -81,7 +81,20 @@ namespace mortise
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           V *values = pressures_at_points(cells, batch, p);
-          multiply_by_norm(cells, batch, values);
+          multiply_by_mass(cells, batch, norm_of(cells, batch), values);
+          integrate_pressures(cells, batch, dst);
+        }
+    }
+
+    void
+    add_pressure_mass(const CellBatches<Number> &cells,
+                      const Number              *p,
+                      Number                    *dst) override
+    {
+      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+        {
+          V *values = pressures_at_points(cells, batch, p);
+          multiply_by_mass(cells, batch, V{} + Number(1), values);
           integrate_pressures(cells, batch, dst);
         }
     }
@@ -94,7 +107,7 @@ namespace mortise
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           std::fill(values, values + N, V{} + Number(1));
-          multiply_by_norm(cells, batch, values);
+          multiply_by_mass(cells, batch, norm_of(cells, batch), values);
           V *sums = values + N;
           std::fill(sums, sums + M, V{});
           for (int q = 0; q < N; ++q)
@@ -108,6 +121,14 @@ namespace mortise
   private:
     using ToPoints   = LineMatrix<Number, n, m>;
     using FromPoints = LineMatrix<Number, m, n>;
+
+    /// What the mass matrices of a batch are multiplied with in P.
+    static V
+    norm_of(const CellBatches<Number> &cells, const unsigned int batch)
+    {
+      return Number(cells.pressure_norm) *
+             reinterpret_cast<const V *>(cells.has_mass.data())[batch];
+    }
 
     static const unsigned int *
     nodes_of(const CellBatches<Number> &cells, const unsigned int batch)
@@ -207,12 +228,12 @@ namespace mortise
     }
 
     void
-    multiply_by_norm(const CellBatches<Number> &cells,
+    multiply_by_mass(const CellBatches<Number> &cells,
                      const unsigned int         batch,
+                     const V                    factor,
                      V                         *p) const
     {
-      const V     *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
-      const Number factor = cells.pressure_norm;
+      const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
       for (int q = 0; q < N; ++q)
         {
           V G[dim][dim];

@@ -7,7 +7,7 @@
 
 #include <Epetra_Vector.h>
 #include <mortise/operators/elasticity.h>
-#include <mortise/operators/nodal_pressure.h>
+#include <mortise/operators/held_pressures.h>
 
 #include <memory>
 #include <vector>
@@ -61,6 +61,10 @@ namespace mortise
 
     void
     apply_pressure_norm(Vector &dst, const Vector &p) const;
+
+    /// dst_k = int p q_k. Collective.
+    void
+    apply_pressure_mass(Vector &dst, const Vector &p) const;
 
     /// 1 at the nodes of @p body that do not hang; others are left alone.
     void
@@ -127,6 +131,7 @@ namespace mortise
     std::unique_ptr<LevelOperator<double>> stiffness;
     LevelVector<double>                    stiffness_diagonal;
     std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
+    HeldPressures                          held_pressures;
     LevelVector<double>                    norm_diagonal;
     mutable LevelVector<double>            in, out, p_in, p_out;
   };

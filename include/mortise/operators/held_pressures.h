@@ -1,0 +1,43 @@
+// The pressures of cells with a face on which the displacement is prescribed:
+// there the Schur complement of the cell stands in P instead of a mass matrix.
+// It never communicates.
+#pragma once
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <mortise/operators/nodal_pressure.h>
+
+#include <vector>
+
+namespace mortise
+{
+  class HeldPressures
+  {
+  public:
+    HeldPressures() = default;
+
+    /// Finds the cells of @p level and takes them out of the norm of @p
+    /// elasticity. Bodies of high degree have none: their dense matrices would
+    /// take longer than they save. Collective.
+    HeldPressures(const NodalLevel             &level,
+                  const NodalPressure          &pressures,
+                  MatrixFreeElasticity<double> &elasticity);
+
+    /// dst += sum of S_e p, local with ghost entries.
+    void
+    add_product(const double *p, double *dst) const;
+
+    /// dst += diagonal, as above.
+    void
+    add_diagonal(double *dst) const;
+
+  private:
+    struct Cell
+    {
+      std::vector<unsigned int>  places;
+      dealii::FullMatrix<double> schur;
+    };
+
+    std::vector<Cell> cells;
+  };
+} // namespace mortise

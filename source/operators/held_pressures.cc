@@ -1,0 +1,150 @@
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+
+#include <mortise/body/fe_legendre.h>
+#include <mortise/operators/cell_kernel.h>
+#include <mortise/operators/element_schur.h>
+#include <mortise/operators/held_pressures.h>
+#include <mortise/operators/pressure_kernel.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A cell of degree 4 takes 4 ms, one of degree 6 40 ms.
+    constexpr unsigned int highest_degree = 4;
+
+    /// 1 at held components, ghosts included.
+    LevelVector<double>
+    held_components(const NodalLevel &level)
+    {
+      LevelVector<double> held(level.layout);
+      for (const unsigned int place : level.held)
+        held.local_element(place) = 1.;
+      held.update_ghost_values();
+      return held;
+    }
+
+    /// What the cells of one body share.
+    struct Kernel
+    {
+      Kernel(const Body &body, const unsigned int degree)
+        : system(FE_Q<dim>(degree), dim)
+        , stiffness(body, system)
+        , pressure(body, system, FE_Q<dim>(degree - 1))
+        , K(system.n_dofs_per_cell())
+      {
+        for (const unsigned int f : GeometryInfo<dim>::face_indices())
+          faces.push_back(face_dof_indices(degree, f));
+      }
+
+      FESystem<dim>                          system;
+      CellKernel                             stiffness;
+      PressureKernel                         pressure;
+      FullMatrix<double>                     K;
+      std::vector<std::vector<unsigned int>> faces; ///< nodes of each
+    };
+
+    FullMatrix<double>
+    schur_of(Kernel                          &kernel,
+             const Body                      &body,
+             const Body::CellIterator        &cell,
+             const std::vector<unsigned int> &free)
+    {
+      kernel.stiffness.compute(cell, kernel.K);
+      kernel.pressure.compute(cell);
+      FullMatrix<double> schur =
+        element_schur(kernel.K, kernel.pressure.divergence(), free);
+      // regular even where no displacement is free
+      schur.add(body.material.compressibility() +
+                  1e-3 * body.material.pressure_norm(),
+                kernel.pressure.mass());
+      return schur;
+    }
+  } // namespace
+
+  HeldPressures::HeldPressures(const NodalLevel             &level,
+                               const NodalPressure          &pressures,
+                               MatrixFreeElasticity<double> &elasticity)
+  {
+    const LevelVector<double>      held  = held_components(level);
+    const PressureNodes            nodes = pressures.nodes();
+    std::vector<NodalSpace::Index> of_cell, of_pressure;
+    std::vector<char>              is_held;
+    for (unsigned int b = 0; b < level.space->bodies().size(); ++b)
+      {
+        const Body        &body   = *level.space->bodies()[b];
+        const unsigned int degree = level.space->degree(body.index);
+        if (!body.pressure || degree > highest_degree)
+          continue;
+        Kernel                    kernel(body, degree);
+        std::vector<unsigned int> numbers, free;
+        unsigned int              number = 0;
+        for (const auto &cell : body.dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              level.space->get_nodes(body.index, cell, of_cell);
+              is_held.assign(dim * of_cell.size(), false);
+              for (unsigned int i = 0; i < of_cell.size(); ++i)
+                for (unsigned int c = 0; c < dim; ++c)
+                  is_held[dim * i + c] =
+                    held.local_element(level.layout->global_to_local(
+                      dim * of_cell[i] + c)) != 0. &&
+                    !level.space->hanging_nodes().is_constrained(of_cell[i]);
+              const auto whole = [&](const auto &face) {
+                return std::all_of(face.begin(), face.end(), [&](auto i) {
+                  return is_held[dim * i] && is_held[dim * i + 1] &&
+                         is_held[dim * i + 2];
+                });
+              };
+              if (std::any_of(kernel.faces.begin(), kernel.faces.end(), whole))
+                {
+                  free.clear();
+                  for (unsigned int k = 0; k < kernel.K.m(); ++k)
+                    {
+                      const auto [c, i] =
+                        kernel.system.system_to_component_index(k);
+                      if (!is_held[dim * i + c])
+                        free.push_back(k);
+                    }
+                  cells.push_back({{}, schur_of(kernel, body, cell, free)});
+                  nodes.space.get_nodes(body.index, cell, of_pressure);
+                  for (const auto node : of_pressure)
+                    cells.back().places.push_back(
+                      nodes.layout.global_to_local(node));
+                  numbers.push_back(number);
+                }
+              ++number;
+            }
+        elasticity.leave_out_of_norm(b, numbers);
+      }
+  }
+
+  void
+  HeldPressures::add_product(const double *p, double *dst) const
+  {
+    for (const Cell &cell : cells)
+      {
+        const unsigned int n = cell.places.size();
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            double sum = 0.;
+            for (unsigned int j = 0; j < n; ++j)
+              sum += cell.schur(i, j) * p[cell.places[j]];
+            dst[cell.places[i]] += sum;
+          }
+      }
+  }
+
+  void
+  HeldPressures::add_diagonal(double *dst) const
+  {
+    for (const Cell &cell : cells)
+      for (unsigned int i = 0; i < cell.places.size(); ++i)
+        dst[cell.places[i]] += cell.schur(i, i);
+  }
+} // namespace mortise
