@@ -25,8 +25,8 @@ namespace mortise
   }
 
   std::vector<double>
-  gradient_table(const FiniteElement<dim> &element,
-                 const Quadrature<dim>    &quadrature)
+  element_gradients(const FiniteElement<dim> &element,
+                    const Quadrature<dim>    &quadrature)
   {
     const ReferenceCell shape = element.reference_cell();
     Triangulation<dim>  unit;
@@ -46,8 +46,8 @@ namespace mortise
   }
 
   std::vector<double>
-  value_table(const FiniteElement<dim> &element,
-              const Quadrature<dim>    &quadrature)
+  element_values(const FiniteElement<dim> &element,
+                 const Quadrature<dim>    &quadrature)
   {
     std::vector<double> table;
     for (const Point<dim> &point : quadrature.get_points())
@@ -92,7 +92,7 @@ namespace mortise
           Quadrature<dim>(QGauss<dim>(element.degree + 1)) :
           simplex_quadrature<dim>(2 * element.degree);
       const unsigned int  n         = element.n_dofs_per_cell();
-      std::vector<double> gradients = gradient_table(element, quadrature);
+      std::vector<double> gradients = element_gradients(element, quadrature);
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         for (unsigned int i = 0; i < dim * n; ++i)
           gradients[q * dim * n + i] *= std::sqrt(quadrature.weight(q));
@@ -128,7 +128,7 @@ namespace mortise
         system_index[c].push_back(system.component_to_system_index(c, i));
     compute_reference(element, reference);
     weights             = quadrature.get_weights();
-    reference_gradients = gradient_table(element, quadrature);
+    reference_gradients = element_gradients(element, quadrature);
     gradients.resize(reference_gradients.size());
   }
 

@@ -30,9 +30,9 @@ namespace mortise
     }
 
     /// What the cells of one body share.
-    struct Kernel
+    struct HeldCellKernel
     {
-      Kernel(const Body &body, const unsigned int degree)
+      HeldCellKernel(const Body &body, const unsigned int degree)
         : system(FE_Q<dim>(degree), dim)
         , stiffness(body, system)
         , pressure(body, system, FE_Q<dim>(degree - 1))
@@ -50,7 +50,7 @@ namespace mortise
     };
 
     FullMatrix<double>
-    schur_of(Kernel                          &kernel,
+    schur_of(HeldCellKernel                  &kernel,
              const Body                      &body,
              const Body::CellIterator        &cell,
              const std::vector<unsigned int> &free)
@@ -81,7 +81,7 @@ namespace mortise
         const unsigned int degree = level.space->degree(body.index);
         if (!body.pressure || degree > highest_degree)
           continue;
-        Kernel                    kernel(body, degree);
+        HeldCellKernel            kernel(body, degree);
         std::vector<unsigned int> numbers, free;
         unsigned int              number = 0;
         for (const auto &cell : body.dof_handler.active_cell_iterators())

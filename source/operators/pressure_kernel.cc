@@ -26,8 +26,8 @@ namespace mortise
     const Quadrature<dim> quadrature =
       stiffness_quadrature(system, body.mapping_degree);
     weights             = quadrature.get_weights();
-    reference_gradients = gradient_table(system.base_element(0), quadrature);
-    reference_values    = value_table(pressure, quadrature);
+    reference_gradients = element_gradients(system.base_element(0), quadrature);
+    reference_values    = element_values(pressure, quadrature);
     gradients.resize(reference_gradients.size());
     values.resize(reference_values.size());
   }

@@ -68,7 +68,7 @@ namespace
     interface.linear_completeness_error = 0.;
     step.interfaces.push_back(interface);
     step.solver     = SolverSummary{"direct", "none", 1, 1e-16};
-    step.errors     = ErrorSummary{1e-3, 2e-3, 3e-3};
+    step.errors     = ErrorSummary{1e-3, 2e-3, 3e-3, {}, {}};
     step.quantities = {{"z first", {1., 2., 3.}}, {"a second", {4.}}};
     summary.steps.push_back(step);
     return summary;

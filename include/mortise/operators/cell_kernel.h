@@ -21,13 +21,13 @@ namespace mortise
   /// Gradients of the functions of a scalar element on the reference cell,
   /// [q][a][i].
   std::vector<double>
-  gradient_table(const dealii::FiniteElement<dim> &element,
-                 const dealii::Quadrature<dim>    &quadrature);
+  element_gradients(const dealii::FiniteElement<dim> &element,
+                    const dealii::Quadrature<dim>    &quadrature);
 
   /// Their values, [q][i].
   std::vector<double>
-  value_table(const dealii::FiniteElement<dim> &element,
-              const dealii::Quadrature<dim>    &quadrature);
+  element_values(const dealii::FiniteElement<dim> &element,
+                 const dealii::Quadrature<dim>    &quadrature);
 
   /// What the cells of one element share. One scalar element serves the three
   /// components.
