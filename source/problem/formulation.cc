@@ -31,7 +31,7 @@ namespace mortise
     }
 
     void
-    check_body(const Parameters &parameters, const BodyParameters &body)
+    check_form(const Parameters &parameters, const BodyParameters &body)
     {
       const double       nu      = body.material.poisson_ratio;
       const std::string  section = "Body " + body.name;
@@ -102,7 +102,7 @@ namespace mortise
     bool incompressible = false;
     for (const BodyParameters &body : parameters.bodies)
       {
-        check_body(parameters, body);
+        check_form(parameters, body);
         incompressible = incompressible || body.material.poisson_ratio == 0.5;
       }
     const ExactSolutionParameters &exact = parameters.exact_solution;
