@@ -21,12 +21,16 @@ namespace mortise
                            const Vector &p) const
   {
     if (nodal)
-      return nodal->apply_mixed(dst_u, dst_p, u, p);
-    stiffness.vmult(dst_u, u);
-    divergence.Tvmult_add(dst_u, p);
-    compliance.vmult(dst_p, p);
-    dst_p *= -1.;
-    divergence.vmult_add(dst_p, u);
+      nodal->apply_mixed(dst_u, dst_p, u, p);
+    else
+      {
+        stiffness.vmult(dst_u, u);
+        divergence.Tvmult_add(dst_u, p);
+        compliance.vmult(dst_p, p);
+        dst_p *= -1.;
+        divergence.vmult_add(dst_p, u);
+      }
+    free_pressures.project_residual(dst_p);
   }
 
   void

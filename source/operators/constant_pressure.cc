@@ -64,6 +64,7 @@ namespace mortise
     if (system.nodal)
       {
         system.nodal->apply_pressure_mass(integrals, one);
+        integrals /= body.material.pressure_norm();
         return integrals;
       }
     std::map<unsigned int, std::unique_ptr<PressureKernel>> kernels;

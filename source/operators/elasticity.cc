@@ -207,6 +207,36 @@ namespace mortise
       return free;
     }
 
+    /// [K G^T; G -C] and the load of a cell: displacements of its boundary, all
+    /// pressures, displacements of its interior.
+    std::pair<FullMatrix<double>, dealii::Vector<double>>
+    mixed_cell(const Kernel &kernel)
+    {
+      const unsigned int n_b      = kernel.system.get_first_hex_index(),
+                         n_u      = kernel.matrix.m(),
+                         n_p      = kernel.pressure->mass().m();
+      const FullMatrix<double> &G = kernel.pressure->divergence(),
+                               &M = kernel.pressure->mass();
+      const double c              = kernel.body.material.compressibility();
+      const auto   place          = [&](const unsigned int i) {
+        return i < n_b ? i : i + n_p;
+      };
+      FullMatrix<double>     all(n_u + n_p);
+      dealii::Vector<double> load(n_u + n_p);
+      for (unsigned int i = 0; i < n_u; ++i)
+        {
+          load(place(i)) = kernel.load(i);
+          for (unsigned int j = 0; j < n_u; ++j)
+            all(place(i), place(j)) = kernel.matrix(i, j);
+          for (unsigned int k = 0; k < n_p; ++k)
+            all(place(i), n_b + k) = all(n_b + k, place(i)) = G(k, i);
+        }
+      for (unsigned int k = 0; k < n_p; ++k)
+        for (unsigned int l = 0; l < n_p; ++l)
+          all(n_b + k, n_b + l) = -c * M(k, l);
+      return {std::move(all), std::move(load)};
+    }
+
     /// The same in mixed form: with what is eliminated counted last, the cell
     /// has the displacements of its boundary, its pressures, and the rest.
     void
@@ -219,27 +249,8 @@ namespace mortise
               PressureScatter                            &pressure_scatter)
     {
       const unsigned int n_b = kernel.system.get_first_hex_index(),
-                         n_p = pressures.size(), n = dofs.size() + n_p;
-      const FullMatrix<double> &G   = kernel.pressure->divergence(),
-                               &M   = kernel.pressure->mass();
-      const LinearElastic &material = kernel.body.material;
-      const double         c        = material.compressibility();
-      const auto           place    = [&](const unsigned int i) {
-        return i < n_b ? i : i + n_p;
-      };
-      FullMatrix<double>     all(n);
-      dealii::Vector<double> load(n);
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        {
-          load(place(i)) = kernel.load(i);
-          for (unsigned int j = 0; j < dofs.size(); ++j)
-            all(place(i), place(j)) = kernel.matrix(i, j);
-          for (unsigned int k = 0; k < n_p; ++k)
-            all(place(i), n_b + k) = all(n_b + k, place(i)) = G(k, i);
-        }
-      for (unsigned int k = 0; k < n_p; ++k)
-        for (unsigned int l = 0; l < n_p; ++l)
-          all(n_b + k, n_b + l) = -c * M(k, l);
+                         n_p = pressures.size();
+      auto [all, load]       = mixed_cell(kernel);
       for (unsigned int i = n_b; i < dofs.size(); ++i)
         scatter.add_diagonal(dofs[i], kernel.matrix(i, i));
       if (n_b < dofs.size() && !interiors.eliminate(all, load, n_b + n_p))
@@ -260,11 +271,11 @@ namespace mortise
             blocks.compliance(k, l) = -all(n_b + k, n_b + l);
           blocks.load(k) = load(n_b + k);
         }
-      blocks.norm = M;
-      blocks.norm *= material.pressure_norm();
+      blocks.norm = kernel.pressure->mass();
+      blocks.norm *= kernel.body.material.pressure_norm();
       if (free.size() < n_b)
         {
-          blocks.norm *= 1e-3; // regular even where no displacement is free
+          blocks.norm *= regular_part;
           blocks.norm.add(1.,
                           element_schur(all, blocks.divergence, free),
                           1.,

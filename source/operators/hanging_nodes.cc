@@ -8,9 +8,10 @@ namespace mortise
 {
   using namespace dealii;
 
-  template <typename Number>
-  HangingNodes<Number>::HangingNodes(const NodalSpace                  &space,
-                                     const Utilities::MPI::Partitioner &layout)
+  template <typename Number, unsigned int n_components>
+  HangingNodes<Number, n_components>::HangingNodes(
+    const NodalSpace                  &space,
+    const Utilities::MPI::Partitioner &layout)
   {
     std::map<std::vector<unsigned int>, unsigned int> group_of_columns;
     std::vector<std::vector<double>>                  values; // by group
@@ -19,7 +20,8 @@ namespace mortise
         // sorted by index, but ghosts lie behind what is owned
         std::vector<std::pair<unsigned int, double>> entries;
         for (const auto &[node, weight] : line.entries)
-          entries.emplace_back(layout.global_to_local(dim * node), weight);
+          entries.emplace_back(layout.global_to_local(n_components * node),
+                               weight);
         std::sort(entries.begin(), entries.end());
         std::vector<unsigned int> columns;
         for (const auto &entry : entries)
@@ -32,7 +34,7 @@ namespace mortise
             values.emplace_back();
           }
         groups[found->second].rows.push_back(
-          layout.global_to_local(dim * line.index));
+          layout.global_to_local(n_components * line.index));
         auto &list = values[found->second];
         for (const auto &entry : entries)
           list.push_back(entry.second);
@@ -47,7 +49,7 @@ namespace mortise
         widest = std::max(widest, m);
       }
     weights.resize(size);
-    workspace.resize(dim * widest);
+    workspace.resize(n_components * widest);
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         const std::size_t n = groups[g].columns.size();
@@ -58,9 +60,9 @@ namespace mortise
       }
   }
 
-  template <typename Number>
+  template <typename Number, unsigned int n_components>
   void
-  HangingNodes<Number>::fill(Number *u) const
+  HangingNodes<Number, n_components>::fill(Number *u) const
   {
     using V = typename Batch<Number>::Vector;
     for (const Group &group : groups)
@@ -69,7 +71,7 @@ namespace mortise
                           m = padded<Number>(n) / Batch<Number>::size;
         const V *weight   = reinterpret_cast<const V *>(&weights[group.first]);
         V       *gathered = reinterpret_cast<V *>(workspace.data());
-        for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int c = 0; c < n_components; ++c)
           {
             gathered[c * m + m - 1] = V{};
             Number *to = workspace.data() + c * m * Batch<Number>::size;
@@ -78,11 +80,11 @@ namespace mortise
           }
         for (const unsigned int row : group.rows)
           {
-            V sums[dim] = {};
+            V sums[n_components] = {};
             for (unsigned int j = 0; j < m; ++j, ++weight)
-              for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int c = 0; c < n_components; ++c)
                 sums[c] += *weight * gathered[c * m + j];
-            for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int c = 0; c < n_components; ++c)
               {
                 Number sum = 0;
                 for (unsigned int l = 0; l < Batch<Number>::size; ++l)
@@ -93,9 +95,9 @@ namespace mortise
       }
   }
 
-  template <typename Number>
+  template <typename Number, unsigned int n_components>
   void
-  HangingNodes<Number>::collect(Number *r) const
+  HangingNodes<Number, n_components>::collect(Number *r) const
   {
     using V = typename Batch<Number>::Vector;
     for (const Group &group : groups)
@@ -104,16 +106,16 @@ namespace mortise
                           m = padded<Number>(n) / Batch<Number>::size;
         const V *weight = reinterpret_cast<const V *>(&weights[group.first]);
         V       *sums   = reinterpret_cast<V *>(workspace.data());
-        std::fill(sums, sums + dim * m, V{});
+        std::fill(sums, sums + n_components * m, V{});
         for (const unsigned int row : group.rows)
           {
             for (unsigned int j = 0; j < m; ++j, ++weight)
-              for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int c = 0; c < n_components; ++c)
                 sums[c * m + j] += *weight * r[row + c];
-            for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int c = 0; c < n_components; ++c)
               r[row + c] = 0;
           }
-        for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int c = 0; c < n_components; ++c)
           {
             const Number *from = workspace.data() + c * m * Batch<Number>::size;
             for (unsigned int j = 0; j < n; ++j)
@@ -122,25 +124,25 @@ namespace mortise
       }
   }
 
-  template <typename Number>
+  template <typename Number, unsigned int n_components>
   void
-  HangingNodes<Number>::clear(Number *u) const
+  HangingNodes<Number, n_components>::clear(Number *u) const
   {
     for (const Group &group : groups)
       for (const unsigned int row : group.rows)
-        for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int c = 0; c < n_components; ++c)
           u[row + c] = 0;
   }
 
-  template <typename Number>
+  template <typename Number, unsigned int n_components>
   void
-  HangingNodes<Number>::collect_diagonal(Number *d) const
+  HangingNodes<Number, n_components>::collect_diagonal(Number *d) const
   {
     for (const Group &group : groups)
       {
         const std::size_t n = group.columns.size(), m = padded<Number>(n);
         for (unsigned int i = 0; i < group.rows.size(); ++i)
-          for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int c = 0; c < n_components; ++c)
             {
               const Number *weight = &weights[group.first + i * m];
               for (unsigned int j = 0; j < n; ++j)
@@ -153,4 +155,5 @@ namespace mortise
 
   template class HangingNodes<float>;
   template class HangingNodes<double>;
+  template class HangingNodes<double, 1>;
 } // namespace mortise

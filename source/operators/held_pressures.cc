@@ -8,6 +8,7 @@
 #include <mortise/operators/pressure_kernel.h>
 
 #include <algorithm>
+#include <memory>
 
 namespace mortise
 {
@@ -49,79 +50,69 @@ namespace mortise
       std::vector<std::vector<unsigned int>> faces; ///< nodes of each
     };
 
+    /// What takes the place of the mass matrix, less this.
     FullMatrix<double>
-    schur_of(HeldCellKernel                  &kernel,
-             const Body                      &body,
-             const Body::CellIterator        &cell,
-             const std::vector<unsigned int> &free)
+    change_of_norm(HeldCellKernel                  &kernel,
+                   const Body                      &body,
+                   const Body::CellIterator        &cell,
+                   const std::vector<unsigned int> &free)
     {
       kernel.stiffness.compute(cell, kernel.K);
       kernel.pressure.compute(cell);
       FullMatrix<double> schur =
         element_schur(kernel.K, kernel.pressure.divergence(), free);
-      // regular even where no displacement is free
-      schur.add(body.material.compressibility() +
-                  1e-3 * body.material.pressure_norm(),
+      schur.add(body.material.compressibility() -
+                  (1. - regular_part) * body.material.pressure_norm(),
                 kernel.pressure.mass());
       return schur;
     }
   } // namespace
 
-  HeldPressures::HeldPressures(const NodalLevel             &level,
-                               const NodalPressure          &pressures,
-                               MatrixFreeElasticity<double> &elasticity)
+  HeldPressures::HeldPressures(const NodalLevel    &level,
+                               const NodalPressure &pressures)
   {
-    const LevelVector<double>      held  = held_components(level);
-    const PressureNodes            nodes = pressures.nodes();
-    std::vector<NodalSpace::Index> of_cell, of_pressure;
-    std::vector<char>              is_held;
-    for (unsigned int b = 0; b < level.space->bodies().size(); ++b)
-      {
-        const Body        &body   = *level.space->bodies()[b];
+    const LevelVector<double>                    held  = held_components(level);
+    const PressureNodes                          nodes = pressures.nodes();
+    std::vector<NodalSpace::Index>               of_pressure;
+    std::vector<std::unique_ptr<HeldCellKernel>> kernels(
+      level.space->bodies().size()); // by body
+    std::vector<char>         is_held;
+    std::vector<unsigned int> free;
+    level.space->for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &of_cell) {
         const unsigned int degree = level.space->degree(body.index);
         if (!body.pressure || degree > highest_degree)
-          continue;
-        HeldCellKernel            kernel(body, degree);
-        std::vector<unsigned int> numbers, free;
-        unsigned int              number = 0;
-        for (const auto &cell : body.dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              level.space->get_nodes(body.index, cell, of_cell);
-              is_held.assign(dim * of_cell.size(), false);
-              for (unsigned int i = 0; i < of_cell.size(); ++i)
-                for (unsigned int c = 0; c < dim; ++c)
-                  is_held[dim * i + c] =
-                    held.local_element(level.layout->global_to_local(
-                      dim * of_cell[i] + c)) != 0. &&
-                    !level.space->hanging_nodes().is_constrained(of_cell[i]);
-              const auto whole = [&](const auto &face) {
-                return std::all_of(face.begin(), face.end(), [&](auto i) {
-                  return is_held[dim * i] && is_held[dim * i + 1] &&
-                         is_held[dim * i + 2];
-                });
-              };
-              if (std::any_of(kernel.faces.begin(), kernel.faces.end(), whole))
-                {
-                  free.clear();
-                  for (unsigned int k = 0; k < kernel.K.m(); ++k)
-                    {
-                      const auto [c, i] =
-                        kernel.system.system_to_component_index(k);
-                      if (!is_held[dim * i + c])
-                        free.push_back(k);
-                    }
-                  cells.push_back({{}, schur_of(kernel, body, cell, free)});
-                  nodes.space.get_nodes(body.index, cell, of_pressure);
-                  for (const auto node : of_pressure)
-                    cells.back().places.push_back(
-                      nodes.layout.global_to_local(node));
-                  numbers.push_back(number);
-                }
-              ++number;
-            }
-        elasticity.leave_out_of_norm(b, numbers);
-      }
+          return;
+        auto &kernel = kernels[body.index];
+        if (!kernel)
+          kernel = std::make_unique<HeldCellKernel>(body, degree);
+        is_held.resize(dim * of_cell.size());
+        for (unsigned int i = 0; i < of_cell.size(); ++i)
+          for (unsigned int c = 0; c < dim; ++c)
+            is_held[dim * i + c] =
+              held.local_element(
+                level.layout->global_to_local(dim * of_cell[i] + c)) != 0. &&
+              !level.space->hanging_nodes().is_constrained(of_cell[i]);
+        const auto whole = [&](const auto &face) {
+          return std::all_of(face.begin(), face.end(), [&](const auto i) {
+            return is_held[dim * i] && is_held[dim * i + 1] &&
+                   is_held[dim * i + 2];
+          });
+        };
+        if (std::none_of(kernel->faces.begin(), kernel->faces.end(), whole))
+          return;
+        free.clear();
+        for (unsigned int k = 0; k < kernel->K.m(); ++k)
+          {
+            const auto [c, i] = kernel->system.system_to_component_index(k);
+            if (!is_held[dim * i + c])
+              free.push_back(k);
+          }
+        cells.push_back({{}, change_of_norm(*kernel, body, cell, free)});
+        nodes.space.get_nodes(body.index, cell, of_pressure);
+        for (const auto node : of_pressure)
+          cells.back().places.push_back(nodes.layout.global_to_local(node));
+      });
   }
 
   void
@@ -134,7 +125,7 @@ namespace mortise
           {
             double sum = 0.;
             for (unsigned int j = 0; j < n; ++j)
-              sum += cell.schur(i, j) * p[cell.places[j]];
+              sum += cell.change(i, j) * p[cell.places[j]];
             dst[cell.places[i]] += sum;
           }
       }
@@ -145,6 +136,6 @@ namespace mortise
   {
     for (const Cell &cell : cells)
       for (unsigned int i = 0; i < cell.places.size(); ++i)
-        dst[cell.places[i]] += cell.schur(i, i);
+        dst[cell.places[i]] += cell.change(i, i);
   }
 } // namespace mortise

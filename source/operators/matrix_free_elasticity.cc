@@ -8,7 +8,6 @@
 #include <mortise/operators/matrix_free_elasticity.h>
 #include <mortise/operators/matrix_free_kernels.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace mortise
@@ -23,24 +22,14 @@ namespace mortise
       SortedCells(const Body &body, const CellGeometry &geometry)
       {
         std::vector<Body::CellIterator> curved;
-        std::vector<unsigned int>       curved_numbers;
-        unsigned int                    next = 0;
         for (const auto &cell : body.dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
-            {
-              const bool affine = bool(geometry.constant_jacobian(cell));
-              (affine ? all : curved).push_back(cell);
-              (affine ? numbers : curved_numbers).push_back(next++);
-            }
+            (geometry.constant_jacobian(cell) ? all : curved).push_back(cell);
         n_affine = all.size();
         all.insert(all.end(), curved.begin(), curved.end());
-        numbers.insert(numbers.end(),
-                       curved_numbers.begin(),
-                       curved_numbers.end());
       }
 
       std::vector<Body::CellIterator> all;
-      std::vector<unsigned int>       numbers; ///< in the order of iteration
       unsigned int                    n_affine;
     };
 
@@ -94,12 +83,6 @@ namespace mortise
                                 quadrature.size() * point);
         batches.pressure_nodes.resize(batches.n_batches *
                                       pressure_lexicographic.size() * width);
-        if (pressures != nullptr)
-          {
-            batches.cell_numbers.assign(batches.n_batches * width,
-                                        numbers::invalid_unsigned_int);
-            batches.has_mass.resize(batches.n_batches * width, Number(1));
-          }
         for (unsigned int i = 0; i < cells.all.size(); ++i)
           {
             const bool         affine = i < cells.n_affine;
@@ -108,11 +91,7 @@ namespace mortise
               (affine ? 0 : batches.n_affine) + place / width;
             set_nodes(cells.all[i], batch, place % width);
             if (pressures != nullptr)
-              {
-                set_pressure_nodes(cells.all[i], batch, place % width);
-                batches.cell_numbers[batch * width + place % width] =
-                  cells.numbers[i];
-              }
+              set_pressure_nodes(cells.all[i], batch, place % width);
             if (!set_metric(cells.all[i], affine, batch, place % width))
               return tangled_message(body, cells.all[i]);
           }
@@ -230,13 +209,14 @@ namespace mortise
         if (tangled.empty())
           tangled = builder.build();
         bodies.push_back(std::move(builder.batches));
+        std::unique_ptr<Kernel> kernel;
         if constexpr (std::is_same_v<Number, double>)
           if (!bodies.back().pressure_nodes.empty())
-            {
-              kernels.push_back(make_mixed_kernel(bodies.back().degree));
-              continue;
-            }
-        kernels.push_back(make_kernel(bodies.back().degree));
+            kernel = make_mixed_kernel(bodies.back().degree);
+        if (!kernel)
+          kernel = make_kernel(bodies.back().degree);
+        mixed.push_back(dynamic_cast<MixedKernel *>(kernel.get()));
+        kernels.push_back(std::move(kernel));
       }
     throw_if_any(tangled, layout.get_mpi_communicator());
   }
@@ -267,10 +247,10 @@ namespace mortise
                                                   const Fields &dst) const
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (bodies[b].pressure_nodes.empty())
-        kernels[b]->add_product(bodies[b], src.displacement, dst.displacement);
+      if (mixed[b])
+        mixed[b]->add_mixed_product(bodies[b], src, dst);
       else
-        kernels[b]->add_mixed_product(bodies[b], src, dst);
+        kernels[b]->add_product(bodies[b], src.displacement, dst.displacement);
   }
 
   template <typename Number>
@@ -279,22 +259,8 @@ namespace mortise
                                                    Number       *dst) const
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (!bodies[b].pressure_nodes.empty())
-        kernels[b]->add_pressure_force(bodies[b], p, dst);
-  }
-
-  template <typename Number>
-  void
-  MatrixFreeElasticity<Number>::leave_out_of_norm(
-    const unsigned int               body,
-    const std::vector<unsigned int> &numbers)
-  {
-    CellBatches<Number> &batches = bodies[body];
-    for (unsigned int i = 0; i < batches.cell_numbers.size(); ++i)
-      if (std::binary_search(numbers.begin(),
-                             numbers.end(),
-                             batches.cell_numbers[i]))
-        batches.has_mass[i] = 0;
+      if (mixed[b])
+        mixed[b]->add_pressure_force(bodies[b], p, dst);
   }
 
   template <typename Number>
@@ -303,18 +269,8 @@ namespace mortise
                                                   Number       *dst) const
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (!bodies[b].pressure_nodes.empty())
-        kernels[b]->add_pressure_norm(bodies[b], p, dst);
-  }
-
-  template <typename Number>
-  void
-  MatrixFreeElasticity<Number>::add_pressure_mass(const Number *p,
-                                                  Number       *dst) const
-  {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (!bodies[b].pressure_nodes.empty())
-        kernels[b]->add_pressure_mass(bodies[b], p, dst);
+      if (mixed[b])
+        mixed[b]->add_pressure_norm(bodies[b], p, dst);
   }
 
   template <typename Number>
@@ -322,8 +278,8 @@ namespace mortise
   MatrixFreeElasticity<Number>::add_pressure_norm_diagonal(Number *dst) const
   {
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (!bodies[b].pressure_nodes.empty())
-        kernels[b]->add_pressure_norm_diagonal(bodies[b], dst);
+      if (mixed[b])
+        mixed[b]->add_pressure_norm_diagonal(bodies[b], dst);
   }
 
   template <typename Number>

@@ -11,65 +11,38 @@ namespace mortise
         space->owned_nodes(),
         space->relevant_nodes(),
         comm))
-  {
-    for (const auto &line : space->hanging_nodes().get_lines())
-      {
-        hanging.push_back({layout->global_to_local(line.index), {}});
-        for (const auto &[node, weight] : line.entries)
-          hanging.back().entries.emplace_back(layout->global_to_local(node),
-                                              weight);
-      }
-  }
+    , hanging(*space, *layout)
+  {}
 
   void
   NodalPressure::complete(const LevelVector<double> &v) const
   {
     v.update_ghost_values();
     // these places hold no values of v's own, as those of ghosts
-    double *values = const_cast<double *>(v.begin());
-    for (const HangingNode &node : hanging)
-      {
-        double sum = 0.;
-        for (const auto &[place, weight] : node.entries)
-          sum += weight * values[place];
-        values[node.place] = sum;
-      }
+    hanging.fill(const_cast<double *>(v.begin()));
   }
 
   void
   NodalPressure::release(const LevelVector<double> &v) const
   {
-    for (const HangingNode &node : hanging)
-      const_cast<double *>(v.begin())[node.place] = 0.;
+    hanging.clear(const_cast<double *>(v.begin()));
     v.zero_out_ghost_values();
   }
 
   void
   NodalPressure::gather(LevelVector<double> &v) const
   {
-    double *values = v.begin();
-    for (const HangingNode &node : hanging)
-      {
-        for (const auto &[place, weight] : node.entries)
-          values[place] += weight * values[node.place];
-        values[node.place] = 0.;
-      }
+    hanging.collect(v.begin());
     v.compress(VectorOperation::add);
   }
 
   void
   NodalPressure::gather_diagonal(LevelVector<double> &v) const
   {
-    double *values = v.begin();
-    for (const HangingNode &node : hanging)
-      {
-        for (const auto &[place, weight] : node.entries)
-          values[place] += weight * weight * values[node.place];
-        values[node.place] = 0.;
-      }
+    hanging.collect_diagonal(v.begin());
     v.compress(VectorOperation::add);
-    for (const HangingNode &node : hanging)
-      if (node.place < v.locally_owned_size())
-        v.local_element(node.place) = 1.;
+    for (const auto &line : space->hanging_nodes().get_lines())
+      if (layout->in_local_range(line.index))
+        v.local_element(layout->global_to_local(line.index)) = 1.;
   }
 } // namespace mortise

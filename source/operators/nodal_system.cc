@@ -106,8 +106,7 @@ namespace mortise
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})
       pressures->initialize(*vector);
-    held_pressures =
-      HeldPressures(all_levels.front(), *pressures, stiffness->elasticity());
+    held_pressures = HeldPressures(all_levels.front(), *pressures);
     stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
     held_pressures.add_diagonal(norm_diagonal.begin());
     pressures->gather_diagonal(norm_diagonal);
@@ -192,7 +191,7 @@ namespace mortise
     copy(p_in, p);
     pressures->complete(p_in);
     p_out = 0.;
-    stiffness->elasticity().add_pressure_mass(p_in.begin(), p_out.begin());
+    stiffness->elasticity().add_pressure_norm(p_in.begin(), p_out.begin());
     pressures->release(p_in);
     pressures->gather(p_out);
     copy(dst, p_out);

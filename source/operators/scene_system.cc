@@ -169,26 +169,6 @@ namespace mortise
     }
   } // namespace
 
-  std::vector<BodyVector>
-  body_displacements(const Bodies     &bodies,
-                     const SceneField &field,
-                     const Vector     &displacement)
-  {
-    const Vector ghosted =
-      distributed(field,
-                  displacement,
-                  bodies.front()->triangulation().get_communicator());
-    std::vector<BodyVector> result(bodies.size());
-    for (const auto &body : bodies)
-      extract(body->index,
-              body->dof_handler,
-              body->relevant_dofs,
-              field.numbering,
-              ghosted,
-              result[body->index]);
-    return result;
-  }
-
   std::vector<BodySolution>
   body_solutions(const Bodies                          &bodies,
                  const SceneField                      &displacement,

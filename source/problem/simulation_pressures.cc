@@ -77,5 +77,6 @@ namespace mortise
                     ": incompressible and held all around, so a constant "
                     "pressure has no effect; the mean pressure is set to zero");
       }
+    system.free_pressures.project_residual(system.pressure_load);
   }
 } // namespace mortise

@@ -85,13 +85,18 @@ namespace mortise
     const Normal         normal{system, residual};
     Vector               force(system.owned_displacement, system.communicator);
     system.add_pressure_force(force, one);
-    // what a pressure on a free boundary would bring is h / L of this
-    SystemSolution diagonal = system.zero_solution();
+    // what a pressure on a free boundary would bring is h / L of this norm
+    double norm = 0., total_flux = 0.;
     for (unsigned int i = 0; i < one.locally_owned_size(); ++i)
-      diagonal.pressure.begin()[i] =
-        one.begin()[i] / residual.inverse_diagonal_p()[i];
-    double       left      = square(force, normal);
-    const double rounding  = 1e-16 * (diagonal.pressure * one),
+      {
+        const double value = one.begin()[i];
+        norm += value * value / residual.inverse_diagonal_p()[i];
+        total_flux += std::abs(system.pressure_load.begin()[i] * value);
+      }
+    norm              = Utilities::MPI::sum(norm, system.communicator);
+    total_flux        = Utilities::MPI::sum(total_flux, system.communicator);
+    double       left = square(force, normal);
+    const double rounding  = 1e-16 * norm,
                  tolerance = std::max(rounding, 1e-4 * left);
     double net             = system.pressure_load * one;
     Vector y(system.owned_multiplier, system.communicator);
@@ -114,10 +119,7 @@ namespace mortise
         left = square(force, normal);
         net += y * system.coupling_rhs; // what flows through interfaces
       }
-    double total = 0.;
-    for (unsigned int i = 0; i < one.locally_owned_size(); ++i)
-      total += std::abs(system.pressure_load.begin()[i] * one.begin()[i]);
-    total = Utilities::MPI::sum(total, system.communicator);
-    return {left <= tolerance, total > 0. ? std::abs(net) / total : 0.};
+    return {left <= tolerance,
+            total_flux > 0. ? std::abs(net) / total_flux : 0.};
   }
 } // namespace mortise

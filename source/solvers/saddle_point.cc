@@ -76,13 +76,10 @@ namespace mortise
         scaled = x;
         scaled.scale(weight);
         if (system.mixed())
-          {
-            system.apply_mixed(y.block(u),
-                               y.block(p),
-                               scaled.block(u),
-                               scaled.block(p));
-            system.free_pressures.project_residual(y.block(p));
-          }
+          system.apply_mixed(y.block(u),
+                             y.block(p),
+                             scaled.block(u),
+                             scaled.block(p));
         else
           system.apply_stiffness(y.block(u), scaled.block(u));
         if (tied)

@@ -91,7 +91,6 @@ namespace mortise
                            x.displacement,
                            x.pressure);
         r.pressure.sadd(-1., 1., system.pressure_load);
-        system.free_pressures.project_residual(r.pressure);
       }
     else
       system.apply_stiffness(r.displacement, x.displacement);

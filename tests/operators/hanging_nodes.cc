@@ -96,7 +96,17 @@ namespace mortise::testing
     for (const auto i : scene.field.numbering.owned())
       u(i) = random_number(seed, i);
     u.compress(VectorOperation::insert);
-    return body_displacements(scene.bodies, scene.field, u);
+    std::vector<BodyVector> result;
+    for (const BodySolution &own :
+         body_solutions(scene.bodies,
+                        scene.field,
+                        SceneField(),
+                        std::vector<CondensedInteriors>(scene.bodies.size()),
+                        {u, {}, {}}))
+      result.push_back(own.displacement);
+    for (BodyVector &body : result) // copies have no ghost values
+      body.update_ghost_values();
+    return result;
   }
 
   /// Values of one component at the nodes of a cell, in the order of both

@@ -102,7 +102,8 @@ namespace mortise
     void
     apply_stiffness(Vector &dst, const Vector &src) const;
 
-    /// dst_u = K u + G^T p, dst_p = G u - C p. Collective.
+    /// dst_u = K u + G^T p, dst_p = G u - C p, the latter without the parts
+    /// that belong to free constants. Collective.
     void
     apply_mixed(Vector       &dst_u,
                 Vector       &dst_p,

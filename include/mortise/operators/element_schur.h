@@ -1,7 +1,7 @@
 // How little a pressure finds to press against in a cell some of whose
 // displacements are prescribed. It never knows a mesh.
-// Sources: Kraus (2006), "Algebraic multilevel preconditioning of finite element
-// matrices using local Schur complements"; Neytcheva (2011).
+// Sources: Kraus (2006), "Algebraic multilevel preconditioning of finite
+// element matrices using local Schur complements"; Neytcheva (2011).
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -10,6 +10,10 @@
 
 namespace mortise
 {
+  /// The part of its mass matrix that a cell keeps in P beside its Schur
+  /// complement, so that P is regular even where no displacement is free.
+  constexpr double regular_part = 1e-3;
+
   /// G K^{-1} G^T of one cell, by the displacements @p free alone. The sum of
   /// these over the cells bounds the Schur complement of all from above, and is
   /// close to it where a mass matrix is not: at boundaries that are held. Rigid

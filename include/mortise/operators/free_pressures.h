@@ -17,12 +17,6 @@ namespace mortise
     void
     add(const Vector &one, const Vector &mass);
 
-    bool
-    empty() const
-    {
-      return groups.empty();
-    }
-
     unsigned int
     size() const
     {

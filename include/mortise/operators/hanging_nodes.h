@@ -11,7 +11,8 @@
 
 namespace mortise
 {
-  template <typename Number>
+  /// @p n_components of each node follow each other in vectors.
+  template <typename Number, unsigned int n_components = dim>
   class HangingNodes
   {
   public:

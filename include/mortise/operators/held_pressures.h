@@ -16,14 +16,12 @@ namespace mortise
   public:
     HeldPressures() = default;
 
-    /// Finds the cells of @p level and takes them out of the norm of @p
-    /// elasticity. Bodies of high degree have none: their dense matrices would
-    /// take longer than they save. Collective.
-    HeldPressures(const NodalLevel             &level,
-                  const NodalPressure          &pressures,
-                  MatrixFreeElasticity<double> &elasticity);
+    /// Finds the cells of @p level. Bodies of high degree have none: their dense
+    /// matrices would take longer than they save. Collective.
+    HeldPressures(const NodalLevel &level, const NodalPressure &pressures);
 
-    /// dst += sum of S_e p, local with ghost entries.
+    /// dst += (P - P_0) p with P_0 the mass matrices of all cells, local with
+    /// ghost entries.
     void
     add_product(const double *p, double *dst) const;
 
@@ -35,7 +33,7 @@ namespace mortise
     struct Cell
     {
       std::vector<unsigned int>  places;
-      dealii::FullMatrix<double> schur;
+      dealii::FullMatrix<double> change; ///< of P
     };
 
     std::vector<Cell> cells;

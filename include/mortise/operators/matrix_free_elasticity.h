@@ -29,10 +29,6 @@ namespace mortise
     /// The same of the pressures in mixed form, else empty: places.
     dealii::AlignedVector<unsigned int> pressure_nodes;
     double compressibility = 0., pressure_norm = 0.;
-    /// [batch][lane], in mixed form: which of the owned cells of the body, in
-    /// the order of iteration; and whether P has its mass matrix, 1 or 0.
-    std::vector<unsigned int>     cell_numbers;
-    dealii::AlignedVector<Number> has_mass;
     /// dxi_a/dx_e sqrt(|J|) as [batch][a][e][lane] on affine cells; after these
     /// dxi_a/dx_e sqrt(w |J|) as [batch][point][a][e][lane].
     dealii::AlignedVector<Number> metric;
@@ -93,21 +89,11 @@ namespace mortise
     void
     add_pressure_force(const Number *p, Number *dst) const;
 
-    /// The cells @p numbers of body @p body (places in bodies()) have no part in
-    /// the products with P from now on.
-    void
-    leave_out_of_norm(unsigned int                     body,
-                      const std::vector<unsigned int> &numbers);
-
-    /// dst += P p.
+    /// dst += P p, mass matrices in all cells.
     void
     add_pressure_norm(const Number *p, Number *dst) const;
 
-    /// dst_k += int p q_k, of all cells.
-    void
-    add_pressure_mass(const Number *p, Number *dst) const;
-
-    /// dst += diag(P).
+    /// dst += diag(P), as above.
     void
     add_pressure_norm_diagonal(Number *dst) const;
 
@@ -119,7 +105,8 @@ namespace mortise
     }
 
   private:
-    class Kernel; ///< of one degree
+    class Kernel;      ///< of one degree
+    class MixedKernel; ///< what it can do besides in mixed form
     template <int n>
     class KernelOfSize;
     template <int n>
@@ -132,5 +119,6 @@ namespace mortise
 
     std::vector<CellBatches<Number>>     bodies;
     std::vector<std::unique_ptr<Kernel>> kernels; ///< by body
+    std::vector<MixedKernel *>           mixed;   ///< the same ones, or null
   };
 } // namespace mortise

@@ -6,55 +6,13 @@
 
 #include <mortise/base/lagrange.h>
 #include <mortise/base/tensor_product.h>
-#include <mortise/operators/matrix_free_elasticity.h>
+#include <mortise/operators/matrix_free_kernel.h>
 #include <mortise/operators/tensor_kernel.h>
 
 #include <cmath>
 
 namespace mortise
 {
-  template <typename Number>
-  class MatrixFreeElasticity<Number>::Kernel
-  {
-  public:
-    virtual ~Kernel() = default;
-    virtual void
-    add_product(const CellBatches<Number> &cells,
-                const Number              *src,
-                Number                    *dst) = 0;
-    virtual void
-    add_diagonal(const CellBatches<Number> &cells, Number *dst) = 0;
-
-    // in mixed form only
-    virtual void
-    add_mixed_product(const CellBatches<Number> &,
-                      const Fields &,
-                      const Fields &)
-    {
-      Assert(false, dealii::ExcNotImplemented());
-    }
-    virtual void
-    add_pressure_force(const CellBatches<Number> &, const Number *, Number *)
-    {
-      Assert(false, dealii::ExcNotImplemented());
-    }
-    virtual void
-    add_pressure_norm(const CellBatches<Number> &, const Number *, Number *)
-    {
-      Assert(false, dealii::ExcNotImplemented());
-    }
-    virtual void
-    add_pressure_mass(const CellBatches<Number> &, const Number *, Number *)
-    {
-      Assert(false, dealii::ExcNotImplemented());
-    }
-    virtual void
-    add_pressure_norm_diagonal(const CellBatches<Number> &, Number *)
-    {
-      Assert(false, dealii::ExcNotImplemented());
-    }
-  };
-
   /// n nodes and n Gauss points in each direction.
   template <typename Number>
   template <int n>

@@ -11,15 +11,14 @@ namespace mortise
   template <typename Number>
   template <int n>
   class MatrixFreeElasticity<Number>::MixedKernelOfSize
-    : public MatrixFreeElasticity<Number>::template KernelOfSize<n>
+    : public MatrixFreeElasticity<Number>::template KernelOfSize<n>,
+      public MatrixFreeElasticity<Number>::MixedKernel
   {
   public:
-    using Base              = KernelOfSize<n>;
-    using V                 = typename Batch<Number>::Vector;
-    static constexpr int m  = n - 1;
-    static constexpr int N  = n * n * n;
-    static constexpr int M  = m * m * m;
-    static constexpr int n9 = dim * dim;
+    using V                = typename Batch<Number>::Vector;
+    static constexpr int m = n - 1;
+    static constexpr int N = n * n * n;
+    static constexpr int M = m * m * m;
 
     MixedKernelOfSize()
       : pressure_scratch(2 * N * Batch<Number>::size)
@@ -81,20 +80,7 @@ namespace mortise
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           V *values = pressures_at_points(cells, batch, p);
-          multiply_by_mass(cells, batch, norm_of(cells, batch), values);
-          integrate_pressures(cells, batch, dst);
-        }
-    }
-
-    void
-    add_pressure_mass(const CellBatches<Number> &cells,
-                      const Number              *p,
-                      Number                    *dst) override
-    {
-      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
-        {
-          V *values = pressures_at_points(cells, batch, p);
-          multiply_by_mass(cells, batch, V{} + Number(1), values);
+          multiply_by_norm(cells, batch, values);
           integrate_pressures(cells, batch, dst);
         }
     }
@@ -107,28 +93,20 @@ namespace mortise
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           std::fill(values, values + N, V{} + Number(1));
-          multiply_by_mass(cells, batch, norm_of(cells, batch), values);
+          multiply_by_norm(cells, batch, values);
           V *sums = values + N;
           std::fill(sums, sums + M, V{});
           for (int q = 0; q < N; ++q)
             for (int k = 0; k < M; ++k)
               sums[k] += squares[q % n][k % m] * squares[q / n % n][k / m % m] *
                          squares[q / n / n][k / m / m] * values[q];
-          scatter_add_scalar<M>(sums, pressure_nodes_of(cells, batch), dst);
+          scatter_add<M, 1>(sums, pressure_nodes_of(cells, batch), dst);
         }
     }
 
   private:
     using ToPoints   = LineMatrix<Number, n, m>;
     using FromPoints = LineMatrix<Number, m, n>;
-
-    /// What the mass matrices of a batch are multiplied with in P.
-    static V
-    norm_of(const CellBatches<Number> &cells, const unsigned int batch)
-    {
-      return Number(cells.pressure_norm) *
-             reinterpret_cast<const V *>(cells.has_mass.data())[batch];
-    }
 
     static const unsigned int *
     nodes_of(const CellBatches<Number> &cells, const unsigned int batch)
@@ -151,7 +129,7 @@ namespace mortise
                         const Number              *p)
     {
       V *a = reinterpret_cast<V *>(pressure_scratch.data()), *b = a + N;
-      gather_scalar<M>(p, pressure_nodes_of(cells, batch), b);
+      gather<M, 1>(p, pressure_nodes_of(cells, batch), b);
       apply_along<0, false, m, m, m>(to_points, b, a);
       apply_along<1, false, n, m, m>(to_points, a, b);
       apply_along<2, false, n, n, m>(to_points, b, a);
@@ -168,7 +146,7 @@ namespace mortise
       apply_along<2, false, n, n, n>(from_points, a, b);
       apply_along<1, false, n, n, m>(from_points, b, a);
       apply_along<0, false, n, m, m>(from_points, a, b);
-      scatter_add_scalar<M>(b, pressure_nodes_of(cells, batch), dst);
+      scatter_add<M, 1>(b, pressure_nodes_of(cells, batch), dst);
     }
 
     /// sqrt(w |J|) at point @p q: det(G) = sqrt(w |J|)^3 / |J|.
@@ -228,12 +206,12 @@ namespace mortise
     }
 
     void
-    multiply_by_mass(const CellBatches<Number> &cells,
+    multiply_by_norm(const CellBatches<Number> &cells,
                      const unsigned int         batch,
-                     const V                    factor,
                      V                         *p) const
     {
-      const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      const V     *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      const Number factor = cells.pressure_norm;
       for (int q = 0; q < N; ++q)
         {
           V G[dim][dim];

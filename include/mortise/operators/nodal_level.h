@@ -134,16 +134,11 @@ namespace mortise
     {
       return stiffness;
     }
-    MatrixFreeElasticity<Number> &
-    elasticity()
-    {
-      return stiffness;
-    }
 
   private:
-    const NodalLevel            &level;
-    MatrixFreeElasticity<Number> stiffness;
-    const HangingNodes<Number>   hanging;
+    const NodalLevel                  &level;
+    const MatrixFreeElasticity<Number> stiffness;
+    const HangingNodes<Number>         hanging;
     void
     add_penalty(const Number *src, Number *dst) const;
 

@@ -2,11 +2,10 @@
 // at hanging nodes. It never knows displacements.
 #pragma once
 
+#include <mortise/operators/hanging_nodes.h>
 #include <mortise/operators/nodal_level.h>
 
 #include <memory>
-#include <utility>
-#include <vector>
 
 namespace mortise
 {
@@ -47,14 +46,8 @@ namespace mortise
     gather_diagonal(LevelVector<double> &v) const;
 
   private:
-    struct HangingNode
-    {
-      unsigned int                                 place;
-      std::vector<std::pair<unsigned int, double>> entries;
-    };
-
     std::unique_ptr<NodalSpace>                                space;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
-    std::vector<HangingNode>                                   hanging;
+    HangingNodes<double, 1>                                    hanging;
   };
 } // namespace mortise

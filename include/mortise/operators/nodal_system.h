@@ -62,7 +62,7 @@ namespace mortise
     void
     apply_pressure_norm(Vector &dst, const Vector &p) const;
 
-    /// dst_k = int p q_k. Collective.
+    /// dst_k = int p q_k times pressure_norm() of the material. Collective.
     void
     apply_pressure_mass(Vector &dst, const Vector &p) const;
 

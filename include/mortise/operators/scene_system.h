@@ -48,13 +48,6 @@ namespace mortise
     BodyVector pressure; ///< in mixed form, else empty
   };
 
-  /// The displacements of all bodies out of @p displacement, constraints
-  /// distributed, interiors of cells as they stand there. Collective.
-  std::vector<BodyVector>
-  body_displacements(const Bodies     &bodies,
-                     const SceneField &field,
-                     const Vector     &displacement);
-
   /// The solution by body: constraints distributed, interiors of cells
   /// recovered. Collective.
   std::vector<BodySolution>
