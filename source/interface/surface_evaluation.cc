@@ -3,6 +3,9 @@
 
 #include <mortise/interface/surface_evaluation.h>
 
+#include <array>
+#include <memory>
+
 namespace mortise
 {
   using namespace dealii;
@@ -197,14 +200,11 @@ namespace mortise
   const GaussRule &
   gauss_rule(const unsigned int n)
   {
-    static const std::vector<GaussRule> rules = [] {
-      std::vector<GaussRule> result;
-      for (unsigned int n = 1; n <= max_gauss_points; ++n)
-        result.emplace_back(n);
-      return result;
-    }();
-    AssertIndexRange(n - 1, rules.size());
-    return rules[n - 1];
+    AssertIndexRange(n - 1, max_gauss_points);
+    static std::array<std::unique_ptr<const GaussRule>, max_gauss_points> rules;
+    if (!rules[n - 1])
+      rules[n - 1] = std::make_unique<const GaussRule>(n);
+    return *rules[n - 1];
   }
 
 

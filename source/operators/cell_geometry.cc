@@ -22,12 +22,15 @@ namespace mortise
     /// differ by rounding.
     constexpr double rounding = 1e-13;
 
-    std::vector<double>
-    gradient_table(const ScalarPolynomialsBase<dim> &polynomials,
-                   const Quadrature<dim>            &quadrature)
+    void
+    fill_tables(const ScalarPolynomialsBase<dim> &polynomials,
+                const Quadrature<dim>            &quadrature,
+                std::vector<double>              &value_table,
+                std::vector<double>              &gradient_table)
     {
-      const unsigned int          n = polynomials.n();
-      std::vector<double>         table(quadrature.size() * dim * n), no_0;
+      const unsigned int n = polynomials.n();
+      gradient_table.resize(quadrature.size() * dim * n);
+      std::vector<double>         values(n);
       std::vector<Tensor<1, dim>> gradients(n);
       std::vector<Tensor<2, dim>> no_2;
       std::vector<Tensor<3, dim>> no_3;
@@ -35,12 +38,12 @@ namespace mortise
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
           polynomials.evaluate(
-            quadrature.point(q), no_0, gradients, no_2, no_3, no_4);
+            quadrature.point(q), values, gradients, no_2, no_3, no_4);
+          value_table.insert(value_table.end(), values.begin(), values.end());
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int k = 0; k < n; ++k)
-              table[(q * dim + a) * n + k] = gradients[k][a];
+              gradient_table[(q * dim + a) * n + k] = gradients[k][a];
         }
-      return table;
     }
   } // namespace
 
@@ -51,6 +54,7 @@ namespace mortise
     , simplices(dynamic_cast<const SimplexMapping *>(body.mapping.get()))
     , hexahedra(dynamic_cast<const HexahedralMapping *>(body.mapping.get()))
     , result(quadrature.size())
+    , points_in_space(quadrature.size())
   {
     Assert((simplices != nullptr) == shape.is_simplex(), ExcInternalError());
     (void)shape;
@@ -58,19 +62,23 @@ namespace mortise
       {
         Assert(hexahedra != nullptr && quadrature.is_tensor_product(),
                ExcInternalError());
-        const Quadrature<1>   &points = quadrature.get_tensor_basis()[0];
         const QGaussLobatto<1> nodes(mapping_degree + 1);
-        line_values = lagrange_values(nodes, points);
-        line_slopes = lagrange_derivatives(nodes, points);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const Quadrature<1> &points = quadrature.get_tensor_basis()[d];
+            lines[d]                    = {lagrange_values(nodes, points),
+                                           lagrange_derivatives(nodes, points)};
+          }
         lexicographic =
           FETools::lexicographic_to_hierarchic_numbering<dim>(mapping_degree);
-        points_in_space.resize(quadrature.size());
         return;
       }
     for (const Point<dim> &x : simplices->reference_nodes())
       barycentric.push_back(barycentric_coordinates(x));
-    nodal_gradients =
-      gradient_table(simplices->nodal_polynomials(), quadrature);
+    fill_tables(simplices->nodal_polynomials(),
+                quadrature,
+                nodal_values,
+                nodal_gradients);
   }
 
   std::optional<CellGeometry::Jacobian>
@@ -121,8 +129,7 @@ namespace mortise
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int a = 0; a < dim; ++a)
             {
-              const auto slope =
-                apply_derivative(line_values, line_slopes, a, nodes[c]);
+              const auto slope = apply_derivative(lines, a, nodes[c]);
               for (unsigned int q = 0; q < result.size(); ++q)
                 result[q][a][c] = slope.values[q];
             }
@@ -170,11 +177,22 @@ namespace mortise
   const std::vector<Point<dim>> &
   CellGeometry::points(const Body::CellIterator &cell)
   {
+    if (simplices != nullptr)
+      {
+        const auto &nodes = simplices->nodes(cell);
+        for (unsigned int q = 0; q < points_in_space.size(); ++q)
+          {
+            Tensor<1, dim> x;
+            for (unsigned int k = 0; k < nodes.size(); ++k)
+              x += nodal_values[q * nodes.size() + k] * nodes[k];
+            points_in_space[q] = Point<dim>(x);
+          }
+        return points_in_space;
+      }
     const auto nodes = lexicographic_nodes(cell);
     for (unsigned int c = 0; c < dim; ++c)
       {
-        const auto x =
-          apply_product(line_values, line_values, line_values, nodes[c]);
+        const auto x = apply_derivative(lines, dim, nodes[c]);
         for (unsigned int q = 0; q < points_in_space.size(); ++q)
           points_in_space[q][c] = x.values[q];
       }

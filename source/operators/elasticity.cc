@@ -9,6 +9,7 @@
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/element_schur.h>
+#include <mortise/operators/face_values.h>
 #include <mortise/operators/matrix_scatter.h>
 #include <mortise/operators/pressure_kernel.h>
 #include <mortise/operators/pressure_scatter.h>
@@ -77,17 +78,14 @@ namespace mortise
         return *cell;
       }
 
-      FEFaceValues<dim> &
-      face_values()
+      FaceValues &
+      face_values(const Body::CellIterator &cell, const unsigned int f)
       {
-        if (!face)
-          face = std::make_unique<FEFaceValues<dim>>(
-            *body.mapping,
-            element(),
-            gauss_quadrature<dim - 1>(system, system.degree + 2),
-            update_values | update_JxW_values | update_normal_vectors |
-              update_quadrature_points);
-        return *face;
+        if (!faces[f])
+          faces[f] =
+            std::make_unique<FaceValues>(body, cell, f, system.degree + 2);
+        faces[f]->reinit(cell);
+        return *faces[f];
       }
 
       const Body                                &body;
@@ -96,8 +94,8 @@ namespace mortise
       dealii::Vector<double>                     load;
 
     private:
-      std::unique_ptr<FEValues<dim>>     cell;
-      std::unique_ptr<FEFaceValues<dim>> face;
+      std::unique_ptr<FEValues<dim>>             cell;
+      std::array<std::unique_ptr<FaceValues>, 6> faces;
     };
 
     struct Kernel : LoadKernel
@@ -144,19 +142,17 @@ namespace mortise
           if (cell->face(f)->at_boundary() &&
               cell->face(f)->boundary_id() == condition.boundary)
             {
-              auto &values = kernel.face_values();
-              values.reinit(typename Triangulation<dim>::cell_iterator(cell),
-                            f);
-              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+              const FaceValues &face    = kernel.face_values(cell, f);
+              const auto       &indices = face.indices();
+              for (unsigned int q = 0; q < face.points.size(); ++q)
                 {
                   const Tensor<1, dim> force =
-                    condition.traction(values.quadrature_point(q),
-                                       values.normal_vector(q)) *
-                    values.JxW(q);
+                    condition.traction(face.points[q], face.normals[q]) *
+                    face.weights[q];
                   for (unsigned int c = 0; c < dim; ++c)
-                    for (const unsigned int i : values.dof_indices())
-                      kernel.load(kernel.system_index[c][i]) +=
-                        force[c] * values.shape_value(i, q);
+                    for (unsigned int k = 0; k < indices.size(); ++k)
+                      kernel.load(kernel.system_index[c][indices[k]]) +=
+                        force[c] * face.value(k, q);
                 }
             }
     }

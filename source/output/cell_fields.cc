@@ -1,75 +1,71 @@
-#include <deal.II/base/quadrature_lib.h>
-
 #include <mortise/body/fe_legendre.h>
 #include <mortise/body/legendre_basis.h>
-#include <mortise/body/simplex_quadrature.h>
 #include <mortise/output/cell_fields.h>
 
 namespace mortise
 {
   using namespace dealii;
 
-  struct CellFields::Hexahedra
+  namespace
   {
-    Hexahedra(const Body &body, const unsigned int degree, const unsigned int n)
-      : degree(degree)
-      , quadrature(n)
-      , geometry(body, ReferenceCells::Hexahedron, quadrature)
-      , modes(cell_dof_indices(degree))
-      , line_values(n, degree + 1)
-      , line_slopes(n, degree + 1)
-      , pressure_values(n, degree)
+    LineTable
+    lobatto_table(const unsigned int degree, const Quadrature<1> &points)
     {
-      const QGauss<1>     line(n);
-      std::vector<double> values(degree + 1), slopes(degree + 1);
-      if (body.pressure)
-        pressure_modes = cell_dof_indices(degree - 1);
-      for (unsigned int q = 0; q < n; ++q)
+      const unsigned int  n = degree + 1;
+      LineTable           table{FullMatrix<double>(points.size(), n),
+                      FullMatrix<double>(points.size(), n)};
+      std::vector<double> values(n), slopes(n);
+      for (unsigned int q = 0; q < points.size(); ++q)
         {
-          if (body.pressure)
-            {
-              evaluate_lobatto(degree - 1, line.point(q)[0], values.data());
-              for (unsigned int k = 0; k < degree; ++k)
-                pressure_values(q, k) = values[k];
-            }
           evaluate_lobatto(degree,
-                           line.point(q)[0],
+                           points.point(q)[0],
                            values.data(),
                            slopes.data());
-          for (unsigned int k = 0; k <= degree; ++k)
+          for (unsigned int k = 0; k < n; ++k)
             {
-              line_values(q, k) = values[k];
-              line_slopes(q, k) = slopes[k];
+              table.values(q, k) = values[k];
+              table.slopes(q, k) = slopes[k];
             }
         }
+      return table;
+    }
+  } // namespace
+
+  struct CellFields::Hexahedra
+  {
+    Hexahedra(const Body            &body,
+              const unsigned int     degree,
+              const Quadrature<dim> &rule)
+      : degree(degree)
+      , weights(rule.get_weights())
+      , geometry(body, ReferenceCells::Hexahedron, rule)
+      , modes(cell_dof_indices(degree))
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        lines[d] = lobatto_table(degree, rule.get_tensor_basis()[d]);
+      if (!body.pressure)
+        return;
+      pressure_modes = cell_dof_indices(degree - 1);
+      for (unsigned int d = 0; d < dim; ++d)
+        pressure_lines[d] =
+          lobatto_table(degree - 1, rule.get_tensor_basis()[d]);
     }
 
     const unsigned int              degree;
-    const QGauss<dim>               quadrature;
+    const std::vector<double>       weights;
     CellGeometry                    geometry;
     const std::vector<unsigned int> modes;
-    FullMatrix<double>              line_values, line_slopes;
+    std::array<LineTable, dim>      lines, pressure_lines;
     std::vector<unsigned int>       pressure_modes;
-    FullMatrix<double>              pressure_values;
   };
 
-  CellFields::CellFields(const Body &body, const unsigned int extra_points)
+  CellFields::CellFields(const Body &body, const Rule &rule)
     : body(body)
-    , extra_points(extra_points)
-    , tetrahedra(
-        body,
-        [extra_points](const FiniteElement<dim> &element) {
-          return gauss_quadrature<dim>(element, element.degree + extra_points);
-        },
-        update_values | update_gradients | update_quadrature_points |
-          update_JxW_values)
-    , tetrahedra_pressure(
-        body,
-        [extra_points](const FiniteElement<dim> &element) {
-          return gauss_quadrature<dim>(element,
-                                       element.degree + 1 + extra_points);
-        },
-        update_values)
+    , rule(rule)
+    , tetrahedra(body,
+                 rule,
+                 update_values | update_gradients | update_quadrature_points |
+                   update_JxW_values)
   {}
 
   CellFields::~CellFields() = default;
@@ -94,10 +90,15 @@ namespace mortise
       }
     if (body.pressure)
       {
-        const auto own    = body.pressure->cell(cell);
-        auto      &values = tetrahedra_pressure(own);
-        values.reinit(Triangulation<dim>::cell_iterator(own));
-        pressures = pressures_at(own, values, solution.pressure);
+        const auto own        = body.pressure->cell(cell);
+        auto      &own_values = tetrahedra_pressure[own->active_fe_index()];
+        if (!own_values)
+          own_values = std::make_unique<FEValues<dim>>(*body.mapping,
+                                                       own->get_fe(),
+                                                       from.get_quadrature(),
+                                                       update_values);
+        own_values->reinit(Triangulation<dim>::cell_iterator(own));
+        pressures = pressures_at(own, *own_values, solution.pressure);
       }
   }
 
@@ -109,7 +110,7 @@ namespace mortise
     if (!shared)
       shared = std::make_unique<Hexahedra>(body,
                                            body.degree(cell),
-                                           body.degree(cell) + extra_points);
+                                           rule(cell->get_fe()));
     const auto  coefficients = cell_coefficients(cell, solution.displacement);
     const auto &jacobians    = shared->geometry.jacobians(cell);
     const unsigned int n_points = jacobians.size(), n = shared->degree + 1;
@@ -122,10 +123,7 @@ namespace mortise
         for (const unsigned int i : shared->modes)
           modes.values.push_back(coefficients[c][i]);
         const auto along = [&](const unsigned int a) {
-          return apply_derivative(shared->line_values,
-                                  shared->line_slopes,
-                                  a,
-                                  modes);
+          return apply_derivative(shared->lines, a, modes);
         };
         const TensorArray value = along(dim);
         for (unsigned int q = 0; q < n_points; ++q)
@@ -146,13 +144,12 @@ namespace mortise
         TensorArray modes{{{n - 1, n - 1, n - 1}}, {}};
         for (const unsigned int i : shared->pressure_modes)
           modes.values.push_back(solution.pressure(dofs[i]));
-        const auto &along = shared->pressure_values;
-        pressures         = apply_product(along, along, along, modes).values;
+        pressures = apply_derivative(shared->pressure_lines, dim, modes).values;
       }
     weights.resize(n_points);
     for (unsigned int q = 0; q < n_points; ++q)
       {
-        weights[q]   = determinant(jacobians[q]) * shared->quadrature.weight(q);
+        weights[q]   = determinant(jacobians[q]) * shared->weights[q];
         gradients[q] = gradients[q] * transpose(invert(jacobians[q]));
       }
   }

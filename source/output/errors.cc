@@ -1,12 +1,15 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/cell_face.h>
 #include <mortise/body/simplex_quadrature.h>
+#include <mortise/operators/face_values.h>
 #include <mortise/output/cell_fields.h>
 #include <mortise/output/errors.h>
 
 #include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
 
 namespace mortise
 {
@@ -14,21 +17,11 @@ namespace mortise
 
   namespace
   {
-    /// Gauss rules with so many more points per direction than the degree.
-    template <int n>
-    auto
-    rule(const unsigned int extra_points)
-    {
-      return [=](const FiniteElement<dim> &element) {
-        return gauss_quadrature<n>(element, element.degree + extra_points);
-      };
-    }
+    /// What belongs to one face of the cells of one element.
+    template <typename T>
+    using ByFace =
+      std::map<std::pair<unsigned int, unsigned int>, std::unique_ptr<T>>;
 
-    using TriaCell = Triangulation<dim>::cell_iterator;
-  } // namespace
-
-  namespace
-  {
     /// Squares of norms and of errors in them.
     struct Squares
     {
@@ -92,7 +85,9 @@ namespace mortise
     Squares error, norm;
     for (const auto &body : bodies)
       {
-        CellFields fields(*body, 3);
+        CellFields fields(*body, [](const FiniteElement<dim> &element) {
+          return gauss_quadrature<dim>(element, element.degree + 3);
+        });
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
@@ -131,37 +126,36 @@ namespace mortise
     double error = 0., norm = 0., stress_norm = 0.;
     for (unsigned int n = 0; n < couplings.size(); ++n)
       {
-        const Body                        &body = *bodies[slave_bodies[n]];
-        ValuesByElement<FEFaceValues<dim>> by_element(
-          body,
-          rule<dim - 1>(3),
-          update_values | update_normal_vectors | update_quadrature_points |
-            update_JxW_values);
+        const Body        &body = *bodies[slave_bodies[n]];
+        ByFace<FaceValues> by_face;
         const BodySurface &slave = couplings[n].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
           if (!couplings[n].local[s].partners.empty())
             {
-              auto &values = by_element(slave.cells[s]);
-              values.reinit(TriaCell(slave.cells[s]), slave.face_numbers[s]);
-              const auto on_face =
-                CellFace(slave.cells[s], slave.face_numbers[s]).indices;
-              for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
+              const auto        &cell = slave.cells[s];
+              const unsigned int f    = slave.face_numbers[s];
+              auto              &face = by_face[{cell->active_fe_index(), f}];
+              if (!face)
+                face = std::make_unique<FaceValues>(body,
+                                                    cell,
+                                                    f,
+                                                    body.degree(cell) + 3);
+              face->reinit(cell);
+              const unsigned int n_functions = face->indices().size();
+              for (unsigned int q = 0; q < face->points.size(); ++q)
                 {
                   // lambda acts on the master: it is minus the traction on the
                   // slave
-                  const auto stress =
-                    exact.stress(values.quadrature_point(q), body.index);
-                  const Tensor<1, dim> traction =
-                    stress * values.normal_vector(q);
-                  Tensor<1, dim> difference = traction;
+                  const auto stress = exact.stress(face->points[q], body.index);
+                  const Tensor<1, dim> traction   = stress * face->normals[q];
+                  Tensor<1, dim>       difference = traction;
                   for (unsigned int c = 0; c < dim; ++c)
-                    for (unsigned int k = 0; k < on_face.size(); ++k)
-                      difference[c] +=
-                        coefficients[n][s][c * on_face.size() + k] *
-                        values.shape_value(on_face[k], q);
-                  error += values.JxW(q) * difference.norm_square();
-                  norm += values.JxW(q) * traction.norm_square();
-                  stress_norm += values.JxW(q) * (stress * stress);
+                    for (unsigned int k = 0; k < n_functions; ++k)
+                      difference[c] += coefficients[n][s][c * n_functions + k] *
+                                       face->value(k, q);
+                  error += face->weights[q] * difference.norm_square();
+                  norm += face->weights[q] * traction.norm_square();
+                  stress_norm += face->weights[q] * (stress * stress);
                 }
             }
       }
@@ -217,39 +211,45 @@ namespace mortise
     return Utilities::MPI::broadcast(comm, result, answers);
   }
 
+  namespace
+  {
+    struct FieldsOnFace
+    {
+      FieldsOnFace(const Body            &body,
+                   const Quadrature<dim> &rule,
+                   const unsigned int     f)
+        : fields(body, [rule](const auto &) { return rule; })
+        , geometry(body, f, rule)
+      {}
+
+      CellFields   fields;
+      FaceGeometry geometry;
+    };
+  } // namespace
+
   Tensor<1, dim>
   resultant(const Body              &body,
             const BodySolution      &solution,
             const types::boundary_id boundary)
   {
-    Tensor<1, dim>                     force;
-    ValuesByElement<FEFaceValues<dim>> by_element(body,
-                                                  rule<dim - 1>(2),
-                                                  update_gradients |
-                                                    update_normal_vectors |
-                                                    update_JxW_values),
-      pressure_by_element(body, rule<dim - 1>(3), update_values);
+    Tensor<1, dim>       force;
+    ByFace<FieldsOnFace> by_face;
     for (const auto &[cell, f] : boundary_faces(body, boundary))
       if (cell->is_locally_owned())
         {
-          auto &values = by_element(cell);
-          values.reinit(TriaCell(cell), f);
-          const auto coefficients =
-            cell_coefficients(cell, solution.displacement);
-          std::vector<double> pressures(values.n_quadrature_points);
-          if (body.pressure)
-            {
-              const auto own             = body.pressure->cell(cell);
-              auto      &pressure_values = pressure_by_element(own);
-              pressure_values.reinit(TriaCell(own), f);
-              pressures = pressures_at(own, pressure_values, solution.pressure);
-            }
-          for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-            force += values.JxW(q) *
-                     (body.material.stress(symmetrize(
-                                             gradient(values, coefficients, q)),
-                                           pressures[q]) *
-                      values.normal_vector(q));
+          auto &face = by_face[{cell->active_fe_index(), f}];
+          if (!face)
+            face = std::make_unique<FieldsOnFace>(
+              body, face_rule(cell->get_fe(), f, body.degree(cell) + 2), f);
+          face->fields.reinit(cell, solution);
+          face->geometry.reinit(cell);
+          for (unsigned int q = 0; q < face->geometry.points.size(); ++q)
+            force +=
+              face->geometry.weights[q] *
+              (body.material.stress(symmetrize(face->fields.gradients[q]),
+                                    body.pressure ? face->fields.pressures[q] :
+                                                    0.) *
+               face->geometry.normals[q]);
         }
     return Utilities::MPI::sum(force, body.triangulation().get_communicator());
   }

@@ -68,17 +68,22 @@ namespace mortise
       apply_along_direction(second, 1, apply_along_direction(first, 0, in)));
   }
 
-  /// The derivative in direction @p d, from tables (point, function) of one
-  /// direction; the function itself for d = 3.
-  inline TensorArray
-  apply_derivative(const dealii::FullMatrix<double> &values,
-                   const dealii::FullMatrix<double> &slopes,
-                   const unsigned int                d,
-                   const TensorArray                &in)
+  /// Functions of one direction at the points of a rule: (point, function).
+  struct LineTable
   {
-    return apply_product(d == 0 ? slopes : values,
-                         d == 1 ? slopes : values,
-                         d == 2 ? slopes : values,
+    dealii::FullMatrix<double> values, slopes;
+  };
+
+  /// The derivative in direction @p d, from tables of all directions; the
+  /// function itself for d = 3.
+  inline TensorArray
+  apply_derivative(const std::array<LineTable, 3> &lines,
+                   const unsigned int              d,
+                   const TensorArray              &in)
+  {
+    return apply_product(d == 0 ? lines[0].slopes : lines[0].values,
+                         d == 1 ? lines[1].slopes : lines[1].values,
+                         d == 2 ? lines[2].slopes : lines[2].values,
                          in);
   }
 } // namespace mortise

@@ -26,7 +26,8 @@ namespace mortise
     using Jacobian = dealii::Tensor<2, dim>;
 
     /// For the cells of @p body of one shape, whose mapping is kept by
-    /// reference; @p quadrature is a tensor product for hexahedra.
+    /// reference; @p quadrature is a tensor product for hexahedra, with rules of
+    /// its own in each direction.
     CellGeometry(const Body                    &body,
                  const dealii::ReferenceCell   &shape,
                  const dealii::Quadrature<dim> &quadrature);
@@ -40,7 +41,7 @@ namespace mortise
     const std::vector<Jacobian> &
     jacobians(const Body::CellIterator &cell);
 
-    /// The points of the rule in space; hexahedra only.
+    /// The points of the rule in space.
     const std::vector<dealii::Point<dim>> &
     points(const Body::CellIterator &cell);
 
@@ -50,6 +51,7 @@ namespace mortise
 
     /// Barycentric coordinates of the nodes of a tetrahedron.
     std::vector<std::array<double, dim + 1>> barycentric;
+    std::vector<double>                      nodal_values;    ///< [q][k]
     std::vector<double>                      nodal_gradients; ///< [q][a][k]
     /// Nodes of a hexahedron in lexicographic order, by component.
     std::array<TensorArray, dim>
@@ -57,7 +59,7 @@ namespace mortise
 
     const HexahedralMapping   *hexahedra; ///< none for tetrahedra
     std::vector<unsigned int>  lexicographic;
-    dealii::FullMatrix<double> line_values, line_slopes; ///< (point, node)
+    std::array<LineTable, dim> lines; ///< of its nodes
 
     std::vector<Jacobian>           result;
     std::vector<dealii::Point<dim>> points_in_space;

@@ -6,6 +6,7 @@
 #include <mortise/operators/cell_geometry.h>
 #include <mortise/output/cell_values.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -15,9 +16,12 @@ namespace mortise
   class CellFields
   {
   public:
-    /// Gauss rules with @p extra_points more per direction than the degree. The
-    /// body is kept by reference.
-    CellFields(const Body &body, unsigned int extra_points);
+    /// The rule for the cells of an element: a tensor product on hexahedra.
+    using Rule = std::function<dealii::Quadrature<dim>(
+      const dealii::FiniteElement<dim> &)>;
+
+    /// The body is kept by reference.
+    CellFields(const Body &body, const Rule &rule);
     ~CellFields();
 
     /// Evaluate @p solution on @p cell: fills the members below.
@@ -38,8 +42,10 @@ namespace mortise
                         const BodySolution       &solution);
 
     const Body                                        &body;
-    const unsigned int                                 extra_points;
+    const Rule                                         rule;
     std::map<unsigned int, std::unique_ptr<Hexahedra>> hexahedra;
-    ValuesByElement<dealii::FEValues<dim>> tetrahedra, tetrahedra_pressure;
+    ValuesByElement<dealii::FEValues<dim>>             tetrahedra;
+    std::map<unsigned int, std::unique_ptr<dealii::FEValues<dim>>>
+      tetrahedra_pressure;
   };
 } // namespace mortise
