@@ -4,11 +4,13 @@
 #include <Epetra_MpiComm.h>
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
+#include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/sparse_cholesky.h>
 
 #include <cmath>
 #include <numeric>
+#include <type_traits>
 
 namespace mortise
 {
@@ -96,9 +98,50 @@ namespace mortise
         return info == 0;
       }
 
+      /// After eliminate(): [L_11^{-1}; -L_21 L_11^{-1}], columns padded with
+      /// zeros to whole batches, so that both halves of a solve with these
+      /// columns are one product. Spoils the front.
+      template <typename Number>
+      AlignedVector<Number>
+      panel()
+      {
+        using namespace Teuchos;
+        if (height > width)
+          BLAS<int, double>().TRMM(RIGHT_SIDE,
+                                   LOWER_TRI,
+                                   NO_TRANS,
+                                   NON_UNIT_DIAG,
+                                   height - width,
+                                   width,
+                                   -1.,
+                                   values.data(),
+                                   height,
+                                   &(*this)(width, 0),
+                                   height);
+        const std::size_t     stride = padded<Number>(height);
+        AlignedVector<Number> result(stride * width);
+        for (int j = 0; j < width; ++j)
+          for (int i = j; i < height; ++i)
+            result[stride * j + i] = static_cast<Number>((*this)(i, j));
+        return result;
+      }
+
       int                 width, height;
       std::vector<double> values;
     };
+
+    /// visit(first column, number of columns) for all of @p width columns, by
+    /// blocks that fit the registers of the processor.
+    template <typename Visit>
+    inline void
+    for_each_block(const unsigned int width, const Visit &visit)
+    {
+      unsigned int j = 0;
+      for (; j + 8 <= width; j += 8)
+        visit(j, std::integral_constant<unsigned int, 8>());
+      for (; j < width; ++j)
+        visit(j, std::integral_constant<unsigned int, 1>());
+    }
 
     /// What remains of a front for its parent: rows below, squared.
     std::vector<double>
@@ -167,10 +210,10 @@ namespace mortise
     list_parts();
     vector.resize(place.size());
     exchange.resize(place.size());
-    std::size_t longest = 0;
+    unsigned int highest = 0;
     for (const Supernode &supernode : supernodes)
-      longest = std::max(longest, supernode.rows.size());
-    below.resize(longest);
+      highest = std::max(highest, supernode.height());
+    front.resize(padded<Number>(highest));
     return factorise(all);
   }
 
@@ -248,10 +291,8 @@ namespace mortise
         }
       if (!front.eliminate())
         return false;
-      updates[s]  = update_of(front);
-      auto &panel = panels[s];
-      panel.resize_fast(std::size_t(front.width) * front.height);
-      std::copy_n(front.values.data(), panel.size(), panel.begin());
+      updates[s] = update_of(front);
+      panels[s]  = front.panel<Number>();
       return true;
     };
     bool positive = true;
@@ -267,37 +308,59 @@ namespace mortise
   void
   SparseCholesky<Number>::forward(const unsigned int s) const
   {
-    using namespace Teuchos;
-    const BLAS<int, Number> blas;
-    const Supernode        &supernode = supernodes[s];
-    const int               w = supernode.width, h = supernode.height();
-    const Number           *panel = panels[s].begin();
-    Number                 *v     = &vector[supernode.first];
-    blas.TRMV(LOWER_TRI, NO_TRANS, NON_UNIT_DIAG, w, panel, h, v, 1);
-    if (h == w)
-      return;
-    blas.GEMV(NO_TRANS, h - w, w, 1, panel + w, h, v, 1, 0, below.data(), 1);
-    for (int i = 0; i < h - w; ++i)
-      vector[supernode.rows[i]] -= below[i];
+    using V                        = typename Batch<Number>::Vector;
+    constexpr unsigned int size    = Batch<Number>::size;
+    const Supernode       &node    = supernodes[s];
+    const unsigned int     batches = padded<Number>(node.height()) / size;
+    const V               *panel   = reinterpret_cast<const V *>(&panels[s][0]);
+    V                     *sums    = reinterpret_cast<V *>(front.data());
+    std::fill(sums, sums + batches, V{});
+    for_each_block(node.width, [&](const unsigned int j, const auto n) {
+      const V *column = panel + std::size_t(j) * batches;
+      Number   x[n];
+      std::copy_n(&vector[node.first + j], n(), x);
+      for (unsigned int i = j / size; i < batches; ++i)
+        {
+          V sum = sums[i];
+          for (unsigned int k = 0; k < n; ++k)
+            sum += x[k] * column[k * batches + i];
+          sums[i] = sum;
+        }
+    });
+    std::copy_n(front.data(), node.width, &vector[node.first]);
+    for (unsigned int i = 0; i < node.rows.size(); ++i)
+      vector[node.rows[i]] += front[node.width + i];
   }
 
   template <typename Number>
   void
   SparseCholesky<Number>::backward(const unsigned int s) const
   {
-    using namespace Teuchos;
-    const BLAS<int, Number> blas;
-    const Supernode        &supernode = supernodes[s];
-    const int               w = supernode.width, h = supernode.height();
-    const Number           *panel = panels[s].begin();
-    Number                 *v     = &vector[supernode.first];
-    if (h > w)
-      {
-        for (int i = 0; i < h - w; ++i)
-          below[i] = vector[supernode.rows[i]];
-        blas.GEMV(TRANS, h - w, w, -1, panel + w, h, below.data(), 1, 1, v, 1);
-      }
-    blas.TRMV(LOWER_TRI, TRANS, NON_UNIT_DIAG, w, panel, h, v, 1);
+    using V                        = typename Batch<Number>::Vector;
+    constexpr unsigned int size    = Batch<Number>::size;
+    const Supernode       &node    = supernodes[s];
+    const unsigned int     batches = padded<Number>(node.height()) / size;
+    const V               *panel   = reinterpret_cast<const V *>(&panels[s][0]);
+    const V               *values  = reinterpret_cast<const V *>(front.data());
+    std::copy_n(&vector[node.first], node.width, front.data());
+    for (unsigned int i = 0; i < node.rows.size(); ++i)
+      front[node.width + i] = vector[node.rows[i]];
+    std::fill(&front[node.height()], &front[0] + batches * size, Number());
+    for_each_block(node.width, [&](const unsigned int j, const auto n) {
+      const V *column = panel + std::size_t(j) * batches;
+      V        sums[n];
+      std::fill_n(sums, n(), V{});
+      for (unsigned int i = j / size; i < batches; ++i)
+        for (unsigned int k = 0; k < n; ++k)
+          sums[k] += column[k * batches + i] * values[i];
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          Number sum = 0;
+          for (unsigned int l = 0; l < size; ++l)
+            sum += sums[k][l];
+          vector[node.first + j + k] = sum;
+        }
+    });
   }
 
   template <typename Number>

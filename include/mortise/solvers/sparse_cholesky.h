@@ -54,10 +54,10 @@ namespace mortise
     std::vector<unsigned int> common_places; ///< of rows
     std::vector<int>          part_counts, part_starts; ///< rows of subtrees
     std::vector<unsigned int> part_place; ///< of these, rank by rank
-    /// Inverse of the diagonal block and the block below it, columnwise; by
-    /// supernode.
+    /// By supernode, see Front::panel().
     std::vector<dealii::AlignedVector<Number>> panels;
     mutable std::vector<Number> vector; ///< in the order of elimination
-    mutable std::vector<Number> exchange, below;
+    mutable std::vector<Number> exchange;
+    mutable dealii::AlignedVector<Number> front; ///< of one supernode
   };
 } // namespace mortise
