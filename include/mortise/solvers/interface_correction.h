@@ -4,8 +4,8 @@
 // Sources: Braess, Sarazin (1997); Braess, Dahmen, Wieners (1999).
 #pragma once
 
+#include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/diagonal_lifting.h>
-#include <mortise/solvers/epetra_tools.h>
 
 #include <vector>
 
@@ -26,11 +26,12 @@ namespace mortise
     void
     correct(const Residual &residual, const Subtract &subtract) const
     {
-      for (const unsigned int i : places)
-        values.local_element(i) = residual(i);
+      const auto &places = product.places();
+      for (unsigned int k = 0; k < places.size(); ++k)
+        values.local_element(places[k]) = weights[k] * residual(places[k]);
       apply();
-      for (const unsigned int i : places)
-        subtract(i, values.local_element(i));
+      for (unsigned int k = 0; k < places.size(); ++k)
+        subtract(places[k], weights[k] * values.local_element(places[k]));
     }
 
     /// x := P x = x - T B^T C^{-1} B x. Collective.
@@ -42,23 +43,14 @@ namespace mortise
     project_residual(LevelVector<Number> &r) const;
 
   private:
-    /// values := T B^T C^{-1} B T values at the places.
+    /// values := B^T C^{-1} B values at the places.
     void
     apply() const;
 
-    struct Group
-    {
-      RowGroup                  rows;    ///< of B
-      std::vector<unsigned int> columns; ///< places, those of others behind
-    };
-
-    const DiagonalLifting                &lifting;
-    std::vector<unsigned int>             places;
-    std::vector<Number>                   diagonal; ///< of K, by place
-    std::vector<Group>                    groups;
-    dealii::AlignedVector<Number>         entries; ///< of B T, rows padded
-    mutable dealii::AlignedVector<Number> gathered;
-    mutable Epetra_Vector                 jump, multiplier;
-    mutable LevelVector<Number>           values;
+    const DiagonalLifting        &lifting;
+    const CouplingProduct<Number> product;
+    std::vector<Number>           weights; ///< T, by place
+    mutable Epetra_Vector         jump, multiplier;
+    mutable LevelVector<Number>   values;
   };
 } // namespace mortise

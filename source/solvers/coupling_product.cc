@@ -1,0 +1,240 @@
+#include <mortise/operators/tensor_kernel.h>
+#include <mortise/solvers/coupling_product.h>
+#include <mortise/solvers/epetra_tools.h>
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Do the groups hold the same entries, in columns that are those of
+    /// components 0, 1 and 2 of the same nodes?
+    bool
+    same_but_for_component(const Epetra_CrsMatrix &matrix,
+                           const RowGroup         &a,
+                           const RowGroup         &b,
+                           const unsigned int      component)
+    {
+      if (a.n_rows != b.n_rows)
+        return false;
+      for (int i = 0; i < a.n_rows; ++i)
+        {
+          const EpetraRow p(matrix, a.first + i), q(matrix, b.first + i);
+          if (p.length != q.length ||
+              !std::equal(p.values, p.values + p.length, q.values))
+            return false;
+          if (i > 0)
+            continue;
+          for (int k = 0; k < p.length; ++k)
+            if (matrix.GCID(q.columns[k]) !=
+                matrix.GCID(p.columns[k]) + static_cast<int>(component))
+              return false;
+        }
+      return true;
+    }
+
+    /// visit(first row, number of rows) for all of @p n_rows, by blocks that
+    /// fit the registers of the processor.
+    template <typename Visit>
+    inline void
+    for_each_row_block(const int n_rows, const Visit &visit)
+    {
+      int i = 0;
+      for (; i + 4 <= n_rows; i += 4)
+        visit(i, std::integral_constant<int, 4>());
+      for (; i < n_rows; ++i)
+        visit(i, std::integral_constant<int, 1>());
+    }
+  } // namespace
+
+  template <typename Number>
+  CouplingProduct<Number>::CouplingProduct(const BlockSystem &system)
+  {
+    const auto &matrix  = system.coupling.trilinos_matrix();
+    const auto &columns = matrix.ColMap();
+    IndexSet    touched(system.owned_displacement.size());
+    for (int k = 0; k < columns.NumMyElements(); ++k)
+      touched.add_index(columns.GID(k));
+    touched.compress();
+    layout = std::make_shared<const Utilities::MPI::Partitioner>(
+      system.owned_displacement, touched, system.communicator);
+    make_blocks(matrix);
+
+    LevelVector<Number> any(layout);
+    for (const auto index : touched)
+      any.local_element(layout->global_to_local(index)) = 1.;
+    any.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < any.locally_owned_size(); ++i)
+      if (any.local_element(i) > 0.)
+        moved.push_back(i);
+  }
+
+  template <typename Number>
+  void
+  CouplingProduct<Number>::make_blocks(const Epetra_CrsMatrix &matrix)
+  {
+    const auto  groups = group_rows(matrix);
+    std::size_t size = 0, widest = 0;
+    for (unsigned int g = 0; g < groups.size();)
+      {
+        unsigned int n_components = 1;
+        while (n_components < dim && g + n_components < groups.size() &&
+               same_but_for_component(
+                 matrix, groups[g], groups[g + n_components], n_components))
+          ++n_components;
+        if (n_components < dim)
+          n_components = 1;
+        Block block;
+        block.n_rows = groups[g].n_rows;
+        for (unsigned int c = 0; c < n_components; ++c)
+          {
+            const EpetraRow row(matrix, groups[g + c].first);
+            block.first_row.push_back(groups[g + c].first);
+            block.columns.emplace_back();
+            for (int k = 0; k < row.length; ++k)
+              block.columns.back().push_back(
+                layout->global_to_local(matrix.GCID(row.columns[k])));
+          }
+        const std::size_t width = padded<Number>(block.columns[0].size());
+        size += block.n_rows * width;
+        widest = std::max(widest, width);
+        blocks.push_back(std::move(block));
+        g += n_components;
+      }
+    entries.resize(size);
+    workspace.resize(dim * widest);
+    Number *entry = entries.data();
+    for (const Block &block : blocks)
+      for (int i = 0; i < block.n_rows; ++i)
+        {
+          const EpetraRow row(matrix, block.first_row[0] + i);
+          for (int k = 0; k < row.length; ++k)
+            entry[k] = static_cast<Number>(row.values[k]);
+          entry += padded<Number>(row.length);
+        }
+  }
+
+  template <typename Number>
+  template <unsigned int n_components>
+  void
+  CouplingProduct<Number>::multiply_block(const Block   &block,
+                                          const Number  *block_entries,
+                                          const Number  *u,
+                                          Epetra_Vector &jump) const
+  {
+    using V                  = typename Batch<Number>::Vector;
+    constexpr unsigned int w = Batch<Number>::size;
+    const unsigned int n = block.columns[0].size(), m = padded<Number>(n) / w;
+    const V           *row      = reinterpret_cast<const V *>(block_entries);
+    V                 *gathered = reinterpret_cast<V *>(workspace.data());
+    for (unsigned int c = 0; c < n_components; ++c)
+      {
+        Number *to = workspace.data() + c * m * w;
+        for (unsigned int k = 0; k < n; ++k)
+          to[k] = u[block.columns[c][k]];
+        std::fill(to + n, to + m * w, Number());
+      }
+    for_each_row_block(block.n_rows, [&](const int i, const auto n_rows) {
+      const V *const from = row + std::size_t(i) * m;
+      V              sums[n_rows][n_components];
+      for (int r = 0; r < n_rows; ++r)
+        for (unsigned int c = 0; c < n_components; ++c)
+          sums[r][c] = V{};
+      for (unsigned int k = 0; k < m; ++k)
+        for (int r = 0; r < n_rows; ++r)
+          for (unsigned int c = 0; c < n_components; ++c)
+            sums[r][c] += from[r * m + k] * gathered[c * m + k];
+      for (int r = 0; r < n_rows; ++r)
+        for (unsigned int c = 0; c < n_components; ++c)
+          {
+            Number sum = 0;
+            for (unsigned int l = 0; l < w; ++l)
+              sum += sums[r][c][l];
+            jump[block.first_row[c] + i + r] = sum;
+          }
+    });
+  }
+
+  template <typename Number>
+  template <unsigned int n_components>
+  void
+  CouplingProduct<Number>::multiply_block_transposed(
+    const Block         &block,
+    const Number        *block_entries,
+    Number              *f,
+    const Epetra_Vector &y) const
+  {
+    using V                  = typename Batch<Number>::Vector;
+    constexpr unsigned int w = Batch<Number>::size;
+    const unsigned int n = block.columns[0].size(), m = padded<Number>(n) / w;
+    const V           *row  = reinterpret_cast<const V *>(block_entries);
+    V                 *sums = reinterpret_cast<V *>(workspace.data());
+    std::fill(sums, sums + n_components * m, V{});
+    for_each_row_block(block.n_rows, [&](const int i, const auto n_rows) {
+      const V *const from = row + std::size_t(i) * m;
+      Number         factor[n_rows][n_components];
+      for (int r = 0; r < n_rows; ++r)
+        for (unsigned int c = 0; c < n_components; ++c)
+          factor[r][c] = static_cast<Number>(y[block.first_row[c] + i + r]);
+      for (unsigned int k = 0; k < m; ++k)
+        for (unsigned int c = 0; c < n_components; ++c)
+          {
+            V sum = sums[c * m + k];
+            for (int r = 0; r < n_rows; ++r)
+              sum += factor[r][c] * from[r * m + k];
+            sums[c * m + k] = sum;
+          }
+    });
+    for (unsigned int c = 0; c < n_components; ++c)
+      {
+        const Number *from = workspace.data() + c * m * w;
+        for (unsigned int k = 0; k < n; ++k)
+          f[block.columns[c][k]] += from[k];
+      }
+  }
+
+  template <typename Number>
+  void
+  CouplingProduct<Number>::multiply(Epetra_Vector             &jump,
+                                    const LevelVector<Number> &u) const
+  {
+    u.update_ghost_values();
+    const Number *block_entries = entries.data();
+    for (const Block &block : blocks)
+      {
+        if (block.columns.size() == dim)
+          multiply_block<dim>(block, block_entries, u.begin(), jump);
+        else
+          multiply_block<1>(block, block_entries, u.begin(), jump);
+        block_entries += block.n_rows * padded<Number>(block.columns[0].size());
+      }
+    u.zero_out_ghost_values();
+  }
+
+  template <typename Number>
+  void
+  CouplingProduct<Number>::multiply_transposed(LevelVector<Number> &f,
+                                               const Epetra_Vector &y) const
+  {
+    for (const unsigned int i : moved)
+      f.local_element(i) = 0;
+    const Number *block_entries = entries.data();
+    for (const Block &block : blocks)
+      {
+        if (block.columns.size() == dim)
+          multiply_block_transposed<dim>(block, block_entries, f.begin(), y);
+        else
+          multiply_block_transposed<1>(block, block_entries, f.begin(), y);
+        block_entries += block.n_rows * padded<Number>(block.columns[0].size());
+      }
+    f.compress(VectorOperation::add);
+  }
+
+  template class CouplingProduct<float>;
+  template class CouplingProduct<double>;
+} // namespace mortise
