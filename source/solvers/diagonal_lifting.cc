@@ -1,3 +1,4 @@
+#include <Epetra_Import.h>
 #include <Teuchos_BLAS.hpp>
 #include <mortise/solvers/diagonal_lifting.h>
 #include <mortise/solvers/epetra_tools.h>
@@ -12,7 +13,7 @@ namespace mortise
   {
     /// B T B^T with the rows of B, by dense blocks. @p transposed: T B^T with
     /// one row for each column of B, in the order of these.
-    std::unique_ptr<Epetra_CrsMatrix>
+    SparseRows
     weighted_square(const Epetra_CrsMatrix &B,
                     const Epetra_CrsMatrix &transposed)
     {
@@ -25,7 +26,8 @@ namespace mortise
 
       // the columns of the result by row group
       std::vector<std::vector<int>> pattern(row_groups.size());
-      std::vector<int> mark(transposed.NumMyCols(), -1), lengths(B.NumMyRows());
+      std::size_t                   n_entries = 0;
+      std::vector<int>              mark(transposed.NumMyCols(), -1);
       for (unsigned int g = 0; g < row_groups.size(); ++g)
         {
           const EpetraRow row(B, row_groups[g].first);
@@ -43,28 +45,31 @@ namespace mortise
                     }
               }
           std::sort(pattern[g].begin(), pattern[g].end());
-          for (int i = 0; i < row_groups[g].n_rows; ++i)
-            lengths[row_groups[g].first + i] = pattern[g].size();
+          n_entries += pattern[g].size() * row_groups[g].n_rows;
         }
 
-      auto result = std::make_unique<Epetra_CrsMatrix>(Copy,
-                                                       B.RowMap(),
-                                                       lengths.data(),
-                                                       true);
+      SparseRows result;
+      result.columns.reserve(n_entries);
+      result.values.resize(n_entries);
       const Teuchos::BLAS<int, double> blas;
-      std::vector<double>              sums, product;
+      std::vector<double>              product;
       std::vector<int>                 place(transposed.NumMyCols()), global;
+      double                          *sums = result.values.data();
       for (unsigned int g = 0; g < row_groups.size(); ++g)
         {
           const auto &group = row_groups[g];
           const int   n = group.n_rows, m = pattern[g].size();
-          sums.assign(std::size_t(n) * m, 0.);
           global.clear();
           for (int l = 0; l < m; ++l)
             {
               place[pattern[g][l]] = l;
               global.push_back(transposed.GCID(pattern[g][l]));
             }
+          result.lengths.insert(result.lengths.end(), n, m);
+          for (int i = 0; i < n; ++i)
+            result.columns.insert(result.columns.end(),
+                                  global.begin(),
+                                  global.end());
           const EpetraRow row(B, group.first);
           for (int k = 0; k < row.length;)
             {
@@ -95,13 +100,8 @@ namespace mortise
                   sums[std::size_t(i) * m + place[multipliers.columns[l]]] +=
                     product[std::size_t(i) * multipliers.length + l];
             }
-          for (int i = 0; i < n; ++i)
-            result->InsertGlobalValues(B.GRID(group.first + i),
-                                       m,
-                                       &sums[std::size_t(i) * m],
-                                       global.data());
+          sums += std::size_t(n) * m;
         }
-      result->FillComplete();
       return result;
     }
   } // namespace
@@ -112,17 +112,25 @@ namespace mortise
     for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
       weights.local_element(i) = 1. / weights.local_element(i);
 
-    const auto   &coupling   = system.coupling.trilinos_matrix();
-    const auto    transposed = transpose(coupling, coupling.DomainMap());
-    Epetra_Vector owned(coupling.DomainMap());
-    std::copy_n(weights.begin(), owned.MyLength(), owned.Values());
-    transposed->LeftScale(owned);
+    // T B^T, whose rows a rank needs for all columns of its B
+    const auto       &coupling = system.coupling.trilinos_matrix();
+    const bool        one_rank = coupling.Comm().NumProc() == 1;
+    const Epetra_Map &owned =
+      one_rank ? coupling.ColMap() : coupling.DomainMap();
+    const auto    scaled = transpose(coupling, owned);
+    Epetra_Vector scale(owned);
+    for (int i = 0; i < scale.MyLength(); ++i)
+      scale[i] = weights.local_element(coupling.DomainMap().LID(owned.GID(i)));
+    scaled->LeftScale(scale);
+    if (one_rank)
+      {
+        factorise(weighted_square(coupling, *scaled), coupling.RowMap());
+        return;
+      }
     Epetra_CrsMatrix on_columns(Copy, coupling.ColMap(), 0);
-    on_columns.Import(*transposed,
-                      Epetra_Import(coupling.ColMap(), coupling.DomainMap()),
-                      Insert);
-    on_columns.FillComplete(coupling.RangeMap(), coupling.DomainMap());
-    factorise(*weighted_square(coupling, on_columns), true);
+    on_columns.Import(*scaled, Epetra_Import(coupling.ColMap(), owned), Insert);
+    on_columns.FillComplete(coupling.RangeMap(), owned);
+    factorise(weighted_square(coupling, on_columns), coupling.RowMap());
   }
 
   void

@@ -191,7 +191,7 @@ namespace mortise
         schur.add(patch.multipliers, local, false);
       }
     schur.compress(VectorOperation::add);
-    factorise(schur.trilinos_matrix(), false);
+    factorise(schur.trilinos_matrix());
   }
 
   void

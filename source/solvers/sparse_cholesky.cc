@@ -20,7 +20,7 @@ namespace mortise
   {
     template <typename T>
     std::vector<T>
-    gather_on_all(const std::vector<T> &mine, const MPI_Comm comm)
+    gather_on_all(std::vector<T> mine, const MPI_Comm comm)
     {
       int n_ranks = 1, n_mine = mine.size();
       MPI_Comm_size(comm, &n_ranks);
@@ -161,20 +161,11 @@ namespace mortise
   template <typename Number>
   struct SparseCholesky<Number>::GatheredMatrix : MatrixGraph
   {
-    explicit GatheredMatrix(const Epetra_CrsMatrix &matrix, const MPI_Comm comm)
+    GatheredMatrix(SparseRows rows, const MPI_Comm comm)
     {
-      std::vector<unsigned int> lengths;
-      for (int i = 0; i < matrix.NumMyRows(); ++i)
-        {
-          const EpetraRow row(matrix, i);
-          lengths.push_back(row.length);
-          for (int k = 0; k < row.length; ++k)
-            columns.push_back(matrix.GCID(row.columns[k]));
-          values.insert(values.end(), row.values, row.values + row.length);
-        }
-      lengths = gather_on_all(lengths, comm);
-      columns = gather_on_all(columns, comm);
-      values  = gather_on_all(values, comm);
+      const auto lengths = gather_on_all(std::move(rows.lengths), comm);
+      columns            = gather_on_all(std::move(rows.columns), comm);
+      values             = gather_on_all(std::move(rows.values), comm);
       begin.assign(lengths.size() + 1, 0);
       std::partial_sum(lengths.begin(), lengths.end(), begin.begin() + 1);
       scale.assign(lengths.size(), 0.);
@@ -188,15 +179,44 @@ namespace mortise
     std::vector<double> scale; ///< to a diagonal of ones; 0: not possible
   };
 
+  SparseRows
+  owned_rows(const Epetra_CrsMatrix &matrix)
+  {
+    SparseRows rows;
+    for (int i = 0; i < matrix.NumMyRows(); ++i)
+      {
+        const EpetraRow row(matrix, i);
+        rows.lengths.push_back(row.length);
+        for (int k = 0; k < row.length; ++k)
+          rows.columns.push_back(matrix.GCID(row.columns[k]));
+        rows.values.insert(rows.values.end(),
+                           row.values,
+                           row.values + row.length);
+      }
+    return rows;
+  }
+
   template <typename Number>
   bool
   SparseCholesky<Number>::initialize(const Epetra_CrsMatrix &matrix)
   {
-    comm = dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm();
+    return initialize(
+      owned_rows(matrix),
+      dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm());
+  }
+
+  template <typename Number>
+  bool
+  SparseCholesky<Number>::initialize(SparseRows     rows,
+                                     const MPI_Comm communicator)
+  {
+    comm = communicator;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &n_ranks);
-    const GatheredMatrix all(matrix, comm);
-    counts = gather_on_all(std::vector<int>{matrix.NumMyRows()}, comm);
+    counts =
+      gather_on_all(std::vector<int>{static_cast<int>(rows.lengths.size())},
+                    comm);
+    const GatheredMatrix all(std::move(rows), comm);
     starts.assign(n_ranks + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
     if (std::find(all.scale.begin(), all.scale.end(), 0.) != all.scale.end())

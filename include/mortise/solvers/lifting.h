@@ -40,10 +40,14 @@ namespace mortise
     }
 
   protected:
-    /// @p schur: C, not kept; @p single_precision: where that is accurate
-    /// enough. Collective.
+    /// The rows of C, distributed as @p map; in single precision where that is
+    /// accurate enough. Collective.
     void
-    factorise(const Epetra_CrsMatrix &schur, bool single_precision);
+    factorise(SparseRows schur, const Epetra_Map &map);
+
+    /// C as a matrix, in double precision. Collective.
+    void
+    factorise(const Epetra_CrsMatrix &schur);
 
   private:
     /// The first that is accurate enough; the last for what is too large to be

@@ -16,14 +16,28 @@
 
 namespace mortise
 {
+  /// Owned rows of a matrix, those of a rank behind those of the rank before.
+  struct SparseRows
+  {
+    std::vector<unsigned int> lengths;
+    std::vector<int>          columns; ///< global
+    std::vector<double>       values;
+  };
+
+  SparseRows
+  owned_rows(const Epetra_CrsMatrix &matrix);
+
   /// Computed in double precision, kept and applied in @p Number.
   template <typename Number>
   class SparseCholesky
   {
   public:
-    /// Factorise @p matrix, symmetric, whose rows must be numbered 0, 1, ...
-    /// over the ranks; it is not referred to afterwards. False, on every rank,
-    /// when it is not positive definite. Collective.
+    /// Factorise the symmetric matrix of these rows. False, on every rank, when
+    /// it is not positive definite. Collective.
+    bool
+    initialize(SparseRows rows, MPI_Comm comm);
+
+    /// The same; rows must be numbered 0, 1, ... over the ranks.
     bool
     initialize(const Epetra_CrsMatrix &matrix);
 
