@@ -8,24 +8,38 @@ namespace mortise
 {
   ConstraintProjector::ConstraintProjector(const BlockSystem &system,
                                            const Lifting     &lifting)
-    : system(system)
-    , lifting(lifting)
+    : lifting(lifting)
+    , product(system)
     , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
     , force(system.owned_displacement, system.communicator)
     , correction(force)
-  {}
+  {
+    product.initialize(trace);
+  }
+
+  void
+  ConstraintProjector::apply(const Vector &u) const
+  {
+    const auto &places = product.places();
+    for (unsigned int k = 0; k < places.size(); ++k)
+      trace.local_element(k) = u.begin()[places[k]];
+    Epetra_Vector b = epetra_view(jump);
+    product.multiply(b, trace);
+  }
 
   void
   ConstraintProjector::project_residual(Vector &r, Vector &lambda) const
   {
     lifting.vmult(correction, r);
-    system.coupling.vmult(jump, correction);
+    apply(correction);
     Epetra_Vector y = epetra_view(multiplier);
     lifting.apply_inverse_schur(y, epetra_view(jump));
     lambda += multiplier;
-    multiplier *= -1.;
-    system.coupling.Tvmult_add(r, multiplier);
+    product.multiply_transposed(trace, y);
+    const auto &places = product.places();
+    for (unsigned int k = 0; k < places.size(); ++k)
+      r.begin()[places[k]] -= trace.local_element(k);
   }
 
   void
@@ -35,7 +49,7 @@ namespace mortise
     double previous = std::numeric_limits<double>::infinity();
     for (unsigned int step = 0; step < 8; ++step)
       {
-        system.coupling.vmult(jump, u);
+        apply(u);
         jump -= g;
         const double norm = jump.l2_norm();
         if (!(norm > 0. && norm < 0.1 * previous))
@@ -48,12 +62,15 @@ namespace mortise
   const Vector &
   ConstraintProjector::project(Vector &u, const Vector *g) const
   {
-    system.coupling.vmult(jump, u);
+    apply(u);
     if (g != nullptr)
       jump -= *g;
     Epetra_Vector y = epetra_view(multiplier);
     lifting.apply_inverse_schur(y, epetra_view(jump));
-    system.coupling.Tvmult(force, multiplier);
+    product.multiply_transposed(trace, y);
+    const auto &places = product.places();
+    for (unsigned int k = 0; k < places.size(); ++k)
+      force.begin()[places[k]] = trace.local_element(k);
     lifting.vmult(correction, force);
     u -= correction;
     return multiplier;

@@ -1,3 +1,5 @@
+#include <deal.II/base/mpi.h>
+
 #include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/epetra_tools.h>
@@ -55,28 +57,64 @@ namespace mortise
   template <typename Number>
   CouplingProduct<Number>::CouplingProduct(const BlockSystem &system)
   {
-    const auto &matrix  = system.coupling.trilinos_matrix();
+    const auto &matrix = system.coupling.trilinos_matrix();
+    make_blocks(matrix, make_layout(matrix, system));
+  }
+
+  template <typename Number>
+  std::vector<unsigned int>
+  CouplingProduct<Number>::make_layout(const Epetra_CrsMatrix &matrix,
+                                       const BlockSystem      &system)
+  {
     const auto &columns = matrix.ColMap();
     IndexSet    touched(system.owned_displacement.size());
     for (int k = 0; k < columns.NumMyElements(); ++k)
       touched.add_index(columns.GID(k));
     touched.compress();
-    layout = std::make_shared<const Utilities::MPI::Partitioner>(
-      system.owned_displacement, touched, system.communicator);
-    make_blocks(matrix);
-
-    LevelVector<Number> any(layout);
+    LevelVector<double> numbers(system.owned_displacement,
+                                touched,
+                                system.communicator);
     for (const auto index : touched)
-      any.local_element(layout->global_to_local(index)) = 1.;
-    any.compress(VectorOperation::add);
-    for (unsigned int i = 0; i < any.locally_owned_size(); ++i)
-      if (any.local_element(i) > 0.)
+      numbers(index) = 1.;
+    numbers.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < numbers.locally_owned_size(); ++i)
+      if (numbers.local_element(i) > 0.)
         moved.push_back(i);
+
+    // number what is moved by itself; exact in double precision
+    using Index      = types::global_dof_index;
+    const Index mine = moved.size(),
+                size = Utilities::MPI::sum(mine, system.communicator);
+    Index first      = 0;
+    MPI_Exscan(&mine,
+               &first,
+               1,
+               DEAL_II_DOF_INDEX_MPI_TYPE,
+               MPI_SUM,
+               system.communicator);
+    for (unsigned int k = 0; k < moved.size(); ++k)
+      numbers.local_element(moved[k]) = first + k;
+    numbers.update_ghost_values();
+    IndexSet owned(size), relevant(size);
+    owned.add_range(first, first + moved.size());
+    for (const auto index : touched)
+      relevant.add_index(static_cast<Index>(numbers(index)));
+    layout =
+      std::make_shared<const Utilities::MPI::Partitioner>(owned,
+                                                          relevant,
+                                                          system.communicator);
+    std::vector<unsigned int> entry;
+    for (int k = 0; k < columns.NumMyElements(); ++k)
+      entry.push_back(
+        layout->global_to_local(static_cast<Index>(numbers(columns.GID(k)))));
+    return entry;
   }
 
   template <typename Number>
   void
-  CouplingProduct<Number>::make_blocks(const Epetra_CrsMatrix &matrix)
+  CouplingProduct<Number>::make_blocks(
+    const Epetra_CrsMatrix          &matrix,
+    const std::vector<unsigned int> &entry_of_column)
   {
     const auto  groups = group_rows(matrix);
     std::size_t size = 0, widest = 0;
@@ -97,8 +135,7 @@ namespace mortise
             block.first_row.push_back(groups[g + c].first);
             block.columns.emplace_back();
             for (int k = 0; k < row.length; ++k)
-              block.columns.back().push_back(
-                layout->global_to_local(matrix.GCID(row.columns[k])));
+              block.columns.back().push_back(entry_of_column[row.columns[k]]);
           }
         const std::size_t width = padded<Number>(block.columns[0].size());
         size += block.n_rows * width;
@@ -124,7 +161,7 @@ namespace mortise
   void
   CouplingProduct<Number>::multiply_block(const Block   &block,
                                           const Number  *block_entries,
-                                          const Number  *u,
+                                          const Number  *trace,
                                           Epetra_Vector &jump) const
   {
     using V                  = typename Batch<Number>::Vector;
@@ -136,7 +173,7 @@ namespace mortise
       {
         Number *to = workspace.data() + c * m * w;
         for (unsigned int k = 0; k < n; ++k)
-          to[k] = u[block.columns[c][k]];
+          to[k] = trace[block.columns[c][k]];
         std::fill(to + n, to + m * w, Number());
       }
     for_each_row_block(block.n_rows, [&](const int i, const auto n_rows) {
@@ -166,7 +203,7 @@ namespace mortise
   CouplingProduct<Number>::multiply_block_transposed(
     const Block         &block,
     const Number        *block_entries,
-    Number              *f,
+    Number              *trace,
     const Epetra_Vector &y) const
   {
     using V                  = typename Batch<Number>::Vector;
@@ -194,45 +231,47 @@ namespace mortise
       {
         const Number *from = workspace.data() + c * m * w;
         for (unsigned int k = 0; k < n; ++k)
-          f[block.columns[c][k]] += from[k];
+          trace[block.columns[c][k]] += from[k];
       }
   }
 
   template <typename Number>
   void
   CouplingProduct<Number>::multiply(Epetra_Vector             &jump,
-                                    const LevelVector<Number> &u) const
+                                    const LevelVector<Number> &trace) const
   {
-    u.update_ghost_values();
+    trace.update_ghost_values();
     const Number *block_entries = entries.data();
     for (const Block &block : blocks)
       {
         if (block.columns.size() == dim)
-          multiply_block<dim>(block, block_entries, u.begin(), jump);
+          multiply_block<dim>(block, block_entries, trace.begin(), jump);
         else
-          multiply_block<1>(block, block_entries, u.begin(), jump);
+          multiply_block<1>(block, block_entries, trace.begin(), jump);
         block_entries += block.n_rows * padded<Number>(block.columns[0].size());
       }
-    u.zero_out_ghost_values();
+    trace.zero_out_ghost_values();
   }
 
   template <typename Number>
   void
-  CouplingProduct<Number>::multiply_transposed(LevelVector<Number> &f,
+  CouplingProduct<Number>::multiply_transposed(LevelVector<Number> &trace,
                                                const Epetra_Vector &y) const
   {
-    for (const unsigned int i : moved)
-      f.local_element(i) = 0;
+    trace                       = 0;
     const Number *block_entries = entries.data();
     for (const Block &block : blocks)
       {
         if (block.columns.size() == dim)
-          multiply_block_transposed<dim>(block, block_entries, f.begin(), y);
+          multiply_block_transposed<dim>(block,
+                                         block_entries,
+                                         trace.begin(),
+                                         y);
         else
-          multiply_block_transposed<1>(block, block_entries, f.begin(), y);
+          multiply_block_transposed<1>(block, block_entries, trace.begin(), y);
         block_entries += block.n_rows * padded<Number>(block.columns[0].size());
       }
-    f.compress(VectorOperation::add);
+    trace.compress(VectorOperation::add);
   }
 
   template class CouplingProduct<float>;

@@ -12,7 +12,7 @@ namespace mortise
     , jump(system.coupling.trilinos_matrix().RowMap())
     , multiplier(jump)
   {
-    product.initialize(values);
+    product.initialize(trace);
     for (const unsigned int i : product.places())
       weights.push_back(
         static_cast<Number>(lifting.diagonal().local_element(i)));
@@ -22,9 +22,9 @@ namespace mortise
   void
   InterfaceCorrection<Number>::apply() const
   {
-    product.multiply(jump, values);
+    product.multiply(jump, trace);
     lifting.apply_inverse_schur(multiplier, jump);
-    product.multiply_transposed(values, multiplier);
+    product.multiply_transposed(trace, multiplier);
   }
 
   template <typename Number>
@@ -32,12 +32,11 @@ namespace mortise
   InterfaceCorrection<Number>::project(LevelVector<Number> &x) const
   {
     const auto &places = product.places();
-    for (const unsigned int i : places)
-      values.local_element(i) = x.local_element(i);
+    for (unsigned int k = 0; k < places.size(); ++k)
+      trace.local_element(k) = x.local_element(places[k]);
     apply();
     for (unsigned int k = 0; k < places.size(); ++k)
-      x.local_element(places[k]) -=
-        weights[k] * values.local_element(places[k]);
+      x.local_element(places[k]) -= weights[k] * trace.local_element(k);
   }
 
   template <typename Number>
@@ -46,10 +45,10 @@ namespace mortise
   {
     const auto &places = product.places();
     for (unsigned int k = 0; k < places.size(); ++k)
-      values.local_element(places[k]) = weights[k] * r.local_element(places[k]);
+      trace.local_element(k) = weights[k] * r.local_element(places[k]);
     apply();
-    for (const unsigned int i : places)
-      r.local_element(i) -= values.local_element(i);
+    for (unsigned int k = 0; k < places.size(); ++k)
+      r.local_element(places[k]) -= trace.local_element(k);
   }
 
   template class InterfaceCorrection<float>;

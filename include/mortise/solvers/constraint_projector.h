@@ -2,7 +2,7 @@
 // It never looks at K.
 #pragma once
 
-#include <mortise/operators/block_system.h>
+#include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/lifting.h>
 
 namespace mortise
@@ -11,7 +11,7 @@ namespace mortise
   class ConstraintProjector
   {
   public:
-    /// Both must stay alive.
+    /// Both must stay alive. Collective.
     ConstraintProjector(const BlockSystem &system, const Lifting &lifting);
 
     /// r := P^T r = r - B^T y; lambda += y. Collective.
@@ -27,8 +27,13 @@ namespace mortise
     project(Vector &u, const Vector *g = nullptr) const;
 
   private:
-    const BlockSystem &system;
-    const Lifting     &lifting;
-    mutable Vector     jump, multiplier, force, correction;
+    /// jump = B u.
+    void
+    apply(const Vector &u) const;
+
+    const Lifting                &lifting;
+    const CouplingProduct<double> product;
+    mutable LevelVector<double>   trace;
+    mutable Vector                jump, multiplier, force, correction;
   };
 } // namespace mortise

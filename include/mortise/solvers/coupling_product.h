@@ -20,28 +20,29 @@ namespace mortise
     /// Collective.
     explicit CouplingProduct(const BlockSystem &system);
 
-    /// A vector on the displacements, with room for those of others that
-    /// multiply() needs.
-    void
-    initialize(LevelVector<Number> &u) const
-    {
-      u.reinit(layout);
-    }
-
-    /// Places of owned displacements that multipliers of any rank move.
+    /// The owned displacements that multipliers of any rank move.
     const std::vector<unsigned int> &
     places() const
     {
       return moved;
     }
 
-    /// jump = B u; of @p u only values at places() are read. Collective.
+    /// A vector with one entry for each of places(), in their order.
     void
-    multiply(Epetra_Vector &jump, const LevelVector<Number> &u) const;
+    initialize(LevelVector<Number> &trace) const
+    {
+      trace.reinit(layout);
+    }
 
-    /// f = B^T y at places(); other entries are left alone. Collective.
+    /// jump = B u, @p trace the values of u at places(). Collective.
     void
-    multiply_transposed(LevelVector<Number> &f, const Epetra_Vector &y) const;
+    multiply(Epetra_Vector &jump, const LevelVector<Number> &trace) const;
+
+    /// @p trace = the values of B^T y at places(); it is zero elsewhere.
+    /// Collective.
+    void
+    multiply_transposed(LevelVector<Number> &trace,
+                        const Epetra_Vector &y) const;
 
   private:
     /// Rows with the same columns, or three times as many: those of one
@@ -50,11 +51,15 @@ namespace mortise
     {
       int                                    n_rows = 0;
       std::vector<int>                       first_row; ///< by component
-      std::vector<std::vector<unsigned int>> columns;   ///< places, likewise
+      std::vector<std::vector<unsigned int>> columns;   ///< of traces, likewise
     };
 
+    /// The entry of a trace for each local column of the matrix.
+    std::vector<unsigned int>
+    make_layout(const Epetra_CrsMatrix &matrix, const BlockSystem &system);
     void
-    make_blocks(const Epetra_CrsMatrix &matrix);
+    make_blocks(const Epetra_CrsMatrix          &matrix,
+                const std::vector<unsigned int> &entry);
     template <unsigned int n_components>
     void
     multiply_block(const Block   &block,
@@ -65,7 +70,7 @@ namespace mortise
     void
     multiply_block_transposed(const Block         &block,
                               const Number        *entries,
-                              Number              *f,
+                              Number              *trace,
                               const Epetra_Vector &y) const;
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;

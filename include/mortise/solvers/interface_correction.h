@@ -28,10 +28,10 @@ namespace mortise
     {
       const auto &places = product.places();
       for (unsigned int k = 0; k < places.size(); ++k)
-        values.local_element(places[k]) = weights[k] * residual(places[k]);
+        trace.local_element(k) = weights[k] * residual(places[k]);
       apply();
       for (unsigned int k = 0; k < places.size(); ++k)
-        subtract(places[k], weights[k] * values.local_element(places[k]));
+        subtract(places[k], weights[k] * trace.local_element(k));
     }
 
     /// x := P x = x - T B^T C^{-1} B x. Collective.
@@ -43,7 +43,7 @@ namespace mortise
     project_residual(LevelVector<Number> &r) const;
 
   private:
-    /// values := B^T C^{-1} B values at the places.
+    /// trace := B^T C^{-1} B trace.
     void
     apply() const;
 
@@ -51,6 +51,6 @@ namespace mortise
     const CouplingProduct<Number> product;
     std::vector<Number>           weights; ///< T, by place
     mutable Epetra_Vector         jump, multiplier;
-    mutable LevelVector<Number>   values;
+    mutable LevelVector<Number>   trace; ///< values at the places
   };
 } // namespace mortise
