@@ -149,6 +149,21 @@ namespace mortise
 
 
 
+  std::optional<PairResult>
+  PairIntegrator::integrate_coinciding(const SurfaceFace &slave,
+                                       const SurfaceFace &master,
+                                       const unsigned int degree_slave,
+                                       const unsigned int degree_master,
+                                       IntegrationPoints &points)
+  {
+    scratch->degree_slave  = degree_slave;
+    scratch->degree_master = degree_master;
+    scratch->master_shape  = master.shape;
+    return integrate_coinciding_pair(*scratch, slave, master, points);
+  }
+
+
+
   const GaussRule &
   PairIntegrator::Scratch::rule(const double distortion) const
   {

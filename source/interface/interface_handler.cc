@@ -42,6 +42,29 @@ namespace mortise
       tree.candidates(slave_surface.faces[s], candidates[s]);
   }
 
+  bool
+  InterfaceHandler::visit_coinciding(const unsigned int s,
+                                     const Visitor     &visitor,
+                                     PairIntegrator    &integrator,
+                                     IntegrationPoints &points,
+                                     Coverage          &coverage) const
+  {
+    for (const unsigned int m : candidates[s])
+      if (const auto pair =
+            integrator.integrate_coinciding(slave_surface.faces[s],
+                                            near_masters[m],
+                                            slave_surface.traces[s].degree,
+                                            near_traces[m].degree,
+                                            points))
+        {
+          coverage.add(*pair, points.size());
+          coverage.n_candidates = candidates[s].size();
+          visitor(s, m, points);
+          return true;
+        }
+    return false;
+  }
+
   void
   InterfaceHandler::visit_pairs(const Visitor &visitor)
   {
@@ -55,25 +78,32 @@ namespace mortise
     double          worst_error = -1.;
     Point<3>        worst_centre;
     Clock::duration clipping(0);
+    std::uint64_t   n_coinciding = 0;
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       {
-        const unsigned int slave_degree = slave_surface.traces[s].degree;
-        auto               before       = Clock::now();
+        auto before = Clock::now();
         integrator.reinit(slave_surface.faces[s]);
         Coverage face;
         face.slave_area = integrator.slave_area();
-        clipping += Clock::now() - before;
-        for (const unsigned int m : candidates[s])
+        // a face with the same points is the only partner
+        if (visit_coinciding(s, visitor, integrator, points, face))
+          ++n_coinciding;
+        else
           {
-            before                = Clock::now();
-            const PairResult pair = integrator.integrate(near_masters[m],
-                                                         slave_degree,
-                                                         near_traces[m].degree,
-                                                         points);
             clipping += Clock::now() - before;
-            face.add(pair, points.size());
-            if (pair.status == PairStatus::accepted)
-              visitor(s, m, points);
+            for (const unsigned int m : candidates[s])
+              {
+                before = Clock::now();
+                const PairResult pair =
+                  integrator.integrate(near_masters[m],
+                                       slave_surface.traces[s].degree,
+                                       near_traces[m].degree,
+                                       points);
+                clipping += Clock::now() - before;
+                face.add(pair, points.size());
+                if (pair.status == PairStatus::accepted)
+                  visitor(s, m, points);
+              }
           }
         covered_fraction[s] = face.covered_area / face.slave_area;
         if (std::fabs(1. - covered_fraction[s]) > worst_error)
@@ -84,6 +114,7 @@ namespace mortise
         sum.add(face);
       }
     totals.clipping_seconds = std::chrono::duration<double>(clipping).count();
+    totals.coinciding_faces = Utilities::MPI::sum(n_coinciding, comm);
     sum_report(sum, worst_error, worst_centre);
   }
 

@@ -5,6 +5,7 @@
 #include <mortise/interface/clipping.h>
 #include <mortise/interface/integration_cells.h>
 
+#include <optional>
 #include <vector>
 
 namespace mortise
@@ -50,6 +51,13 @@ namespace mortise
   integrate_linear_pair(PairIntegrator::Scratch &scratch,
                         const SurfaceFace       &master,
                         IntegrationPoints       &points);
+
+  /// Nothing where the faces do not have the same points.
+  std::optional<PairResult>
+  integrate_coinciding_pair(PairIntegrator::Scratch &scratch,
+                            const SurfaceFace       &slave,
+                            const SurfaceFace       &master,
+                            IntegrationPoints       &points);
 
   /// All other pairs.
   PairResult

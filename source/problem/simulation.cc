@@ -209,6 +209,11 @@ namespace mortise
             " cells on the busiest rank, " +
             RunLog::number(double(report.integration_cells) / n_ranks) +
             " on average";
+        if (report.coinciding_faces > 0)
+          balance += (balance.empty() ? "" : ", ") +
+                     std::to_string(report.coinciding_faces) + " of " +
+                     std::to_string(report.slave_faces) +
+                     " faces coincide with a partner";
         if (report.pairs == 0)
           {
             const InterfaceParameters &given = parameters.interfaces[i];
@@ -238,6 +243,8 @@ namespace mortise
             log.warning(text.str());
           }
       }
+    if (Utilities::MPI::max(clipping, comm) == 0.)
+      return; // all faces coincide
     timers.add("interface_clipping", clipping);
     timers.add("coupling", -clipping);
     log.stage_line("interface_clipping",

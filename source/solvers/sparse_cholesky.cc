@@ -365,7 +365,9 @@ namespace mortise
     std::copy_n(&vector[node.first], node.width, front.data());
     for (unsigned int i = 0; i < node.rows.size(); ++i)
       front[node.width + i] = vector[node.rows[i]];
-    std::fill(&front[node.height()], &front[0] + batches * size, Number());
+    std::fill(front.data() + node.height(),
+              front.data() + batches * size,
+              Number());
     for_each_block(node.width, [&](const unsigned int j, const auto n) {
       const V *column = panel + std::size_t(j) * batches;
       V        sums[n];

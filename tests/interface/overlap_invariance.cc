@@ -110,31 +110,6 @@ namespace
     verdict(name + ", moved by 1e3 diameters", difference(base, other), 1e-9);
   }
 
-  // The face with its vertices in another order: vertex v is the old one of
-  // number order[v]. Quadrilaterals keep what lies opposite.
-  SurfaceFace
-  reordered(const SurfaceFace &face, const std::vector<unsigned int> &order)
-  {
-    SurfaceFace          result = face;
-    const LagrangeBasis &basis  = lagrange_basis(face.degree);
-    const unsigned int   n      = face.degree + 1;
-    const auto           corner = [&](const unsigned int v) {
-      return Point<2>(order[v] % 2, order[v] / 2);
-    };
-    for (unsigned int j = 0; j < n; ++j)
-      for (unsigned int i = 0; i < n; ++i)
-        result.points[j * n + i] =
-          face_point(face,
-                     corner(0) + basis.node[i] * (corner(1) - corner(0)) +
-                       basis.node[j] * (corner(2) - corner(0)));
-    for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
-      result.vertex_normals[v] = face.vertex_normals[order[v]];
-    const Tensor<1, 2> a = corner(1) - corner(0), b = corner(2) - corner(0);
-    result.orientation *= a[0] * b[1] - a[1] * b[0];
-    result.finalize();
-    return result;
-  }
-
   /// By the places on both faces.
   Signature
   signature_in_space(const std::vector<SurfaceFace> &slaves,
@@ -164,22 +139,14 @@ namespace
                masters      = faces(master, master_grid);
     const Signature base    = signature_in_space(slaves, masters);
 
-    using Orders             = std::vector<std::vector<unsigned int>>;
-    const Orders of_triangle = {
-      {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
-    const Orders of_quadrilateral = {
-      {0, 2, 1, 3}, {1, 0, 3, 2}, {1, 3, 0, 2}, {2, 3, 0, 1}, {3, 2, 1, 0}};
     const auto another = [&](std::vector<SurfaceFace> all,
                              const unsigned int       k) {
       for (SurfaceFace &face : all)
-        face =
-          reordered(face,
-                    face.shape == FaceShape::triangle ? of_triangle[k] :
-                                                        of_quadrilateral[k]);
+        face = reordered(face, vertex_orders(face.shape)[k]);
       return all;
     };
     double of_slave = 0, of_master = 0;
-    for (unsigned int k = 0; k < of_triangle.size(); ++k)
+    for (unsigned int k = 0; k < vertex_orders(FaceShape::triangle).size(); ++k)
       {
         of_slave =
           std::max(of_slave,

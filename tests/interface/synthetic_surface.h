@@ -142,6 +142,46 @@ namespace synthetic
     return result;
   }
 
+  /// The face with its vertices in another order: vertex v is the old one of
+  /// number order[v]. Quadrilaterals keep what lies opposite.
+  inline SurfaceFace
+  reordered(const SurfaceFace &face, const std::vector<unsigned int> &order)
+  {
+    SurfaceFace          result = face;
+    const LagrangeBasis &basis  = lagrange_basis(face.degree);
+    const unsigned int   n      = face.degree + 1;
+    const auto           corner = [&](const unsigned int v) {
+      return Point<2>(order[v] % 2, order[v] / 2);
+    };
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        result.points[j * n + i] =
+          face_point(face,
+                     corner(0) + basis.node[i] * (corner(1) - corner(0)) +
+                       basis.node[j] * (corner(2) - corner(0)));
+    for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
+      result.vertex_normals[v] = face.vertex_normals[order[v]];
+    const Tensor<1, 2> a = corner(1) - corner(0), b = corner(2) - corner(0);
+    result.orientation *= a[0] * b[1] - a[1] * b[0];
+    result.finalize();
+    return result;
+  }
+
+  /// All orders of the vertices of a face but their own.
+  inline std::vector<std::vector<unsigned int>>
+  vertex_orders(const FaceShape shape)
+  {
+    if (shape == FaceShape::triangle)
+      return {{0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    return {{0, 2, 1, 3},
+            {1, 0, 3, 2},
+            {1, 3, 0, 2},
+            {2, 3, 0, 1},
+            {3, 2, 1, 0},
+            {2, 0, 3, 1},
+            {3, 1, 2, 0}};
+  }
+
   using Visitor = std::function<void(const SurfaceFace &,
                                      const SurfaceFace &,
                                      const PairResult &,

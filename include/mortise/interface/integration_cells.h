@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mortise
@@ -91,6 +92,16 @@ namespace mortise
               const unsigned int degree_slave,
               const unsigned int degree_master,
               IntegrationPoints &points);
+
+    /// The same without clipping and projection where @p master has the same
+    /// points as @p slave, the present one, to rounding, in any order, and the
+    /// opposite normal; nothing elsewhere.
+    std::optional<PairResult>
+    integrate_coinciding(const SurfaceFace &slave,
+                         const SurfaceFace &master,
+                         const unsigned int degree_slave,
+                         const unsigned int degree_master,
+                         IntegrationPoints &points);
 
     /// Points per direction and cell; 0 (default): as quadrature_points() says.
     void

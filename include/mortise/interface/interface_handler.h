@@ -27,8 +27,10 @@ namespace mortise
   /// Totals over all ranks.
   struct InterfaceReport
   {
-    std::uint64_t slave_faces               = 0;
-    std::uint64_t master_faces              = 0;
+    std::uint64_t slave_faces  = 0;
+    std::uint64_t master_faces = 0;
+    /// Slave faces with the same points as a master face: not clipped.
+    std::uint64_t coinciding_faces          = 0;
     std::uint64_t candidate_pairs           = 0;
     std::uint64_t pairs                     = 0;
     std::uint64_t integration_cells         = 0;
@@ -114,6 +116,13 @@ namespace mortise
     }
 
   private:
+    /// False where no candidate has the same points as slave face @p s.
+    bool
+    visit_coinciding(unsigned int       s,
+                     const Visitor     &visitor,
+                     PairIntegrator    &integrator,
+                     IntegrationPoints &points,
+                     Coverage          &coverage) const;
     void
     sum_report(const Coverage         &local,
                double                  worst_error,
