@@ -1,21 +1,17 @@
-#include <deal.II/base/quadrature_lib.h>
-
-#include <deal.II/fe/fe_values.h>
-
 #include <deal.II/lac/full_matrix.h>
 
 #include <mortise/base/error.h>
-#include <mortise/body/simplex_quadrature.h>
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/element_schur.h>
-#include <mortise/operators/face_values.h>
+#include <mortise/operators/load_kernel.h>
 #include <mortise/operators/matrix_scatter.h>
 #include <mortise/operators/pressure_kernel.h>
 #include <mortise/operators/pressure_scatter.h>
 
-#include <array>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <sstream>
 
 namespace mortise
@@ -37,136 +33,25 @@ namespace mortise
       return dofs;
     }
 
-    Quadrature<dim>
-    load_quadrature(const FiniteElement<dim> &element,
-                    const unsigned int        mapping_degree)
-    {
-      if (element.reference_cell() == ReferenceCells::Hexahedron)
-        return QGauss<dim>(element.degree + 1);
-      return simplex_quadrature<dim>(2 * element.degree + mapping_degree - 1);
-    }
-
-    /// What the loads of the cells of one element share. Values are made when
-    /// there are any.
-    struct LoadKernel
-    {
-      LoadKernel(const Body &body, const FiniteElement<dim> &system)
-        : body(body)
-        , system(system)
-        , load(system.n_dofs_per_cell())
-      {
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int i = 0; i < element().n_dofs_per_cell(); ++i)
-            system_index[c].push_back(system.component_to_system_index(c, i));
-      }
-
-      const FiniteElement<dim> &
-      element() const ///< scalar
-      {
-        return system.base_element(0);
-      }
-
-      FEValues<dim> &
-      cell_values()
-      {
-        if (!cell)
-          cell = std::make_unique<FEValues<dim>>(
-            *body.mapping,
-            element(),
-            load_quadrature(system, body.mapping_degree),
-            update_values | update_JxW_values | update_quadrature_points);
-        return *cell;
-      }
-
-      FaceValues &
-      face_values(const Body::CellIterator &cell, const unsigned int f)
-      {
-        if (!faces[f])
-          faces[f] =
-            std::make_unique<FaceValues>(body, cell, f, system.degree + 2);
-        faces[f]->reinit(cell);
-        return *faces[f];
-      }
-
-      const Body                                &body;
-      const FiniteElement<dim>                  &system;
-      std::array<std::vector<unsigned int>, dim> system_index;
-      dealii::Vector<double>                     load;
-
-    private:
-      std::unique_ptr<FEValues<dim>>             cell;
-      std::array<std::unique_ptr<FaceValues>, 6> faces;
-    };
-
-    struct Kernel : LoadKernel
+    struct Kernel
     {
       Kernel(const Body &body, const FiniteElement<dim> &system)
-        : LoadKernel(body, system)
+        : body(body)
+        , system(system)
+        , loads(body, system)
         , stiffness(body, system)
         , matrix(system.n_dofs_per_cell())
       {}
 
+      const Body                     &body;
+      const FiniteElement<dim>       &system;
+      LoadKernel                      loads;
+      dealii::Vector<double>          load;
       CellKernel                      stiffness;
       FullMatrix<double>              matrix;
       std::unique_ptr<PressureKernel> pressure; ///< in mixed form
       PressureBlocks                  blocks;
     };
-
-    void
-    add_body_force(const Body::CellIterator &cell,
-                   const Loads              &loads,
-                   LoadKernel               &kernel)
-    {
-      auto &values = kernel.cell_values();
-      values.reinit(typename Triangulation<dim>::cell_iterator(cell));
-      for (unsigned int q = 0; q < values.n_quadrature_points; ++q)
-        {
-          const Tensor<1, dim> force =
-            loads.body_force(values.quadrature_point(q)) * values.JxW(q);
-          for (unsigned int c = 0; c < dim; ++c)
-            for (const unsigned int i : values.dof_indices())
-              kernel.load(kernel.system_index[c][i]) +=
-                force[c] * values.shape_value(i, q);
-        }
-    }
-
-    void
-    add_tractions(const Body::CellIterator &cell,
-                  const Loads              &loads,
-                  LoadKernel               &kernel)
-    {
-      if (!cell->at_boundary())
-        return;
-      for (const unsigned int f : cell->face_indices())
-        for (const TractionCondition &condition : loads.tractions)
-          if (cell->face(f)->at_boundary() &&
-              cell->face(f)->boundary_id() == condition.boundary)
-            {
-              const FaceValues &face    = kernel.face_values(cell, f);
-              const auto       &indices = face.indices();
-              for (unsigned int q = 0; q < face.points.size(); ++q)
-                {
-                  const Tensor<1, dim> force =
-                    condition.traction(face.points[q], face.normals[q]) *
-                    face.weights[q];
-                  for (unsigned int c = 0; c < dim; ++c)
-                    for (unsigned int k = 0; k < indices.size(); ++k)
-                      kernel.load(kernel.system_index[c][indices[k]]) +=
-                        force[c] * face.value(k, q);
-                }
-            }
-    }
-
-    void
-    compute_load(const Body::CellIterator &cell,
-                 const Loads              &loads,
-                 LoadKernel               &kernel)
-    {
-      kernel.load = 0.;
-      if (loads.body_force)
-        add_body_force(cell, loads, kernel);
-      add_tractions(cell, loads, kernel);
-    }
 
     /// Eliminate the interior of the cell and add the rest. Its own rows keep a
     /// diagonal of the same size and couple with nothing.
@@ -306,7 +191,7 @@ namespace mortise
               tangled = tangled_message(body, cell);
               break;
             }
-          compute_load(cell, loads, *kernel);
+          kernel->load    = kernel->loads.compute(cell, loads);
           const auto dofs = scene_dofs(body, cell, numbering);
           if (!body.pressure)
             add_condensed(*kernel, dofs, interiors, scatter);
@@ -327,26 +212,5 @@ namespace mortise
         }
     throw_if_any(tangled, body.triangulation().get_communicator());
     return interiors;
-  }
-
-  void
-  for_each_loaded_cell(
-    const Body                                                &body,
-    const Loads                                               &loads,
-    const std::function<void(const Body::CellIterator &,
-                             const dealii::Vector<double> &)> &visit)
-  {
-    std::map<unsigned int, std::unique_ptr<LoadKernel>> kernels;
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned() &&
-          (loads.body_force ||
-           (!loads.tractions.empty() && cell->at_boundary())))
-        {
-          auto &kernel = kernels[cell->active_fe_index()];
-          if (!kernel)
-            kernel = std::make_unique<LoadKernel>(body, cell->get_fe());
-          compute_load(cell, loads, *kernel);
-          visit(cell, kernel->load);
-        }
   }
 } // namespace mortise

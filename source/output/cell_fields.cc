@@ -1,35 +1,10 @@
 #include <mortise/body/fe_legendre.h>
-#include <mortise/body/legendre_basis.h>
+#include <mortise/operators/lobatto_table.h>
 #include <mortise/output/cell_fields.h>
 
 namespace mortise
 {
   using namespace dealii;
-
-  namespace
-  {
-    LineTable
-    lobatto_table(const unsigned int degree, const Quadrature<1> &points)
-    {
-      const unsigned int  n = degree + 1;
-      LineTable           table{FullMatrix<double>(points.size(), n),
-                      FullMatrix<double>(points.size(), n)};
-      std::vector<double> values(n), slopes(n);
-      for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          evaluate_lobatto(degree,
-                           points.point(q)[0],
-                           values.data(),
-                           slopes.data());
-          for (unsigned int k = 0; k < n; ++k)
-            {
-              table.values(q, k) = values[k];
-              table.slopes(q, k) = slopes[k];
-            }
-        }
-      return table;
-    }
-  } // namespace
 
   struct CellFields::Hexahedra
   {

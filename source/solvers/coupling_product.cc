@@ -86,12 +86,13 @@ namespace mortise
     const Index mine = moved.size(),
                 size = Utilities::MPI::sum(mine, system.communicator);
     Index first      = 0;
-    MPI_Exscan(&mine,
-               &first,
-               1,
-               DEAL_II_DOF_INDEX_MPI_TYPE,
-               MPI_SUM,
-               system.communicator);
+    MPI_Scan(&mine,
+             &first,
+             1,
+             DEAL_II_DOF_INDEX_MPI_TYPE,
+             MPI_SUM,
+             system.communicator);
+    first -= mine;
     for (unsigned int k = 0; k < moved.size(); ++k)
       numbers.local_element(moved[k]) = first + k;
     numbers.update_ghost_values();

@@ -2,10 +2,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <Epetra_MpiComm.h>
-#include <Teuchos_BLAS.hpp>
-#include <Teuchos_LAPACK.hpp>
 #include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/front.h>
 #include <mortise/solvers/sparse_cholesky.h>
 
 #include <cmath>
@@ -42,94 +41,6 @@ namespace mortise
       return all;
     }
 
-    /// The part of a matrix that a supernode is computed from and updates:
-    /// its columns, then its rows below; columnwise, the lower triangle.
-    struct Front
-    {
-      explicit Front(const Supernode &supernode)
-        : width(supernode.width)
-        , height(supernode.height())
-        , values(std::size_t(height) * height)
-      {}
-
-      double &
-      operator()(const int i, const int j)
-      {
-        return values[i + std::size_t(height) * j];
-      }
-
-      /// False when the columns are not positive definite.
-      bool
-      eliminate()
-      {
-        using namespace Teuchos;
-        const BLAS<int, double>   blas;
-        const LAPACK<int, double> lapack;
-        const int                 n    = height - width;
-        int                       info = 0;
-        lapack.POTRF('L', width, values.data(), height, &info);
-        if (info != 0)
-          return false;
-        if (n > 0)
-          {
-            blas.TRSM(RIGHT_SIDE,
-                      LOWER_TRI,
-                      TRANS,
-                      NON_UNIT_DIAG,
-                      n,
-                      width,
-                      1.,
-                      values.data(),
-                      height,
-                      &(*this)(width, 0),
-                      height);
-            blas.SYRK(LOWER_TRI,
-                      NO_TRANS,
-                      n,
-                      width,
-                      -1.,
-                      &(*this)(width, 0),
-                      height,
-                      1.,
-                      &(*this)(width, width),
-                      height);
-          }
-        lapack.TRTRI('L', 'N', width, values.data(), height, &info);
-        return info == 0;
-      }
-
-      /// After eliminate(): [L_11^{-1}; -L_21 L_11^{-1}], columns padded with
-      /// zeros to whole batches, so that both halves of a solve with these
-      /// columns are one product. Spoils the front.
-      template <typename Number>
-      AlignedVector<Number>
-      panel()
-      {
-        using namespace Teuchos;
-        if (height > width)
-          BLAS<int, double>().TRMM(RIGHT_SIDE,
-                                   LOWER_TRI,
-                                   NO_TRANS,
-                                   NON_UNIT_DIAG,
-                                   height - width,
-                                   width,
-                                   -1.,
-                                   values.data(),
-                                   height,
-                                   &(*this)(width, 0),
-                                   height);
-        const std::size_t     stride = padded<Number>(height);
-        AlignedVector<Number> result(stride * width);
-        for (int j = 0; j < width; ++j)
-          for (int i = j; i < height; ++i)
-            result[stride * j + i] = static_cast<Number>((*this)(i, j));
-        return result;
-      }
-
-      int                 width, height;
-      std::vector<double> values;
-    };
-
     /// visit(first column, number of columns) for all of @p width columns, by
     /// blocks that fit the registers of the processor.
     template <typename Visit>
@@ -141,19 +52,6 @@ namespace mortise
         visit(j, std::integral_constant<unsigned int, 8>());
       for (; j < width; ++j)
         visit(j, std::integral_constant<unsigned int, 1>());
-    }
-
-    /// What remains of a front for its parent: rows below, squared.
-    std::vector<double>
-    update_of(Front &front)
-    {
-      const int           n = front.height - front.width;
-      std::vector<double> update(std::size_t(n) * n);
-      for (int j = 0; j < n; ++j)
-        std::copy_n(&front(front.width + j, front.width + j),
-                    n - j,
-                    &update[j + std::size_t(n) * j]);
-      return update;
     }
   } // namespace
 
@@ -233,7 +131,7 @@ namespace mortise
     unsigned int highest = 0;
     for (const Supernode &supernode : supernodes)
       highest = std::max(highest, supernode.height());
-    front.resize(padded<Number>(highest));
+    workspace.resize(padded<Number>(highest));
     return factorise(all);
   }
 
@@ -311,7 +209,7 @@ namespace mortise
         }
       if (!front.eliminate())
         return false;
-      updates[s] = update_of(front);
+      updates[s] = front.update();
       panels[s]  = front.panel<Number>();
       return true;
     };
@@ -333,7 +231,7 @@ namespace mortise
     const Supernode       &node    = supernodes[s];
     const unsigned int     batches = padded<Number>(node.height()) / size;
     const V               *panel   = reinterpret_cast<const V *>(&panels[s][0]);
-    V                     *sums    = reinterpret_cast<V *>(front.data());
+    V                     *sums    = reinterpret_cast<V *>(workspace.data());
     std::fill(sums, sums + batches, V{});
     for_each_block(node.width, [&](const unsigned int j, const auto n) {
       const V *column = panel + std::size_t(j) * batches;
@@ -347,9 +245,9 @@ namespace mortise
           sums[i] = sum;
         }
     });
-    std::copy_n(front.data(), node.width, &vector[node.first]);
+    std::copy_n(workspace.data(), node.width, &vector[node.first]);
     for (unsigned int i = 0; i < node.rows.size(); ++i)
-      vector[node.rows[i]] += front[node.width + i];
+      vector[node.rows[i]] += workspace[node.width + i];
   }
 
   template <typename Number>
@@ -361,12 +259,12 @@ namespace mortise
     const Supernode       &node    = supernodes[s];
     const unsigned int     batches = padded<Number>(node.height()) / size;
     const V               *panel   = reinterpret_cast<const V *>(&panels[s][0]);
-    const V               *values  = reinterpret_cast<const V *>(front.data());
-    std::copy_n(&vector[node.first], node.width, front.data());
+    const V *values = reinterpret_cast<const V *>(workspace.data());
+    std::copy_n(&vector[node.first], node.width, workspace.data());
     for (unsigned int i = 0; i < node.rows.size(); ++i)
-      front[node.width + i] = vector[node.rows[i]];
-    std::fill(front.data() + node.height(),
-              front.data() + batches * size,
+      workspace[node.width + i] = vector[node.rows[i]];
+    std::fill(workspace.data() + node.height(),
+              workspace.data() + batches * size,
               Number());
     for_each_block(node.width, [&](const unsigned int j, const auto n) {
       const V *column = panel + std::size_t(j) * batches;

@@ -72,6 +72,6 @@ namespace mortise
     std::vector<dealii::AlignedVector<Number>> panels;
     mutable std::vector<Number> vector; ///< in the order of elimination
     mutable std::vector<Number> exchange;
-    mutable dealii::AlignedVector<Number> front; ///< of one supernode
+    mutable dealii::AlignedVector<Number> workspace; ///< of one supernode
   };
 } // namespace mortise
