@@ -11,6 +11,37 @@ namespace mortise
 
   namespace
   {
+    /// Columns of B T B^T, in the numbering of those of @p transposed, by group
+    /// of rows of B. @p group_of: groups of rows of @p transposed.
+    std::vector<std::vector<int>>
+    columns_of_square(const Epetra_CrsMatrix      &B,
+                      const std::vector<RowGroup> &row_groups,
+                      const Epetra_CrsMatrix      &transposed,
+                      const std::vector<int>      &group_of)
+    {
+      std::vector<std::vector<int>> result(row_groups.size());
+      std::vector<int>              mark(transposed.NumMyCols(), -1);
+      for (unsigned int g = 0; g < row_groups.size(); ++g)
+        {
+          const EpetraRow row(B, row_groups[g].first);
+          for (int k = 0, last = -1; k < row.length; ++k)
+            if (const int h = group_of[row.columns[k]]; h != last)
+              {
+                last = h;
+                const EpetraRow multipliers(transposed, row.columns[k]);
+                for (int l = 0; l < multipliers.length; ++l)
+                  if (int &m = mark[multipliers.columns[l]];
+                      m != static_cast<int>(g))
+                    {
+                      m = g;
+                      result[g].push_back(multipliers.columns[l]);
+                    }
+              }
+          std::sort(result[g].begin(), result[g].end());
+        }
+      return result;
+    }
+
     /// B T B^T with the rows of B, by dense blocks. @p transposed: T B^T with
     /// one row for each column of B, in the order of these.
     SparseRows
@@ -23,30 +54,11 @@ namespace mortise
       for (unsigned int g = 0; g < column_groups.size(); ++g)
         for (int i = 0; i < column_groups[g].n_rows; ++i)
           group_of[column_groups[g].first + i] = g;
-
-      // the columns of the result by row group
-      std::vector<std::vector<int>> pattern(row_groups.size());
-      std::size_t                   n_entries = 0;
-      std::vector<int>              mark(transposed.NumMyCols(), -1);
+      const auto pattern =
+        columns_of_square(B, row_groups, transposed, group_of);
+      std::size_t n_entries = 0;
       for (unsigned int g = 0; g < row_groups.size(); ++g)
-        {
-          const EpetraRow row(B, row_groups[g].first);
-          for (int k = 0, last = -1; k < row.length; ++k)
-            if (const int h = group_of[row.columns[k]]; h != last)
-              {
-                last = h;
-                const EpetraRow multipliers(transposed, column_groups[h].first);
-                for (int l = 0; l < multipliers.length; ++l)
-                  if (int &m = mark[multipliers.columns[l]];
-                      m != static_cast<int>(g))
-                    {
-                      m = g;
-                      pattern[g].push_back(multipliers.columns[l]);
-                    }
-              }
-          std::sort(pattern[g].begin(), pattern[g].end());
-          n_entries += pattern[g].size() * row_groups[g].n_rows;
-        }
+        n_entries += pattern[g].size() * row_groups[g].n_rows;
 
       SparseRows result;
       result.columns.reserve(n_entries);
