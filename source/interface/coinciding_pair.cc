@@ -204,10 +204,9 @@ namespace mortise
             result.area += points.weight[q];
             for (unsigned int i = 0; i < 2; ++i)
               {
-                points.slave_xi[i][q]   = xi[i][l];
-                points.master_eta[i][q] = map->origin[i] +
-                                          xi[0][l] * map->along[0][i] +
-                                          xi[1][l] * map->along[1][i];
+                points.slave_xi[i][q] = xi[i][l];
+                points.master_eta[i][q] =
+                  map->coordinate(i, xi[0][l], xi[1][l]);
               }
             for (unsigned int d = 0; d < 3; ++d)
               points.slave_x[d][q] = points.master_x[d][q] =

@@ -130,9 +130,7 @@ namespace mortise
                             const unsigned int degree_master,
                             IntegrationPoints &points)
   {
-    scratch->degree_slave  = degree_slave;
-    scratch->degree_master = degree_master;
-    scratch->master_shape  = master.shape;
+    scratch->begin_pair(master, degree_slave, degree_master);
     scratch->gap_limit =
       scratch->search_fraction * std::max(scratch->slave_size, master.size);
     PairResult result = scratch->slave_linear && master.affine ?
@@ -156,9 +154,7 @@ namespace mortise
                                        const unsigned int degree_master,
                                        IntegrationPoints &points)
   {
-    scratch->degree_slave  = degree_slave;
-    scratch->degree_master = degree_master;
-    scratch->master_shape  = master.shape;
+    scratch->begin_pair(master, degree_slave, degree_master);
     return integrate_coinciding_pair(*scratch, slave, master, points);
   }
 

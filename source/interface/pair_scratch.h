@@ -15,6 +15,17 @@ namespace mortise
 
   struct PairIntegrator::Scratch
   {
+    /// What the rule depends on besides the distortion.
+    void
+    begin_pair(const SurfaceFace &master_face,
+               const unsigned int slave_degree,
+               const unsigned int master_degree)
+    {
+      degree_slave  = slave_degree;
+      degree_master = master_degree;
+      master_shape  = master_face.shape;
+    }
+
     /// The rule for the present pair.
     const GaussRule &
     rule(const double distortion) const;

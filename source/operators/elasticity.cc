@@ -9,7 +9,6 @@
 #include <mortise/operators/pressure_kernel.h>
 #include <mortise/operators/pressure_scatter.h>
 
-#include <cmath>
 #include <map>
 #include <memory>
 #include <sstream>

@@ -3,10 +3,9 @@
 #include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/register_blocks.h>
 
 #include <algorithm>
-#include <cmath>
-#include <type_traits>
 
 namespace mortise
 {
@@ -38,19 +37,6 @@ namespace mortise
               return false;
         }
       return true;
-    }
-
-    /// visit(first row, number of rows) for all of @p n_rows, by blocks that
-    /// fit the registers of the processor.
-    template <typename Visit>
-    inline void
-    for_each_row_block(const int n_rows, const Visit &visit)
-    {
-      int i = 0;
-      for (; i + 4 <= n_rows; i += 4)
-        visit(i, std::integral_constant<int, 4>());
-      for (; i < n_rows; ++i)
-        visit(i, std::integral_constant<int, 1>());
     }
   } // namespace
 
@@ -177,25 +163,26 @@ namespace mortise
           to[k] = trace[block.columns[c][k]];
         std::fill(to + n, to + m * w, Number());
       }
-    for_each_row_block(block.n_rows, [&](const int i, const auto n_rows) {
-      const V *const from = row + std::size_t(i) * m;
-      V              sums[n_rows][n_components];
-      for (int r = 0; r < n_rows; ++r)
-        for (unsigned int c = 0; c < n_components; ++c)
-          sums[r][c] = V{};
-      for (unsigned int k = 0; k < m; ++k)
-        for (int r = 0; r < n_rows; ++r)
+    for_each_register_block<4>(
+      block.n_rows, [&](const unsigned int i, const auto n_rows) {
+        const V *const from = row + std::size_t(i) * m;
+        V              sums[n_rows][n_components];
+        for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int c = 0; c < n_components; ++c)
-            sums[r][c] += from[r * m + k] * gathered[c * m + k];
-      for (int r = 0; r < n_rows; ++r)
-        for (unsigned int c = 0; c < n_components; ++c)
-          {
-            Number sum = 0;
-            for (unsigned int l = 0; l < w; ++l)
-              sum += sums[r][c][l];
-            jump[block.first_row[c] + i + r] = sum;
-          }
-    });
+            sums[r][c] = V{};
+        for (unsigned int k = 0; k < m; ++k)
+          for (unsigned int r = 0; r < n_rows; ++r)
+            for (unsigned int c = 0; c < n_components; ++c)
+              sums[r][c] += from[r * m + k] * gathered[c * m + k];
+        for (unsigned int r = 0; r < n_rows; ++r)
+          for (unsigned int c = 0; c < n_components; ++c)
+            {
+              Number sum = 0;
+              for (unsigned int l = 0; l < w; ++l)
+                sum += sums[r][c][l];
+              jump[block.first_row[c] + i + r] = sum;
+            }
+      });
   }
 
   template <typename Number>
@@ -213,21 +200,22 @@ namespace mortise
     const V           *row  = reinterpret_cast<const V *>(block_entries);
     V                 *sums = reinterpret_cast<V *>(workspace.data());
     std::fill(sums, sums + n_components * m, V{});
-    for_each_row_block(block.n_rows, [&](const int i, const auto n_rows) {
-      const V *const from = row + std::size_t(i) * m;
-      Number         factor[n_rows][n_components];
-      for (int r = 0; r < n_rows; ++r)
-        for (unsigned int c = 0; c < n_components; ++c)
-          factor[r][c] = static_cast<Number>(y[block.first_row[c] + i + r]);
-      for (unsigned int k = 0; k < m; ++k)
-        for (unsigned int c = 0; c < n_components; ++c)
-          {
-            V sum = sums[c * m + k];
-            for (int r = 0; r < n_rows; ++r)
-              sum += factor[r][c] * from[r * m + k];
-            sums[c * m + k] = sum;
-          }
-    });
+    for_each_register_block<4>(
+      block.n_rows, [&](const unsigned int i, const auto n_rows) {
+        const V *const from = row + std::size_t(i) * m;
+        Number         factor[n_rows][n_components];
+        for (unsigned int r = 0; r < n_rows; ++r)
+          for (unsigned int c = 0; c < n_components; ++c)
+            factor[r][c] = static_cast<Number>(y[block.first_row[c] + i + r]);
+        for (unsigned int k = 0; k < m; ++k)
+          for (unsigned int c = 0; c < n_components; ++c)
+            {
+              V sum = sums[c * m + k];
+              for (unsigned int r = 0; r < n_rows; ++r)
+                sum += factor[r][c] * from[r * m + k];
+              sums[c * m + k] = sum;
+            }
+      });
     for (unsigned int c = 0; c < n_components; ++c)
       {
         const Number *from = workspace.data() + c * m * w;

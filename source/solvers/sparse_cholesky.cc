@@ -5,11 +5,11 @@
 #include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/front.h>
+#include <mortise/solvers/register_blocks.h>
 #include <mortise/solvers/sparse_cholesky.h>
 
 #include <cmath>
 #include <numeric>
-#include <type_traits>
 
 namespace mortise
 {
@@ -41,17 +41,21 @@ namespace mortise
       return all;
     }
 
-    /// visit(first column, number of columns) for all of @p width columns, by
-    /// blocks that fit the registers of the processor.
-    template <typename Visit>
-    inline void
-    for_each_block(const unsigned int width, const Visit &visit)
+    SparseRows
+    owned_rows(const Epetra_CrsMatrix &matrix)
     {
-      unsigned int j = 0;
-      for (; j + 8 <= width; j += 8)
-        visit(j, std::integral_constant<unsigned int, 8>());
-      for (; j < width; ++j)
-        visit(j, std::integral_constant<unsigned int, 1>());
+      SparseRows rows;
+      for (int i = 0; i < matrix.NumMyRows(); ++i)
+        {
+          const EpetraRow row(matrix, i);
+          rows.lengths.push_back(row.length);
+          for (int k = 0; k < row.length; ++k)
+            rows.columns.push_back(matrix.GCID(row.columns[k]));
+          rows.values.insert(rows.values.end(),
+                             row.values,
+                             row.values + row.length);
+        }
+      return rows;
     }
   } // namespace
 
@@ -76,23 +80,6 @@ namespace mortise
     std::vector<double> values;
     std::vector<double> scale; ///< to a diagonal of ones; 0: not possible
   };
-
-  SparseRows
-  owned_rows(const Epetra_CrsMatrix &matrix)
-  {
-    SparseRows rows;
-    for (int i = 0; i < matrix.NumMyRows(); ++i)
-      {
-        const EpetraRow row(matrix, i);
-        rows.lengths.push_back(row.length);
-        for (int k = 0; k < row.length; ++k)
-          rows.columns.push_back(matrix.GCID(row.columns[k]));
-        rows.values.insert(rows.values.end(),
-                           row.values,
-                           row.values + row.length);
-      }
-    return rows;
-  }
 
   template <typename Number>
   bool
@@ -233,18 +220,19 @@ namespace mortise
     const V               *panel   = reinterpret_cast<const V *>(&panels[s][0]);
     V                     *sums    = reinterpret_cast<V *>(workspace.data());
     std::fill(sums, sums + batches, V{});
-    for_each_block(node.width, [&](const unsigned int j, const auto n) {
-      const V *column = panel + std::size_t(j) * batches;
-      Number   x[n];
-      std::copy_n(&vector[node.first + j], n(), x);
-      for (unsigned int i = j / size; i < batches; ++i)
-        {
-          V sum = sums[i];
-          for (unsigned int k = 0; k < n; ++k)
-            sum += x[k] * column[k * batches + i];
-          sums[i] = sum;
-        }
-    });
+    for_each_register_block<8>(
+      node.width, [&](const unsigned int j, const auto n) {
+        const V *column = panel + std::size_t(j) * batches;
+        Number   x[n];
+        std::copy_n(&vector[node.first + j], n(), x);
+        for (unsigned int i = j / size; i < batches; ++i)
+          {
+            V sum = sums[i];
+            for (unsigned int k = 0; k < n; ++k)
+              sum += x[k] * column[k * batches + i];
+            sums[i] = sum;
+          }
+      });
     std::copy_n(workspace.data(), node.width, &vector[node.first]);
     for (unsigned int i = 0; i < node.rows.size(); ++i)
       vector[node.rows[i]] += workspace[node.width + i];
@@ -266,21 +254,22 @@ namespace mortise
     std::fill(workspace.data() + node.height(),
               workspace.data() + batches * size,
               Number());
-    for_each_block(node.width, [&](const unsigned int j, const auto n) {
-      const V *column = panel + std::size_t(j) * batches;
-      V        sums[n];
-      std::fill_n(sums, n(), V{});
-      for (unsigned int i = j / size; i < batches; ++i)
+    for_each_register_block<8>(
+      node.width, [&](const unsigned int j, const auto n) {
+        const V *column = panel + std::size_t(j) * batches;
+        V        sums[n];
+        std::fill_n(sums, n(), V{});
+        for (unsigned int i = j / size; i < batches; ++i)
+          for (unsigned int k = 0; k < n; ++k)
+            sums[k] += column[k * batches + i] * values[i];
         for (unsigned int k = 0; k < n; ++k)
-          sums[k] += column[k * batches + i] * values[i];
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          Number sum = 0;
-          for (unsigned int l = 0; l < size; ++l)
-            sum += sums[k][l];
-          vector[node.first + j + k] = sum;
-        }
-    });
+          {
+            Number sum = 0;
+            for (unsigned int l = 0; l < size; ++l)
+              sum += sums[k][l];
+            vector[node.first + j + k] = sum;
+          }
+      });
   }
 
   template <typename Number>

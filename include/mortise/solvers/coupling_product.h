@@ -8,7 +8,7 @@
 #include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
 
-#include <array>
+#include <memory>
 #include <vector>
 
 namespace mortise
@@ -59,12 +59,12 @@ namespace mortise
     make_layout(const Epetra_CrsMatrix &matrix, const BlockSystem &system);
     void
     make_blocks(const Epetra_CrsMatrix          &matrix,
-                const std::vector<unsigned int> &entry);
+                const std::vector<unsigned int> &entry_of_column);
     template <unsigned int n_components>
     void
     multiply_block(const Block   &block,
                    const Number  *entries,
-                   const Number  *u,
+                   const Number  *trace,
                    Epetra_Vector &jump) const;
     template <unsigned int n_components>
     void

@@ -24,9 +24,6 @@ namespace mortise
     std::vector<double>       values;
   };
 
-  SparseRows
-  owned_rows(const Epetra_CrsMatrix &matrix);
-
   /// Computed in double precision, kept and applied in @p Number.
   template <typename Number>
   class SparseCholesky
