@@ -3,10 +3,9 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
-#include <deal.II/fe/fe_q.h>
-
 #include <mortise/body/fe_legendre.h>
 #include <mortise/body/legendre_basis.h>
+#include <mortise/body/nodal_conformity.h>
 #include <mortise/body/nodal_space.h>
 
 #include <algorithm>
@@ -17,19 +16,17 @@ namespace mortise
   using namespace dealii;
 
   NodalSpace::NodalSpace(const std::vector<const Body *> &bodies,
-                         const std::vector<unsigned int> &degrees,
+                         const DegreeRule                &rule,
                          const MPI_Comm                   comm)
-    : degrees(degrees)
-    , handlers(bodies.size())
+    : rule(rule)
+    , lattices(bodies.size())
   {
     std::vector<const DoFHandler<dim> *> all(bodies.size());
     for (const Body *body : bodies)
-      if (const unsigned int degree = degrees[body->index])
+      if (rule(*body, body->max_degree()) > 0)
         {
-          auto &handler = handlers[body->index];
-          handler = std::make_unique<DoFHandler<dim>>(body->triangulation());
-          handler->distribute_dofs(FE_Q<dim>(degree));
-          all[body->index] = handler.get();
+          distribute(*body);
+          all[body->index] = &lattices[body->index]->handler;
           scene.push_back(body);
         }
     numbering = FieldNumbering(all, comm);
@@ -37,11 +34,41 @@ namespace mortise
     for (const Body *body : scene)
       {
         IndexSet active;
-        DoFTools::extract_locally_active_dofs(*handlers[body->index], active);
+        DoFTools::extract_locally_active_dofs(*all[body->index], active);
         numbering.add_to(body->index, active, relevant);
       }
     find_hanging_nodes();
     relevant.compress();
+  }
+
+  void
+  NodalSpace::distribute(const Body &body)
+  {
+    auto &lattice = lattices[body.index];
+    lattice       = std::make_unique<Lattice>();
+    lattice->handler.reinit(body.triangulation());
+    std::map<unsigned int, unsigned int> elements; // index by degree
+    for (unsigned int i = 0; i < body.fe.size(); ++i)
+      elements[rule(body, body.fe[i].degree)] = 0;
+    hp::FECollection<dim> fe;
+    for (auto &[degree, index] : elements)
+      {
+        index = fe.size();
+        fe.push_back(FE_Nodes(degree));
+      }
+    if (elements.size() > 1)
+      for (const auto &cell : body.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          Body::CellIterator(&body.triangulation(),
+                             cell->level(),
+                             cell->index(),
+                             &lattice->handler)
+            ->set_active_fe_index(elements.at(degree(body, cell)));
+    if (fe.size() > 1)
+      lattice->handler.distribute_dofs(fe);
+    else
+      lattice->handler.distribute_dofs(fe[0]);
+    lattice->degrees = std::make_unique<EntityDegrees>(lattice->handler);
   }
 
   void
@@ -51,15 +78,16 @@ namespace mortise
     std::vector<std::pair<Index, Entries>> lines;
     std::vector<Index>                     masters;
     for (const Body *body : scene)
-      if (body->triangulation().has_hanging_nodes())
+      if (const Lattice &lattice = *lattices[body->index];
+          body->triangulation().has_hanging_nodes() ||
+          !lattice.degrees->one_degree())
         {
-          const auto &handler = *handlers[body->index];
-          IndexSet    active, local;
-          DoFTools::extract_locally_active_dofs(handler, active);
-          DoFTools::extract_locally_relevant_dofs(handler, local);
-          AffineConstraints<double> constraints(local);
-          DoFTools::make_hanging_node_constraints(handler, constraints);
-          complete_constraints(handler, constraints);
+          IndexSet active;
+          DoFTools::extract_locally_active_dofs(lattice.handler, active);
+          AffineConstraints<double> constraints;
+          make_nodal_constraints(lattice.handler,
+                                 *lattice.degrees,
+                                 constraints);
           constraints.close();
           for (const auto &line : constraints.get_lines())
             if (active.is_element(line.index))
@@ -90,15 +118,9 @@ namespace mortise
   bool
   NodalSpace::represents(const std::vector<const Body *> &bodies)
   {
-    for (const Body *body : bodies)
-      {
-        if (body->mesh.tetrahedra)
-          return false;
-        const auto statistics = body->statistics();
-        if (statistics.degree_min != statistics.degree_max)
-          return false;
-      }
-    return true;
+    return std::none_of(bodies.begin(), bodies.end(), [](const Body *body) {
+      return body->mesh.tetrahedra;
+    });
   }
 
   void
@@ -106,26 +128,26 @@ namespace mortise
                         const Body::CellIterator &cell,
                         std::vector<Index>       &nodes) const
   {
-    const auto &handler = *handlers[body];
-    nodes.resize(handler.get_fe().n_dofs_per_cell());
-    DoFHandler<dim>::active_cell_iterator(&handler.get_triangulation(),
-                                          cell->level(),
-                                          cell->index(),
-                                          &handler)
-      ->get_dof_indices(nodes);
+    const Lattice &lattice = *lattices[body];
+    mortise::get_nodes({&lattice.handler.get_triangulation(),
+                        cell->level(),
+                        cell->index(),
+                        &lattice.handler},
+                       *lattice.degrees,
+                       nodes);
     for (auto &node : nodes)
       node = numbering(body, node);
   }
 
   FaceNodes
-  NodalSpace::face_nodes(const unsigned int        body,
+  NodalSpace::face_nodes(const Body               &body,
                          const Body::CellIterator &cell,
                          const unsigned int        face_number) const
   {
     FaceNodes result;
-    result.degree = degrees[body];
+    result.degree = degree(body, cell);
     std::vector<Index> nodes;
-    get_nodes(body, cell, nodes);
+    get_nodes(body.index, cell, nodes);
     bool any = false;
     for (const unsigned int i : face_dof_indices(result.degree, face_number))
       {
@@ -160,17 +182,18 @@ namespace mortise
   make_nodal_spaces(const std::vector<const Body *> &bodies,
                     const MPI_Comm                   comm)
   {
-    std::vector<unsigned int> degrees;
+    unsigned int highest = 1;
     for (const Body *body : bodies)
-      degrees.push_back(body->max_degree());
+      highest = std::max(highest, body->max_degree());
     NodalSpaces levels;
-    levels.push_back(std::make_unique<NodalSpace>(bodies, degrees, comm));
-    while (*std::max_element(degrees.begin(), degrees.end()) > 1)
-      {
-        for (unsigned int &degree : degrees)
-          degree = std::max(1U, degree / 2);
-        levels.push_back(std::make_unique<NodalSpace>(bodies, degrees, comm));
-      }
+    for (unsigned int level = 0; level == 0 || highest >> (level - 1) > 1;
+         ++level)
+      levels.push_back(std::make_unique<NodalSpace>(
+        bodies,
+        [level](const Body &, const unsigned int degree) {
+          return std::max(1U, degree >> level);
+        },
+        comm));
     return levels;
   }
 
@@ -178,10 +201,12 @@ namespace mortise
   make_nodal_pressures(const std::vector<const Body *> &bodies,
                        const MPI_Comm                   comm)
   {
-    std::vector<unsigned int> degrees;
-    for (const Body *body : bodies)
-      degrees.push_back(body->pressure ? body->max_degree() - 1 : 0);
-    return std::make_unique<NodalSpace>(bodies, degrees, comm);
+    return std::make_unique<NodalSpace>(
+      bodies,
+      [](const Body &body, const unsigned int degree) {
+        return body.pressure ? degree - 1 : 0;
+      },
+      comm);
   }
 
   IndexSet

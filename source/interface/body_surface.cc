@@ -127,7 +127,7 @@ namespace mortise
                                               constraints));
           for (const auto &level : levels)
             surface.traces.back().nodes.push_back(level->face_nodes(
-              body.index, surface.cells[local], surface.face_numbers[local]));
+              body, surface.cells[local], surface.face_numbers[local]));
           faces[i].finalize();
           faces[i].payload = Utilities::pack(surface.traces.back(), false);
           surface.faces.push_back(std::move(faces[i]));

@@ -141,9 +141,9 @@ namespace mortise
   {
     coarse.complete(from);
     weighted = 0;
-    for (unsigned int b = 0; b < kernels.size(); ++b)
-      kernels[b]->prolongate(fine.cells()[b],
-                             coarse.cells()[b],
+    for (unsigned int g = 0; g < kernels.size(); ++g)
+      kernels[g]->prolongate(fine.cells()[g],
+                             coarse.cells()[g],
                              weighted.begin(),
                              from.begin());
     coarse.release(from);
@@ -164,9 +164,9 @@ namespace mortise
         weights.local_element(i) * from.local_element(i);
     weighted.update_ghost_values();
     to = 0;
-    for (unsigned int b = 0; b < kernels.size(); ++b)
-      kernels[b]->restrict_to(fine.cells()[b],
-                              coarse.cells()[b],
+    for (unsigned int g = 0; g < kernels.size(); ++g)
+      kernels[g]->restrict_to(fine.cells()[g],
+                              coarse.cells()[g],
                               weighted.begin(),
                               to.begin());
     weighted.zero_out_ghost_values();
@@ -180,7 +180,7 @@ namespace mortise
   {
     switch (fine_degree)
       {
-        case 1: // degree one in this body, more in others
+        case 1: // degree one on these cells, more on others
           return std::make_unique<KernelOfSizes<2, 2>>();
         case 2:
           return std::make_unique<KernelOfSizes<3, 2>>();

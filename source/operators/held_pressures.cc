@@ -8,6 +8,7 @@
 #include <mortise/operators/pressure_kernel.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 
 namespace mortise
@@ -71,19 +72,20 @@ namespace mortise
   HeldPressures::HeldPressures(const NodalLevel    &level,
                                const NodalPressure &pressures)
   {
-    const LevelVector<double>                    held  = held_components(level);
-    const PressureNodes                          nodes = pressures.nodes();
-    std::vector<NodalSpace::Index>               of_pressure;
-    std::vector<std::unique_ptr<HeldCellKernel>> kernels(
-      level.space->bodies().size()); // by body
+    const LevelVector<double>      held  = held_components(level);
+    const PressureNodes            nodes = pressures.nodes();
+    std::vector<NodalSpace::Index> of_pressure;
+    std::map<std::pair<unsigned int, unsigned int>,
+             std::unique_ptr<HeldCellKernel>>
+                              kernels; // by body and degree
     std::vector<char>         is_held;
     std::vector<unsigned int> free;
     level.space->for_each_cell(
       [&](const Body &body, const auto &cell, const auto &of_cell) {
-        const unsigned int degree = level.space->degree(body.index);
+        const unsigned int degree = level.space->degree(body, cell);
         if (!body.pressure || degree > highest_degree)
           return;
-        auto &kernel = kernels[body.index];
+        auto &kernel = kernels[{body.index, degree}];
         if (!kernel)
           kernel = std::make_unique<HeldCellKernel>(body, degree);
         is_held.resize(dim * of_cell.size());

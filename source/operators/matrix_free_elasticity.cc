@@ -16,14 +16,17 @@ namespace mortise
 
   namespace
   {
-    /// Owned cells, those with constant Jacobians first.
+    /// Owned cells with one element of the body, those with constant Jacobians
+    /// first.
     struct SortedCells
     {
-      SortedCells(const Body &body, const CellGeometry &geometry)
+      SortedCells(const Body         &body,
+                  const unsigned int  element,
+                  const CellGeometry &geometry)
       {
         std::vector<Body::CellIterator> curved;
         for (const auto &cell : body.dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
+          if (cell->is_locally_owned() && cell->active_fe_index() == element)
             (geometry.constant_jacobian(cell) ? all : curved).push_back(cell);
         n_affine = all.size();
         all.insert(all.end(), curved.begin(), curved.end());
@@ -33,7 +36,7 @@ namespace mortise
       unsigned int                    n_affine;
     };
 
-    /// Fills the batches of one body.
+    /// Fills the batches of one body's cells with one element.
     template <typename Number>
     class BatchBuilder
     {
@@ -42,16 +45,18 @@ namespace mortise
 
       BatchBuilder(const NodalSpace                  &space,
                    const Body                        &body,
+                   const unsigned int                 element,
                    const Utilities::MPI::Partitioner &layout,
                    const PressureNodes               *pressures)
         : space(space)
         , body(body)
+        , element(element)
         , layout(layout)
         , pressures(body.pressure ? pressures : nullptr)
-        , quadrature(space.degree(body.index) + 1)
+        , quadrature(space.degree(body, body.fe[element].degree) + 1)
         , geometry(body, ReferenceCells::Hexahedron, quadrature)
       {
-        batches.degree = space.degree(body.index);
+        batches.degree = space.degree(body, body.fe[element].degree);
         batches.lambda = body.material.displacement_lambda();
         batches.mu     = body.material.lame_mu();
         lexicographic =
@@ -69,7 +74,7 @@ namespace mortise
       std::string
       build()
       {
-        const SortedCells  cells(body, geometry);
+        const SortedCells  cells(body, element, geometry);
         const unsigned int n_curved = cells.all.size() - cells.n_affine;
         batches.n_cells             = cells.all.size();
         batches.n_affine_cells      = cells.n_affine;
@@ -165,6 +170,7 @@ namespace mortise
 
       const NodalSpace                  &space;
       const Body                        &body;
+      const unsigned int                 element;
       const Utilities::MPI::Partitioner &layout;
       const PressureNodes               *pressures; ///< of this body
       const QGauss<dim>                  quadrature;
@@ -204,20 +210,22 @@ namespace mortise
   {
     std::string tangled;
     for (const Body *body : space.bodies())
-      {
-        BatchBuilder<Number> builder(space, *body, layout, pressures);
-        if (tangled.empty())
-          tangled = builder.build();
-        bodies.push_back(std::move(builder.batches));
-        std::unique_ptr<Kernel> kernel;
-        if constexpr (std::is_same_v<Number, double>)
-          if (!bodies.back().pressure_nodes.empty())
-            kernel = make_mixed_kernel(bodies.back().degree);
-        if (!kernel)
-          kernel = make_kernel(bodies.back().degree);
-        mixed.push_back(dynamic_cast<MixedKernel *>(kernel.get()));
-        kernels.push_back(std::move(kernel));
-      }
+      for (unsigned int element = 0; element < body->fe.size(); ++element)
+        {
+          BatchBuilder<Number> builder(
+            space, *body, element, layout, pressures);
+          if (tangled.empty())
+            tangled = builder.build();
+          groups.push_back(std::move(builder.batches));
+          std::unique_ptr<Kernel> kernel;
+          if constexpr (std::is_same_v<Number, double>)
+            if (!groups.back().pressure_nodes.empty())
+              kernel = make_mixed_kernel(groups.back().degree);
+          if (!kernel)
+            kernel = make_kernel(groups.back().degree);
+          mixed.push_back(dynamic_cast<MixedKernel *>(kernel.get()));
+          kernels.push_back(std::move(kernel));
+        }
     throw_if_any(tangled, layout.get_mpi_communicator());
   }
 
@@ -229,16 +237,16 @@ namespace mortise
   MatrixFreeElasticity<Number>::add_product(const Number *src,
                                             Number       *dst) const
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      kernels[b]->add_product(bodies[b], src, dst);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      kernels[g]->add_product(groups[g], src, dst);
   }
 
   template <typename Number>
   void
   MatrixFreeElasticity<Number>::add_diagonal(Number *dst) const
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      kernels[b]->add_diagonal(bodies[b], dst);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      kernels[g]->add_diagonal(groups[g], dst);
   }
 
   template <typename Number>
@@ -246,11 +254,11 @@ namespace mortise
   MatrixFreeElasticity<Number>::add_mixed_product(const Fields &src,
                                                   const Fields &dst) const
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (mixed[b])
-        mixed[b]->add_mixed_product(bodies[b], src, dst);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      if (mixed[g])
+        mixed[g]->add_mixed_product(groups[g], src, dst);
       else
-        kernels[b]->add_product(bodies[b], src.displacement, dst.displacement);
+        kernels[g]->add_product(groups[g], src.displacement, dst.displacement);
   }
 
   template <typename Number>
@@ -258,9 +266,9 @@ namespace mortise
   MatrixFreeElasticity<Number>::add_pressure_force(const Number *p,
                                                    Number       *dst) const
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (mixed[b])
-        mixed[b]->add_pressure_force(bodies[b], p, dst);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      if (mixed[g])
+        mixed[g]->add_pressure_force(groups[g], p, dst);
   }
 
   template <typename Number>
@@ -268,18 +276,18 @@ namespace mortise
   MatrixFreeElasticity<Number>::add_pressure_norm(const Number *p,
                                                   Number       *dst) const
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (mixed[b])
-        mixed[b]->add_pressure_norm(bodies[b], p, dst);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      if (mixed[g])
+        mixed[g]->add_pressure_norm(groups[g], p, dst);
   }
 
   template <typename Number>
   void
   MatrixFreeElasticity<Number>::add_pressure_norm_diagonal(Number *dst) const
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (mixed[b])
-        mixed[b]->add_pressure_norm_diagonal(bodies[b], dst);
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      if (mixed[g])
+        mixed[g]->add_pressure_norm_diagonal(groups[g], dst);
   }
 
   template <typename Number>

@@ -35,7 +35,7 @@ namespace mortise
       return result;
     }
 
-    /// Components of @p space that are prescribed or hang on the finest level: on
+    /// Components of @p space that hang, or are prescribed on the finest level: on
     /// vertices, lines and faces of the cells.
     std::vector<unsigned int>
     find_held(const NodalSpace                  &space,
@@ -48,16 +48,21 @@ namespace mortise
       space.for_each_cell(
         [&](const Body &body, const auto &cell, const auto &nodes) {
           const auto        &fe = cell->get_fe();
-          const unsigned int p = fe.degree, q = space.degree(body.index);
+          const unsigned int p = fe.degree, q = space.degree(body, cell);
           dofs.resize(fe.n_dofs_per_cell());
           cell->get_dof_indices(dofs);
-          // an entity is held as a whole: look at its first mode
+          // An entity is prescribed as a whole: look at its first mode. One
+          // that is tied to a neighbour's has an entry; one that is above the
+          // degree of the entity is where all nodes hang.
           const auto copy = [&](const unsigned int mode,
                                 const unsigned int node,
                                 const unsigned int n) {
             for (unsigned int c = 0; c < dim; ++c)
-              if (constraints.is_constrained(numbering(
-                    body.index, dofs[fe.component_to_system_index(c, mode)])))
+              if (const auto dof =
+                    numbering(body.index,
+                              dofs[fe.component_to_system_index(c, mode)]);
+                  constraints.is_constrained(dof) &&
+                  constraints.get_constraint_entries(dof)->empty())
                 for (unsigned int i = node; i < node + n; ++i)
                   if (const auto index = dim * nodes[i] + c;
                       layout.in_local_range(index))
@@ -79,6 +84,11 @@ namespace mortise
           advance(12, p - 1, q - 1);
           advance(6, (p - 1) * (p - 1), (q - 1) * (q - 1));
         });
+      for (const auto &line : space.hanging_nodes().get_lines())
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const auto index = dim * line.index + c;
+              layout.in_local_range(index))
+            held[layout.global_to_local(index)] = true;
       std::vector<unsigned int> places;
       for (unsigned int i = 0; i < held.size(); ++i)
         if (held[i])

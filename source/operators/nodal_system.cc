@@ -23,23 +23,35 @@ namespace mortise
           .values;
     }
 
-    /// What the cells of one body need to go from one basis to the other.
+    /// What cells with one element of a body need to go from one basis to the
+    /// other.
     struct CellOrder
     {
-      explicit CellOrder(const Body &body)
-        : scalar(cell_dof_indices(body.max_degree()))
+      explicit CellOrder(const FiniteElement<dim> &system)
+        : degree(system.degree)
+        , scalar(cell_dof_indices(degree))
         , values(scalar.size())
       {
-        const auto &system = body.fe[body.fe.size() - 1];
         for (unsigned int c = 0; c < dim; ++c)
           for (const unsigned int i : scalar)
             modes[c].push_back(system.component_to_system_index(c, i));
       }
 
+      unsigned int                               degree;
       std::vector<unsigned int>                  scalar;
       std::array<std::vector<unsigned int>, dim> modes;
       std::vector<double>                        values;
     };
+
+    /// By element of the body.
+    std::vector<CellOrder>
+    cell_orders(const Body &body)
+    {
+      std::vector<CellOrder> orders;
+      for (unsigned int i = 0; i < body.fe.size(); ++i)
+        orders.emplace_back(body.fe[i]);
+      return orders;
+    }
 
     /// Calls @p visit(body, order, dofs, nodes) for the owned cells of all
     /// bodies.
@@ -47,15 +59,15 @@ namespace mortise
     void
     for_each_ordered_cell(const NodalSpace &space, const Visit &visit)
     {
-      std::vector<CellOrder> orders; // by body
+      std::vector<std::vector<CellOrder>> orders; // by body
       for (const Body *body : space.bodies())
-        orders.emplace_back(*body);
+        orders.push_back(cell_orders(*body));
       std::vector<types::global_dof_index> dofs;
       space.for_each_cell(
         [&](const Body &body, const auto &cell, const auto &nodes) {
           dofs.resize(cell->get_fe().n_dofs_per_cell());
           cell->get_dof_indices(dofs);
-          visit(body, orders[body.index], dofs, nodes);
+          visit(body, orders[body.index][cell->active_fe_index()], dofs, nodes);
         });
     }
 
@@ -223,11 +235,12 @@ namespace mortise
     std::vector<NodalSpace::Index> nodes;
     for (const Body *body : level.space->bodies())
       {
-        CellOrder                order(*body);
-        const FullMatrix<double> to_nodes =
-          transposed(nodes_to_modes(body->max_degree()));
+        auto orders = cell_orders(*body);
         for_each_loaded_cell(
           *body, loads[body->index], [&](const auto &cell, const auto &local) {
+            CellOrder               &order = orders[cell->active_fe_index()];
+            const FullMatrix<double> to_nodes =
+              transposed(nodes_to_modes(order.degree));
             level.space->get_nodes(body->index, cell, nodes);
             for (unsigned int c = 0; c < dim; ++c)
               {
@@ -283,7 +296,7 @@ namespace mortise
               }
             if (!present)
               continue;
-            transform(modes_to_nodes(body.max_degree()), order.values);
+            transform(modes_to_nodes(order.degree), order.values);
             for (unsigned int i = 0; i < order.values.size(); ++i)
               if (const auto index = dim * nodes[order.scalar[i]] + c;
                   level.layout->in_local_range(index))
@@ -339,7 +352,7 @@ namespace mortise
             for (unsigned int i = 0; i < order.values.size(); ++i)
               order.values[i] = in.local_element(level.layout->global_to_local(
                 dim * nodes[order.scalar[i]] + c));
-            transform(nodes_to_modes(body.max_degree()), order.values);
+            transform(nodes_to_modes(order.degree), order.values);
             for (unsigned int i = 0; i < order.values.size(); ++i)
               set(body.index, dofs[order.modes[c][i]], order.values[i]);
           }

@@ -1,5 +1,7 @@
 // Proves that hanging nodes without a matrix give the hierarchical space of the
-// same mesh, for p = 1..8, cells refined once and twice, affine and curved, and
+// same mesh, for p = 1..8 and degrees that differ from cell to cell (beside
+// each other, across hanging faces, the lower one on either side, three and
+// more around a line), cells refined once and twice, affine and curved, and
 // several bodies at once: a function of that space has the same energy by the
 // matrices of cells and by its values at nodes that do not hang, and comes back
 // from these; that transfers between degrees keep functions and are transposes
@@ -44,8 +46,9 @@ namespace mortise::testing
 
   struct Scene
   {
-    Scene(const std::vector<std::string>  &kinds,
-          const std::vector<unsigned int> &degrees)
+    /// @p degrees: of each body; those of its cells are drawn from them.
+    Scene(const std::vector<std::string>               &kinds,
+          const std::vector<std::vector<unsigned int>> &degrees)
     {
       std::vector<const DoFHandler<dim> *>   handlers;
       std::vector<const Body *>              pointers;
@@ -55,7 +58,24 @@ namespace mortise::testing
           bodies.push_back(std::make_unique<Body>(
             "body", b, LinearElastic{1. + b, 0.3 - 0.1 * b}));
           bodies[b]->create_mesh(mesh(kinds[b]), MPI_COMM_WORLD, "");
-          bodies[b]->create_space(degrees[b], {}, "");
+          std::map<types::material_id, unsigned int> by_region;
+          for (unsigned int i = 0; i < degrees[b].size(); ++i)
+            {
+              by_region[i]                       = degrees[b][i];
+              bodies[b]->mesh.names.materials[i] = std::to_string(i);
+            }
+          // the same on every number of ranks
+          for (const auto &cell :
+               bodies[b]->mesh.triangulation->active_cell_iterators())
+            if (cell->is_locally_owned())
+              {
+                double x = 0.;
+                for (unsigned int d = 0; d < dim; ++d)
+                  x = 17. * x + cell->center()[d];
+                cell->set_material_id(static_cast<unsigned int>(97. * x) %
+                                      degrees[b].size());
+              }
+          bodies[b]->create_space(degrees[b][0], by_region, "");
           handlers.push_back(&bodies[b]->dof_handler);
           pointers.push_back(bodies[b].get());
           conformity.emplace_back();
@@ -164,15 +184,16 @@ namespace mortise::testing
     double product = 0.;
     for (const auto &body : scene.bodies)
       {
-        const auto                          &fe = body->fe[0];
-        CellKernel                           kernel(*body, fe);
-        FullMatrix<double>                   K(fe.n_dofs_per_cell());
-        dealii::Vector<double>               a(K.m()), b(K.m());
-        std::vector<types::global_dof_index> dofs(K.m());
+        std::vector<std::unique_ptr<CellKernel>> kernels;
+        for (unsigned int i = 0; i < body->fe.size(); ++i)
+          kernels.push_back(std::make_unique<CellKernel>(*body, body->fe[i]));
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
-              kernel.compute(cell, K);
+              FullMatrix<double>     K(cell->get_fe().n_dofs_per_cell());
+              dealii::Vector<double> a(K.m()), b(K.m());
+              std::vector<types::global_dof_index> dofs(K.m());
+              kernels[cell->active_fe_index()]->compute(cell, K);
               cell->get_dof_indices(dofs);
               for (unsigned int i = 0; i < K.m(); ++i)
                 {
@@ -294,9 +315,9 @@ namespace mortise::testing
   }
 
   void
-  check(const std::string               &name,
-        const std::vector<std::string>  &kinds,
-        const std::vector<unsigned int> &degrees)
+  check(const std::string                            &name,
+        const std::vector<std::string>               &kinds,
+        const std::vector<std::vector<unsigned int>> &degrees)
   {
     const Scene scene(kinds, degrees);
     const bool  affine =
@@ -314,9 +335,21 @@ main(int argc, char **argv)
   using namespace mortise::testing;
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (unsigned int p = 1; p <= mortise::max_degree; ++p)
-    check("once, p = " + std::to_string(p), {"once"}, {p});
+    check("once, p = " + std::to_string(p), {"once"}, {{p}});
   for (const std::string kind : {"twice", "curved"})
     for (unsigned int p = 1; p <= 5; ++p)
-      check(kind + ", p = " + std::to_string(p), {kind}, {p});
-  check("three bodies, p = 4, 1, 2", {"once", "twice", "curved"}, {4, 1, 2});
+      check(kind + ", p = " + std::to_string(p), {kind}, {{p}});
+  check("three bodies, p = 4, 1, 2",
+        {"once", "twice", "curved"},
+        {{4}, {1}, {2}});
+
+  check("p in 1, 2", {"once"}, {{1, 2}});
+  check("p in 2, 3", {"once"}, {{2, 3}});
+  check("p in 2, 4, 5", {"twice"}, {{2, 4, 5}});
+  check("p in 1, 2, 3, 4, 6", {"twice"}, {{1, 2, 3, 4, 6}});
+  check("p in 3, 8, 5", {"once"}, {{3, 8, 5}});
+  check("p in 2, 3, 4, 5, curved", {"curved"}, {{2, 3, 4, 5}});
+  check("three bodies, p in 2, 4; 3; 1, 5",
+        {"once", "twice", "curved"},
+        {{2, 4}, {3}, {1, 5}});
 }

@@ -91,7 +91,8 @@ namespace mortise::testing
     for (const Body *body : level.space->bodies())
       {
         const auto unit =
-          FE_Q<dim>(level.space->degree(body->index)).get_unit_support_points();
+          FE_Q<dim>(level.space->degree(*body, body->max_degree()))
+            .get_unit_support_points();
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
@@ -123,10 +124,10 @@ namespace mortise::testing
     w.update_ghost_values();
     for (const Body *body : level.space->bodies())
       {
-        const FESystem<dim> system(FE_Q<dim>(level.space->degree(body->index)),
-                                   dim);
-        CellKernel          kernel(*body, system);
-        FullMatrix<double>  K(system.n_dofs_per_cell());
+        const FESystem<dim> system(
+          FE_Q<dim>(level.space->degree(*body, body->max_degree())), dim);
+        CellKernel         kernel(*body, system);
+        FullMatrix<double> K(system.n_dofs_per_cell());
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {

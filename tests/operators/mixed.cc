@@ -143,10 +143,10 @@ namespace mortise::testing
     std::vector<NodalSpace::Index> nodes, p_nodes;
     for (const Body *body : space.bodies())
       {
-        const unsigned int              p = space.degree(body->index);
-        const FESystem<dim>             system(FE_Q<dim>(p), dim);
-        CellKernel                      stiffness(*body, system);
-        FullMatrix<double>              K(system.n_dofs_per_cell());
+        const unsigned int  p = space.degree(*body, body->max_degree());
+        const FESystem<dim> system(FE_Q<dim>(p), dim);
+        CellKernel          stiffness(*body, system);
+        FullMatrix<double>  K(system.n_dofs_per_cell());
         std::unique_ptr<PressureKernel> kernel;
         if (body->pressure)
           kernel =

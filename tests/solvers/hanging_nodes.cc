@@ -1,7 +1,8 @@
 // Proves that with hanging nodes on the slave's side, on the master's or on
-// both, within the bodies and where displacements are prescribed, the solution
-// without a matrix is that of the factorised one, and that multigrid needs
-// hardly more iterations for it, on every number of ranks.
+// both, within the bodies and where displacements are prescribed, with one
+// degree and with several in each body, the solution without a matrix is that
+// of the factorised one, and that multigrid needs hardly more iterations for
+// it, on every number of ranks.
 #include "scenes/scene.h"
 #include "scenes/scenes.h"
 
@@ -107,6 +108,15 @@ main(int argc, char **argv)
                          sphere,
                          meshes + degree(p, "inner", "outer"),
                          18);
+      for (const std::string regions : {"0: 2; 1: 4; 2: 3", "0: 5; 1: 2; 2: 1"})
+        {
+          const std::string mixed =
+            "sphere, " + name + ", p by region " + regions;
+          const Settings degrees = {"Body inner/Degree by region=" + regions,
+                                    "Body outer/Degree by region=" + regions};
+          check_solution(mixed, sphere, meshes + degrees);
+          check_iterations(mixed, sphere, meshes + degrees, 20);
+        }
     }
   for (const auto &[name, lower, upper] :
        {Refinement{"slave", "0, 0, 0.5, 0.3, 2", ""},

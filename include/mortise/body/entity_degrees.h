@@ -40,6 +40,14 @@ namespace mortise
     unsigned int
     quad_degree(const CellIterator &cell, unsigned int f) const;
 
+    /// Least degree of the cells that touch line @p l, or face @p f, of @p cell as a whole, as far
+    /// as this rank sees them: not less than the above.
+    unsigned int
+    line_lattice(const CellIterator &cell, unsigned int l) const;
+
+    unsigned int
+    quad_lattice(const CellIterator &cell, unsigned int f) const;
+
     /// Whether all cells of all ranks have one degree, and not more than two
     /// orders of vertices: get_master_dofs() then gives the cell's own degrees
     /// of freedom.

@@ -1,6 +1,6 @@
 // The displacements (or pressures) of a whole scene of hexahedra by values at
-// Gauss-Lobatto points: the space of the hierarchical element where each body
-// has one degree, in the basis that iterative solvers like better. One
+// Gauss-Lobatto points: the space of the hierarchical element, hp and hanging
+// nodes included, in the basis that iterative solvers like better. One
 // numbering of nodes for all bodies, with lower degrees on the same meshes for
 // multigrid. It never evaluates a function and never solves.
 #pragma once
@@ -15,7 +15,7 @@
 #include <mortise/body/body.h>
 #include <mortise/body/numbering.h>
 
-#include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -52,21 +52,32 @@ namespace mortise
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Degree @p degrees[b] on body b, of hexahedra; 0: nothing there. The
-    /// bodies are kept by reference. Collective.
+    /// Degree here of the cells that have degree @p displacement in @p body, which does not
+    /// fall where that rises; 0: nothing there.
+    using DegreeRule =
+      std::function<unsigned int(const Body &body, unsigned int displacement)>;
+
+    /// On bodies of hexahedra, which are kept by reference. Collective.
     NodalSpace(const std::vector<const Body *> &bodies,
-               const std::vector<unsigned int> &degrees,
+               const DegreeRule                &rule,
                MPI_Comm                         comm);
 
     /// Whether the bodies are such that a NodalSpace stands for their spaces:
-    /// hexahedra, one degree in each body. Collective.
+    /// hexahedra.
     static bool
     represents(const std::vector<const Body *> &bodies);
 
+    /// Here, of cells that have degree @p displacement in body @p body.
     unsigned int
-    degree(const unsigned int body) const
+    degree(const Body &body, const unsigned int displacement) const
     {
-      return degrees[body];
+      return rule(body, displacement);
+    }
+
+    unsigned int
+    degree(const Body &body, const Body::CellIterator &cell) const
+    {
+      return rule(body, body.degree(cell));
     }
 
     /// Those that have nodes.
@@ -100,7 +111,7 @@ namespace mortise
     }
 
     FaceNodes
-    face_nodes(unsigned int              body,
+    face_nodes(const Body               &body,
                const Body::CellIterator &cell,
                unsigned int              face_number) const;
 
@@ -117,8 +128,9 @@ namespace mortise
       return relevant;
     }
 
-    /// A line for each hanging node of owned cells: what its value follows
-    /// from, nodes that do not hang.
+    /// A line for each node of owned cells that hangs, beside larger cells or
+    /// ones of lower degree: what its value follows from, nodes that do not
+    /// hang.
     const dealii::AffineConstraints<double> &
     hanging_nodes() const
     {
@@ -126,21 +138,30 @@ namespace mortise
     }
 
   private:
+    /// The nodes of one body.
+    struct Lattice
+    {
+      dealii::DoFHandler<dim>        handler;
+      std::unique_ptr<EntityDegrees> degrees;
+    };
+
+    void
+    distribute(const Body &body);
     void
     find_hanging_nodes();
 
-    std::vector<const Body *>                             scene;
-    std::vector<unsigned int>                             degrees;
-    std::vector<std::unique_ptr<dealii::DoFHandler<dim>>> handlers;
-    FieldNumbering                                        numbering;
-    dealii::IndexSet                                      relevant;
-    dealii::AffineConstraints<double>                     hanging;
+    std::vector<const Body *>             scene;
+    DegreeRule                            rule;
+    std::vector<std::unique_ptr<Lattice>> lattices; ///< by body
+    FieldNumbering                        numbering;
+    dealii::IndexSet                      relevant;
+    dealii::AffineConstraints<double>     hanging;
   };
 
   /// Levels of falling degree on the same meshes, the finest first.
   using NodalSpaces = std::vector<std::unique_ptr<NodalSpace>>;
 
-  /// The degrees of each body and the halves of them, down to one. Collective.
+  /// The degrees of all cells and the halves of them, down to one. Collective.
   NodalSpaces
   make_nodal_spaces(const std::vector<const Body *> &bodies, MPI_Comm comm);
 

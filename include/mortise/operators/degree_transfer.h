@@ -36,7 +36,7 @@ namespace mortise
     make_kernel(unsigned int fine_degree);
 
     const LevelOperator<Number>         &fine, &coarse;
-    std::vector<std::unique_ptr<Kernel>> kernels; ///< by body
+    std::vector<std::unique_ptr<Kernel>> kernels; ///< by group of cells
     /// One over the number of cells that have a node of the fine level.
     LevelVector<Number>         weights;
     mutable LevelVector<Number> weighted;

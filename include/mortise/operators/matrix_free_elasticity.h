@@ -13,7 +13,7 @@
 
 namespace mortise
 {
-  /// The cells of one body that are computed together.
+  /// The cells of one body and degree, computed several at once.
   template <typename Number>
   struct CellBatches
   {
@@ -97,11 +97,12 @@ namespace mortise
     void
     add_pressure_norm_diagonal(Number *dst) const;
 
-    /// By body.
+    /// By body and, in each, by the degree of the displacement on the finest
+    /// level: the same cells in the same order on all levels.
     const std::vector<CellBatches<Number>> &
     cells() const
     {
-      return bodies;
+      return groups;
     }
 
   private:
@@ -117,8 +118,8 @@ namespace mortise
     static std::unique_ptr<Kernel>
     make_mixed_kernel(unsigned int degree);
 
-    std::vector<CellBatches<Number>>     bodies;
-    std::vector<std::unique_ptr<Kernel>> kernels; ///< by body
+    std::vector<CellBatches<Number>>     groups;
+    std::vector<std::unique_ptr<Kernel>> kernels; ///< by group
     std::vector<MixedKernel *>           mixed;   ///< the same ones, or null
   };
 } // namespace mortise
