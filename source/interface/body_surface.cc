@@ -35,6 +35,31 @@ namespace mortise
       return result;
     }
 
+    /// How far the cell reaches from the face, normal to it.
+    double
+    depth(const Body::CellIterator &cell, const CellFace &face)
+    {
+      const auto vertex = [&](const unsigned int v) {
+        return Tensor<1, dim>(cell->vertex(face.vertices[v]));
+      };
+      const unsigned int n = face.basis->n_vertices();
+      Tensor<1, dim>     on_face, elsewhere;
+      for (unsigned int v = 0; v < n; ++v)
+        on_face += vertex(v);
+      for (const unsigned int v : cell->vertex_indices())
+        elsewhere += cell->vertex(v);
+      elsewhere -= on_face;
+      // by the diagonals of a quadrilateral, whose vertices are those of a
+      // lattice
+      const Tensor<1, dim> normal =
+        n == 3 ?
+          cross_product_3d(vertex(1) - vertex(0), vertex(2) - vertex(0)) :
+          cross_product_3d(vertex(3) - vertex(0), vertex(2) - vertex(1));
+      return std::fabs((elsewhere / (cell->n_vertices() - n) - on_face / n) *
+                       normal) /
+             normal.norm();
+    }
+
     FaceTrace
     face_trace(const Body                      &body,
                const Body::CellIterator        &cell,
@@ -47,6 +72,7 @@ namespace mortise
         body.mesh.tetrahedra ? FaceShape::triangle : FaceShape::quadrilateral;
       trace.degree    = body.degree(cell);
       trace.modulus   = body.material.young_modulus;
+      trace.depth     = depth(cell, CellFace(cell, f));
       const auto dofs = face_dofs(cell, f);
       trace.begin     = {0};
       for (unsigned int c = 0; c < dim; ++c)

@@ -120,10 +120,10 @@ namespace mortise
 
   namespace
   {
-    /// With this factor gamma is E p^2 / h of the softer side on all levels
-    /// below the finest, as large as entries of the diagonal of K: iterations
-    /// for p = 2, 3, 4, 8 on the thick sphere are 9, 12, 10, 16 with half of
-    /// it, 9, 11, 9, 16 with it, 8, 11, 9, 17 with twice as much.
+    /// With this factor gamma is 0.7 E p^2 / h on all levels below the finest,
+    /// as large as entries of the diagonal of K: iterations for p = 2, 4, 6, 8
+    /// on the thick sphere are 9, 10, 15, 16 with half of it, 8, 9, 15, 17 with
+    /// it or twice as much.
     constexpr double nodal_penalty = 0.4;
 
     /// Calls visit(row trace, column trace, block, factor) for the blocks of

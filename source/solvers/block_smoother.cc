@@ -57,7 +57,20 @@ namespace mortise
         patches.push_back(std::move(block));
       }
     workspace.resize(2 * largest);
+    if (to_local)
+      find_damping();
     return valid;
+  }
+
+  void
+  BlockSmoother::find_damping()
+  {
+    Epetra_Vector n_ranks(to_local->SourceMap());
+    x_local->PutScalar(1.);
+    n_ranks.Export(*x_local, *to_local, Add);
+    double largest = 1.;
+    n_ranks.MaxValue(&largest);
+    damping = 1.1 / largest;
   }
 
   void
@@ -164,13 +177,15 @@ namespace mortise
   }
 
   void
-  BlockSmoother::sweep(double *x, const double *r) const
+  BlockSmoother::sweep(double *x, const double *r, const Sweep direction) const
   {
     std::fill(x, x + matrix->NumMyRows(), 0.);
-    for (const auto &block : patches)
-      relax(block, x, r);
-    for (auto block = patches.rbegin(); block != patches.rend(); ++block)
-      relax(*block, x, r);
+    if (direction == Sweep::forward)
+      for (const auto &block : patches)
+        relax(block, x, r);
+    else
+      for (auto block = patches.rbegin(); block != patches.rend(); ++block)
+        relax(*block, x, r);
   }
 
   void
@@ -198,16 +213,19 @@ namespace mortise
   }
 
   void
-  BlockSmoother::vmult(Epetra_Vector &x, const Epetra_Vector &r) const
+  BlockSmoother::vmult(Epetra_Vector       &x,
+                       const Epetra_Vector &r,
+                       const Sweep          direction) const
   {
     if (!to_local)
       {
-        sweep(x.Values(), r.Values());
+        sweep(x.Values(), r.Values(), direction);
         return;
       }
     r_local->Import(r, *to_local, Insert);
-    sweep(x_local->Values(), r_local->Values());
+    sweep(x_local->Values(), r_local->Values(), direction);
     x.PutScalar(0.);
     x.Export(*x_local, *to_local, Add);
+    x.Scale(damping);
   }
 } // namespace mortise

@@ -4,7 +4,6 @@
 #include <mortise/base/timers.h>
 #include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/condensed.h>
-#include <mortise/solvers/constraint_projector.h>
 #include <mortise/solvers/scaled_residual.h>
 
 #include <cmath>
@@ -120,14 +119,10 @@ namespace mortise
     SolveReport report;
     report.method = "condensed";
     announce_stage("solver_setup");
-    Timer      timer;
-    const auto preconditioner = make_bulk_preconditioner(system);
-    const bool valid          = preconditioner->initialize(system);
-    std::unique_ptr<ConstraintProjector> projector;
-    if (valid && preconditioner->lifting() != nullptr)
-      projector =
-        std::make_unique<ConstraintProjector>(system,
-                                              *preconditioner->lifting());
+    Timer       timer;
+    const auto  preconditioner = make_bulk_preconditioner(system);
+    const bool  valid          = preconditioner->initialize(system);
+    const auto *projector      = valid ? preconditioner->projector() : nullptr;
     const ScaledResidual residual(system);
     report.preconditioner = preconditioner->description();
     report.setup_seconds  = timer.wall_time();
@@ -139,7 +134,7 @@ namespace mortise
     const double                target   = options.tolerance * rhs_norm;
     double                      reached  = rhs_norm;
     ProjectedConjugateGradients solver(
-      system, residual, *preconditioner, projector.get(), options);
+      system, residual, *preconditioner, projector, options);
     // Rounding makes the carried residual drift from the true one: start again
     // from what was reached.
     for (unsigned int start = 0; start < 3 && valid && reached > target &&

@@ -53,6 +53,7 @@ namespace mortise
           valid   = lifting->is_valid() && valid;
           correction =
             std::make_unique<InterfaceCorrection<Number>>(system, *lifting);
+          projector = std::make_unique<ConstraintProjector>(system, *lifting);
         }
       for (unsigned int l = 0; l + 1 < all.size(); ++l)
         {
@@ -121,6 +122,7 @@ namespace mortise
     }
 
     std::unique_ptr<DiagonalLifting>                     lifting;
+    std::unique_ptr<ConstraintProjector>                 projector;
     std::unique_ptr<InterfaceCorrection<Number>>         correction;
     std::vector<std::unique_ptr<SmoothedLevel>>          levels;
     std::unique_ptr<LevelOperator<Number>>               coarse;
@@ -162,10 +164,10 @@ namespace mortise
       to[i] = scale * static_cast<double>(level.x.local_element(i));
   }
 
-  const Lifting *
-  DegreeMultigrid::lifting() const
+  const ConstraintProjector *
+  DegreeMultigrid::projector() const
   {
-    return implementation->lifting.get();
+    return implementation->projector.get();
   }
 
   std::string

@@ -52,11 +52,14 @@ namespace mortise
 
   struct HierarchicalPreconditioner::Implementation
   {
+    using Sweep = BlockSmoother::Sweep;
+
     explicit Implementation(const BlockSystem &system)
       : bulk(system)
-      , r((*bulk).RowMap())
-      , t(r)
-      , y(r)
+      , x(system.owned_displacement, system.communicator)
+      , r(x)
+      , y(x)
+      , multiplier(system.owned_multiplier, system.communicator)
       , has_high_modes(system.max_degree > 1)
     {
       valid = coarse.initialize(
@@ -68,18 +71,52 @@ namespace mortise
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
       if (valid && system.owned_multiplier.size() > 0)
         {
-          lifting = std::make_unique<InterfaceLifting>(system, smoother);
-          valid   = lifting->is_valid();
+          lifting   = std::make_unique<InterfaceLifting>(system, smoother);
+          valid     = lifting->is_valid();
+          projector = std::make_unique<ConstraintProjector>(system, *lifting);
         }
     }
 
-    BulkMatrix                        bulk;
-    BlockSmoother                     smoother;
-    VertexSolver                      coarse;
-    mutable Epetra_Vector             r, t, y;
-    std::unique_ptr<InterfaceLifting> lifting;
-    bool                              has_high_modes;
-    bool                              valid = true;
+    /// x += P S r, S a smoother or the solver for vertices: what satisfies the
+    /// constraint stays so.
+    template <typename Solve>
+    void
+    correct(const Solve &solve)
+    {
+      Epetra_Vector target = epetra_view(y);
+      solve(target, epetra_view(r));
+      if (projector)
+        projector->project(y);
+      x += y;
+    }
+
+    void
+    smooth(const Sweep direction)
+    {
+      correct([&](Epetra_Vector &to, const Epetra_Vector &from) {
+        smoother.vmult(to, from, direction);
+      });
+    }
+
+    /// r = P^T (b - A x).
+    void
+    compute_residual(const Vector &b)
+    {
+      Epetra_Vector target = epetra_view(r);
+      (*bulk).Multiply(false, epetra_view(x), target);
+      r.sadd(-1., b);
+      if (projector)
+        projector->project_residual(r, multiplier);
+    }
+
+    BulkMatrix                           bulk;
+    BlockSmoother                        smoother;
+    VertexSolver                         coarse;
+    Vector                               x, r, y, multiplier;
+    std::unique_ptr<InterfaceLifting>    lifting;
+    std::unique_ptr<ConstraintProjector> projector;
+    bool                                 has_high_modes;
+    bool                                 valid = true;
   };
 
   HierarchicalPreconditioner::HierarchicalPreconditioner()  = default;
@@ -95,31 +132,29 @@ namespace mortise
   void
   HierarchicalPreconditioner::vmult(Vector &dst, const Vector &src) const
   {
-    const auto   &data   = *implementation;
-    const auto   &matrix = *data.bulk;
-    Epetra_Vector x      = epetra_view(dst);
-    data.r               = *src.trilinos_vector()(0);
-
-    // Q + (I - Q A) M (I - A Q), positive definite for any positive definite M
-    // and any positive semi-definite Q, exact or not (Tang, Nabben, Vuik and
-    // Erlangga 2009, "BNN").
-    data.coarse.vmult(x, data.r);
-    if (data.has_high_modes)
+    auto &data = *implementation;
+    if (!data.has_high_modes)
       {
-        matrix.Multiply(false, x, data.t);
-        data.r.Update(-1., data.t, 1.);
-        data.smoother.vmult(data.y, data.r);
-        x.Update(1., data.y, 1.);
-        matrix.Multiply(false, data.y, data.t);
-        data.coarse.vmult(data.y, data.t);
-        x.Update(-1., data.y, 1.);
+        Epetra_Vector target = epetra_view(dst);
+        data.coarse.vmult(target, *src.trilinos_vector()(0));
+        return;
       }
+    data.x = 0.;
+    data.r = src;
+    data.smooth(BlockSmoother::Sweep::forward);
+    data.compute_residual(src);
+    data.correct([&](Epetra_Vector &to, const Epetra_Vector &from) {
+      data.coarse.vmult(to, from);
+    });
+    data.compute_residual(src);
+    data.smooth(BlockSmoother::Sweep::backward);
+    dst = data.x;
   }
 
-  const Lifting *
-  HierarchicalPreconditioner::lifting() const
+  const ConstraintProjector *
+  HierarchicalPreconditioner::projector() const
   {
-    return implementation->lifting.get();
+    return implementation->projector.get();
   }
 
   std::string

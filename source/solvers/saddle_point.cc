@@ -7,7 +7,6 @@
 #include <mortise/base/timers.h>
 #include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/condensed.h>
-#include <mortise/solvers/constraint_projector.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/pressure_preconditioner.h>
 #include <mortise/solvers/saddle_point.h>
@@ -120,9 +119,8 @@ namespace mortise
         , bulk(make_bulk_preconditioner(system))
         , valid(bulk->initialize(system))
       {
-        if (valid && bulk->lifting() != nullptr)
-          projector =
-            std::make_unique<ConstraintProjector>(system, *bulk->lifting());
+        if (valid)
+          projector = bulk->projector();
         if (valid && system.mixed())
           {
             pressure = std::make_unique<PressurePreconditioner>(system);
@@ -193,7 +191,7 @@ namespace mortise
       const BlockSystem                      &system;
       const ScaledOperator                   &scaling;
       std::unique_ptr<BulkPreconditioner>     bulk;
-      std::unique_ptr<ConstraintProjector>    projector;
+      const ConstraintProjector              *projector = nullptr;
       std::unique_ptr<PressurePreconditioner> pressure;
       bool                                    valid;
       mutable BlockVector                     scratch;

@@ -88,7 +88,10 @@ namespace
       }
     body.create_mesh(mesh, MPI_COMM_WORLD, "");
     body.create_space(p, {}, "");
-    const NodalSpace space({&body}, {p}, MPI_COMM_WORLD);
+    const NodalSpace space(
+      {&body},
+      [](const Body &, const unsigned int degree) { return degree; },
+      MPI_COMM_WORLD);
     const double in_double = rate<double>(space), in_float = rate<float>(space);
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::cout << std::setw(14) << source << std::setw(4) << p << std::setw(10)

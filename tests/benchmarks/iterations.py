@@ -82,9 +82,22 @@ def report(mortise):
     yield from table("Over the sides of the interface that have hanging nodes, 2,2:3,2:", ("p", *near),
                      ((p, *(both(mortise, sphere(p, "2,2:3,2") + local(balls)) for balls in near.values()))
                       for p in (2, 3, 4, 5, 6)))
-    yield from table("Scenes whose meshes need a matrix (tetrahedra, or degrees mixed within a body):", ("scene", ""),
-                     ((f"prm/{scene}.prm", both(mortise, [], scene))
-                      for scene in ("flange", "thick_sphere_gmsh")))
+    regions = lambda degrees: [f"Body {body}/Degree by region={degrees}" for body in ("inner", "outer")]
+    yield from table("Degrees mixed within both bodies (a third of the octant each), over ranks, 4,2:6,3; the last with hanging nodes on\n"
+                     "both sides:", ("degrees", "1", "2", "3"),
+                     ((name, *(both(mortise, sphere(2, mesh) + regions(degrees) + local(near[balls]), ranks=n) for n in (1, 2, 3)))
+                      for name, degrees, mesh, balls in (("2, 4, 3", "0: 2; 1: 4; 2: 3", "4,2:6,3", "none"),
+                                                         ("6, 4, 3", "0: 6; 1: 4; 2: 3", "4,2:6,3", "none"),
+                                                         ("8, 2, 1", "0: 8; 1: 2; 2: 1", "4,2:6,3", "none"),
+                                                         ("2, 4, 3, hanging nodes", "0: 2; 1: 4; 2: 3", "2,2:3,2", "both"))))
+    tetrahedra = [f"Body {body}/Mesh/Cells=tetrahedra" for body in ("inner", "outer")]
+    scenes = [("prm/flange.prm", "flange", []), ("prm/thick_sphere_gmsh.prm", "thick_sphere_gmsh", [])]
+    for p, mesh, moduli in ((2, "4,2:6,3", (10, 10)), (2, "4,2:6,3", (1e6, 1)), (2, "4,2:6,3", (1, 1e6)), (3, "4,2:3,2", (10, 10)),
+                            (4, "2,1:3,2", (10, 10))):
+        scenes.append((f"tetrahedra, p = {p}, {mesh}, moduli {moduli[0]:g} : {moduli[1]:g}", "thick_sphere",
+                       sphere(p, mesh, moduli) + tetrahedra))
+    yield from table("Scenes with tetrahedra, whose meshes need a matrix, over ranks:", ("scene", "1", "2", "3"),
+                     ((name, *(both(mortise, settings, scene, n) for n in (1, 2, 3))) for name, scene, settings in scenes))
 
 
 def main():

@@ -91,7 +91,7 @@ namespace
                          "Body upper/Boundary zmax/Traction=",
                          "Body upper/Boundary zmax/Displacement=exact"});
           }
-        for (const std::string mixed : boxes)
+        for (const std::string &mixed : boxes)
           check_exact("only " + mixed + " in mixed form, nu = 0.25, " + name,
                       Settings{linear[0],
                                "Body " + mixed + "/Formulation=mixed"} +

@@ -20,9 +20,10 @@ namespace mortise
   /// n_functions() + k. Constraints of the body are resolved.
   struct FaceTrace
   {
-    FaceShape                 shape   = FaceShape::quadrilateral;
-    unsigned int              degree  = 1;
-    double                    modulus = 1.; ///< Young's modulus behind the face
+    FaceShape    shape   = FaceShape::quadrilateral;
+    unsigned int degree  = 1;
+    double       modulus = 1.; ///< Young's modulus behind the face
+    double       depth   = 1.; ///< of the cell behind the face, normal to it
     std::vector<unsigned int> begin; ///< by row, one past the end included
     std::vector<dealii::types::global_dof_index>
                         column; ///< numbering of the scene
@@ -48,8 +49,8 @@ namespace mortise
     serialize(Archive &archive, const unsigned int /*version*/)
     {
       int shape_number = static_cast<int>(shape);
-      archive &shape_number &degree &modulus &begin &column &weight &constant
-        &nodes;
+      archive &shape_number &degree &modulus &depth &begin &column &weight
+        &constant &nodes;
       shape = static_cast<FaceShape>(shape_number);
     }
   };

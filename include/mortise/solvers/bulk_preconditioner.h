@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/lifting.h>
+#include <mortise/solvers/constraint_projector.h>
 
 #include <memory>
 #include <string>
@@ -11,8 +11,8 @@
 namespace mortise
 {
   /// An approximate inverse of the elasticity block, symmetric and positive
-  /// definite on what the projector with lifting() leaves, hence usable between
-  /// projections in conjugate gradients and GMRES.
+  /// definite on what projector() leaves, hence usable between projections in
+  /// conjugate gradients and GMRES.
   class BulkPreconditioner
   {
   public:
@@ -29,9 +29,9 @@ namespace mortise
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
-    /// None without an interface.
-    virtual const Lifting *
-    lifting() const = 0;
+    /// Null without an interface.
+    virtual const ConstraintProjector *
+    projector() const = 0;
 
     /// What was built, in words.
     virtual std::string

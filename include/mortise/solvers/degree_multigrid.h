@@ -20,9 +20,9 @@ namespace mortise
     void
     vmult(Vector &dst, const Vector &src) const override;
 
-    /// By the diagonal of K.
-    const Lifting *
-    lifting() const override;
+    /// With the lifting by the diagonal of K.
+    const ConstraintProjector *
+    projector() const override;
 
     std::string
     description() const override;

@@ -1,7 +1,7 @@
 // An approximate inverse of the elasticity block A = K + J that uses the
 // hierarchy of the element: algebraic multigrid on the vertex functions, block
-// smoothers on the higher modes, right for degrees 1 to 8. It never looks at
-// the multipliers.
+// smoothers on the higher modes, right for degrees 1 to 8. All corrections stay
+// among what satisfies the constraint.
 #pragma once
 
 #include <mortise/solvers/bulk_preconditioner.h>
@@ -23,9 +23,9 @@ namespace mortise
     void
     vmult(Vector &dst, const Vector &src) const override;
 
-    /// By the patches of the smoother.
-    const Lifting *
-    lifting() const override;
+    /// With the lifting by the patches of the smoother.
+    const ConstraintProjector *
+    projector() const override;
 
     std::string
     description() const override;
