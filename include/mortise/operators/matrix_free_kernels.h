@@ -7,6 +7,7 @@
 #include <mortise/base/lagrange.h>
 #include <mortise/base/tensor_product.h>
 #include <mortise/operators/matrix_free_kernel.h>
+#include <mortise/operators/node_access.h>
 #include <mortise/operators/tensor_kernel.h>
 
 #include <cmath>

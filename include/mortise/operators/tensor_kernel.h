@@ -141,38 +141,4 @@ namespace mortise
           matrix.template apply<n0 * n1, n0 * n1, add>(in + l, out + l);
       }
   }
-
-  /// The components at the nodes of a batch of cells, node after node.
-  /// @p nodes: for each node the place of its first component by lane.
-  template <int n_nodes, int n_components = 3, typename Number>
-  inline void
-  gather(const Number                   *source,
-         const unsigned int             *nodes,
-         typename Batch<Number>::Vector *values)
-  {
-    constexpr unsigned int width = Batch<Number>::size;
-    for (int i = 0; i < n_nodes; ++i)
-      for (unsigned int l = 0; l < width; ++l)
-        {
-          const Number *from = source + nodes[i * width + l];
-          for (int c = 0; c < n_components; ++c)
-            values[c * n_nodes + i][l] = from[c];
-        }
-  }
-
-  template <int n_nodes, int n_components = 3, typename Number>
-  inline void
-  scatter_add(const typename Batch<Number>::Vector *values,
-              const unsigned int                   *nodes,
-              Number                               *target)
-  {
-    constexpr unsigned int width = Batch<Number>::size;
-    for (int i = 0; i < n_nodes; ++i)
-      for (unsigned int l = 0; l < width; ++l)
-        {
-          Number *to = target + nodes[i * width + l];
-          for (int c = 0; c < n_components; ++c)
-            to[c] += values[c * n_nodes + i][l];
-        }
-  }
 } // namespace mortise
