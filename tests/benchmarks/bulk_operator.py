@@ -13,11 +13,33 @@ def rows(program, ranks):
     root = ["--allow-run-as-root"] if os.getuid() == 0 else []
     command = ["mpirun", "-q", "-n", str(ranks), "--bind-to", "none"] + root + [program, str(3e5 * ranks)]
     lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
-    return [line.rsplit(None, 4) for line in lines]
+    peak = lines[-1].split()
+    return [line.rsplit(None, 4) for line in lines[:-1]], float(peak[3]), float(peak[4]), float(peak[6]), float(peak[8])
+
+
+def flops_per_dof(p):
+    """Of a product on curved cells, counted from the kernel: lines by even and odd parts (tensor_kernel.h), 108 at
+    each point, one addition per number that is scattered."""
+    n = p + 1
+    h, r = n // 2, (n + 1) // 2
+    line = 4 * h + h * (2 * r - 1 + 2 * h - 1) + (2 * r - 1 if n % 2 else 0)
+    return (3 * (12 * n**2 * line + 2 * n**3) + 108 * n**3 + 3 * n**3) / (3 * p**3)
+
+
+def bytes_per_dof(p, number):
+    """That a product on curved cells has to move at least: the metric, the places of nodes, the source once, the
+    result twice."""
+    n = p + 1
+    return ((9 * number + 4) * n**3 + 3 * 3 * p**3 * number) / (3 * p**3)
+
+
+def workspace_per_dof(p, number):
+    """Bytes that the passes over lines, 36 of which 6 add, and the points read and write beside that."""
+    return (2 * 36 + 6 + 2 * 9) * (p + 1)**3 * number / (3 * p**3)
 
 
 def main():
-    one, two = (rows(os.path.abspath(sys.argv[1]), ranks) for ranks in (1, 2))
+    (one, *peaks, bandwidth, caches), (two, *_) = (rows(os.path.abspath(sys.argv[1]), ranks) for ranks in (1, 2))
     model = next(line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name"))
     text = ["# Products with the stiffness without a matrix", "",
             "Regenerate: `ninja -C build benchmark_bulk && tests/benchmarks/bulk_operator.py build/benchmark_bulk`.",
@@ -27,6 +49,25 @@ def main():
             "| mesh | p | dofs | double | single | double, both cores | single, both cores |", "|---|---|---|---|---|---|---|"]
     for (mesh, p, dofs, double, single), (*_, double2, single2) in zip(one, two):
         text.append(f"| {mesh.strip()} | {p} | {dofs} | {double} | {single} | {double2} | {single2} |")
+    text += ["", "## What bounds them", "",
+             f"One core does {peaks[0]:.0f} Gflop/s in double and {peaks[1]:.0f} in single precision (multiplications with additions, in",
+             f"registers), and moves {bandwidth:.0f} GB/s (a = b + s c on as many bytes as these products read and write),",
+             f"{caches:.0f} GB/s on 96 KiB, the workspace of eight cells of degree 4, which the first cache (48 KiB) cannot hold.",
+             "Counted for curved cells (functions of the script): flops, bytes from and to memory, and bytes that the passes over lines",
+             "read from and write to the workspace; bounds in million dofs per second:", "",
+             "| p | precision | per dof: flops | bytes | of the workspace | measured | Gflop/s | GB/s | of the workspace | "
+             "bound by flops | by bytes | by the workspace |", "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    shares = {"double": [], "single": []}
+    for mesh, p, _, *rates in one:
+        if mesh.strip() == "shell octant" and int(p) > 1:
+            for name, number, peak, rate in zip(("double", "single"), (8, 4), peaks, map(float, rates)):
+                counts = flops_per_dof(int(p)), bytes_per_dof(int(p), number), workspace_per_dof(int(p), number)
+                shares[name].append(rate * counts[2] / 1e3 / caches)
+                text.append(f"| {p} | {name} | " + " | ".join(f"{count:.0f}" for count in counts) + f" | {rate:.0f} | " +
+                            " | ".join(f"{rate * count / 1e3:.0f}" for count in counts) + " | " +
+                            " | ".join(f"{1e3 * limit / count:.0f}" for limit, count in zip((peak, bandwidth, caches), counts)) + " |")
+    text += ["", "The workspace is what binds first: of that bound " + ", ".join(
+        f"products in {name} precision reach {min(share):.2f} to {max(share):.2f}" for name, share in shares.items()) + "."]
     with open(os.path.join(TOP, "doc", "bulk.md"), "w") as out:
         out.write("\n".join(text) + "\n")
     print("\n".join(text))
