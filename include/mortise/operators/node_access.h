@@ -4,7 +4,8 @@
 
 #include <mortise/operators/tensor_kernel.h>
 
-#if defined(__AVX512F__) && defined(__AVX512VL__)
+#if defined(__AVX512F__) && defined(__AVX512VL__) && \
+  __has_builtin(__builtin_shufflevector)
 #  include <immintrin.h>
 #  define MORTISE_NODES_BY_SHUFFLES
 #endif
