@@ -1,6 +1,7 @@
 #include <deal.II/dofs/dof_tools.h>
 
 #include <mortise/body/conformity_lines.h>
+#include <mortise/body/fe_legendre.h>
 #include <mortise/body/hp_constraints.h>
 
 #include <algorithm>
@@ -15,7 +16,40 @@ namespace mortise
     , degrees(degrees)
     , owned(dof_handler.locally_owned_dofs())
     , owned_done(owned.n_elements(), false)
-  {}
+  {
+    const auto &fes = dof_handler.get_fe_collection();
+    if (fes[0].reference_cell() != ReferenceCells::Hexahedron)
+      return;
+    faces.resize(fes.size());
+    for (unsigned int i = 0; i < fes.size(); ++i)
+      for (unsigned int f = 0; f < 6; ++f)
+        faces[i][f] = face_dof_indices(fes[i].degree, f);
+  }
+
+  unsigned int
+  ConformityLines::line_dof(const CellIterator &cell,
+                            const unsigned int  l,
+                            const unsigned int  i,
+                            const unsigned int  c) const
+  {
+    const auto &fe = cell->get_fe();
+    return fe.component_to_system_index(
+      c,
+      i < 2 ? GeometryInfo<3>::line_to_cell_vertices(l, i) :
+              GeometryInfo<3>::vertices_per_cell + l * (fe.degree - 1) + i - 2);
+  }
+
+  unsigned int
+  ConformityLines::face_dof(const CellIterator &cell,
+                            const unsigned int  f,
+                            const unsigned int  i,
+                            const unsigned int  j,
+                            const unsigned int  c) const
+  {
+    const auto &fe = cell->get_fe();
+    return fe.component_to_system_index(
+      c, faces[cell->active_fe_index()][f][i + (fe.degree + 1) * j]);
+  }
 
   void
   ConformityLines::make(AffineConstraints<double> &constraints)
@@ -91,6 +125,10 @@ namespace mortise
 
   namespace
   {
+    /// Direction of each line of a cell.
+    constexpr unsigned int line_direction[12] =
+      {1, 1, 0, 0, 1, 1, 0, 0, 2, 2, 2, 2};
+
     /// Number of @p cell among the children of its parent: its bits say which half of the parent
     /// it fills in each direction.
     unsigned int

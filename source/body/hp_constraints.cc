@@ -1,5 +1,4 @@
 #include <mortise/body/conformity_lines.h>
-#include <mortise/body/fe_legendre.h>
 #include <mortise/body/hp_constraints.h>
 #include <mortise/body/legendre_basis.h>
 
@@ -9,62 +8,12 @@ namespace mortise
 
   namespace
   {
-    /// Hexahedra: local degrees of freedom of one component of elements
-    /// FESystem(FE_Legendre(p), n): tensor functions of lines and faces, in the
-    /// order of evaluate_lobatto().
-    class LocalNumbering
-    {
-    public:
-      explicit LocalNumbering(const FiniteElement<3> &fe)
-        : n(fe.degree + 1)
-        , fe(fe)
-      {
-        for (unsigned int f = 0; f < 6; ++f)
-          faces[f] = face_dof_indices(fe.degree, f);
-      }
-
-      unsigned int
-      on_face(const unsigned int f,
-              const unsigned int i,
-              const unsigned int j,
-              unsigned int       c) const
-      {
-        return fe.component_to_system_index(c, faces[f][i + n * j]);
-      }
-
-      unsigned int
-      on_line(const unsigned int l,
-              const unsigned int i,
-              const unsigned int c) const
-      {
-        // A line's ends are its vertices, its bubbles its own.
-        const unsigned int scalar =
-          i < 2 ? GeometryInfo<3>::line_to_cell_vertices(l, i) :
-                  8 + l * (n - 2) + i - 2;
-        return fe.component_to_system_index(c, scalar);
-      }
-
-      const unsigned int n; ///< functions per direction
-
-    private:
-      const FiniteElement<3>   &fe;
-      std::vector<unsigned int> faces[6];
-    };
-
     /// In the hierarchical basis, where modes above the degree of a line or
     /// face are zero.
     class ModalLines : public ConformityLines
     {
     public:
-      ModalLines(const DoFHandler<3> &dof_handler, const EntityDegrees &degrees)
-        : ConformityLines(dof_handler, degrees)
-      {
-        const auto &fes = dof_handler.get_fe_collection();
-        numbering.reserve(fes.size());
-        if (fes[0].reference_cell() == ReferenceCells::Hexahedron)
-          for (unsigned int i = 0; i < fes.size(); ++i)
-            numbering.emplace_back(fes[i]);
-      }
+      using ConformityLines::ConformityLines;
 
     private:
       void
@@ -74,17 +23,14 @@ namespace mortise
                              const CellIterator &coarse,
                              const unsigned int  coarse_line) override
       {
-        const LocalNumbering &fine_dofs = numbering[cell->active_fe_index()],
-                             &coarse_dofs =
-                               numbering[coarse->active_fe_index()];
         const FullMatrix<double> &restriction = lobatto_restriction(half);
         degrees.get_master_dofs(coarse, masters);
         for (unsigned int c = 0; c < cell->get_fe().n_components(); ++c)
-          for (unsigned int i = 0; i < fine_dofs.n; ++i)
+          for (unsigned int i = 0; i <= cell->get_fe().degree; ++i)
             // The end that is one of the parent's as well does not hang.
-            if (i != half && start_line(own[fine_dofs.on_line(l, i, c)]))
-              for (unsigned int a = 0; a < coarse_dofs.n; ++a)
-                add(masters[coarse_dofs.on_line(coarse_line, a, c)],
+            if (i != half && start_line(own[line_dof(cell, l, i, c)]))
+              for (unsigned int a = 0; a <= coarse->get_fe().degree; ++a)
+                add(masters[line_dof(coarse, coarse_line, a, c)],
                     restriction(i, a));
       }
 
@@ -93,22 +39,22 @@ namespace mortise
       {
         const FullMatrix<double> &along_i = lobatto_restriction(at.half[0]);
         const FullMatrix<double> &along_j = lobatto_restriction(at.half[1]);
-        const LocalNumbering &fine_dofs = numbering[at.cell->active_fe_index()];
-        const LocalNumbering &coarse_dofs =
-          numbering[at.coarse->active_fe_index()];
+        const unsigned int        p       = at.cell->get_fe().degree,
+                           q              = at.coarse->get_fe().degree;
         degrees.get_master_dofs(at.coarse, masters);
         for (unsigned int c = 0; c < at.cell->get_fe().n_components(); ++c)
-          for (unsigned int j = 0; j < fine_dofs.n; ++j)
-            for (unsigned int i = 0; i < fine_dofs.n; ++i)
+          for (unsigned int j = 0; j <= p; ++j)
+            for (unsigned int i = 0; i <= p; ++i)
               // The corner that is one of the parent's as well does not hang.
               if (!(i == at.half[0] && j == at.half[1]) &&
-                  start_line(own[fine_dofs.on_face(at.face, i, j, c)]))
-                for (unsigned int b = 0; b < coarse_dofs.n; ++b)
-                  for (unsigned int a = 0; a < coarse_dofs.n; ++a)
-                    add(masters[coarse_dofs.on_face(at.coarse_face,
-                                                    at.transposed ? b : a,
-                                                    at.transposed ? a : b,
-                                                    c)],
+                  start_line(own[face_dof(at.cell, at.face, i, j, c)]))
+                for (unsigned int b = 0; b <= q; ++b)
+                  for (unsigned int a = 0; a <= q; ++a)
+                    add(masters[face_dof(at.coarse,
+                                         at.coarse_face,
+                                         at.transposed ? b : a,
+                                         at.transposed ? a : b,
+                                         c)],
                         along_i(i, a) * along_j(j, b));
       }
 
@@ -128,8 +74,7 @@ namespace mortise
           entries().emplace_back(master, weight);
       }
 
-      std::vector<LocalNumbering> numbering; ///< by element; hexahedra
-      std::vector<Index>          masters;
+      std::vector<Index> masters;
     };
   } // namespace
 

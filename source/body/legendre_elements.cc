@@ -4,12 +4,30 @@
 #include <mortise/body/legendre_elements.h>
 #include <mortise/body/simplex_elements.h>
 
-#include <algorithm>
-#include <vector>
+#include <iterator>
 
 namespace mortise
 {
   using namespace dealii;
+
+  void
+  distribute_dofs_by_degree(
+    const std::set<unsigned int> &degrees,
+    const std::function<
+      unsigned int(const DoFHandler<3>::active_cell_iterator &)> &degree_of,
+    const std::function<std::unique_ptr<FiniteElement<3>>(unsigned int)>
+                        &element,
+    hp::FECollection<3> &fe,
+    DoFHandler<3>       &dof_handler)
+  {
+    for (const unsigned int p : degrees)
+      fe.push_back(*element(p));
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        cell->set_active_fe_index(
+          std::distance(degrees.begin(), degrees.find(degree_of(cell))));
+    dof_handler.distribute_dofs(fe);
+  }
 
   void
   distribute_legendre_dofs(
@@ -20,30 +38,27 @@ namespace mortise
     hp::FECollection<3>                                          &fe,
     DoFHandler<3>                                                &dof_handler)
   {
-    const std::vector<unsigned int> all(degrees.begin(), degrees.end());
-    const bool                      tetrahedra =
-      !dof_handler.get_triangulation().all_reference_cells_are_hyper_cube();
-    const SimplexElements simplices(tetrahedra ? all :
-                                                 std::vector<unsigned int>(),
+    if (dof_handler.get_triangulation().all_reference_cells_are_hyper_cube())
+      {
+        distribute_dofs_by_degree(
+          degrees,
+          degree_of,
+          [&](const unsigned int p) -> std::unique_ptr<FiniteElement<3>> {
+            if (n_components == 1)
+              return std::make_unique<FE_Legendre>(p);
+            return std::make_unique<FESystem<3>>(FE_Legendre(p), n_components);
+          },
+          fe,
+          dof_handler);
+        return;
+      }
+    const SimplexElements simplices({degrees.begin(), degrees.end()},
                                     n_components);
-    if (tetrahedra)
-      for (unsigned int i = 0; i < simplices.collection.size(); ++i)
-        fe.push_back(simplices.collection[i]);
-    else
-      for (const unsigned int p : all)
-        if (n_components == 1)
-          fe.push_back(FE_Legendre(p));
-        else
-          fe.push_back(FESystem<3>(FE_Legendre(p), n_components));
-
+    for (unsigned int i = 0; i < simplices.collection.size(); ++i)
+      fe.push_back(simplices.collection[i]);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
-        {
-          const unsigned int p = degree_of(cell);
-          cell->set_active_fe_index(
-            tetrahedra ? simplices.index(cell, p) :
-                         std::find(all.begin(), all.end(), p) - all.begin());
-        }
+        cell->set_active_fe_index(simplices.index(cell, degree_of(cell)));
     dof_handler.distribute_dofs(fe);
   }
 } // namespace mortise

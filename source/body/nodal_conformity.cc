@@ -114,11 +114,6 @@ namespace mortise
       {
         for (unsigned int p = 0; p <= max_lobatto_degree; ++p)
           points.push_back(p == 0 ? Coordinates() : lobatto_points(p));
-        for (unsigned int i = 0; i < dof_handler.get_fe_collection().size();
-             ++i)
-          for (unsigned int f = 0; f < 6; ++f)
-            faces[dof_handler.get_fe(i).degree][f] =
-              face_dof_indices(dof_handler.get_fe(i).degree, f);
       }
 
     private:
@@ -193,11 +188,12 @@ namespace mortise
               const unsigned int  l,
               const unsigned int  i) const
       {
-        const unsigned int p = cell->get_fe().degree;
-        return i < 2 ?
-                 GeometryInfo<3>::line_to_cell_vertices(l, i) :
-                 8 + l * (p - 1) +
-                   carrying_nodes(p, degrees.line_degree(cell, l)).place[i - 2];
+        if (i < 2)
+          return line_dof(cell, l, i);
+        const auto &place =
+          carrying_nodes(cell->get_fe().degree, degrees.line_degree(cell, l))
+            .place;
+        return line_dof(cell, l, 2 + place[i - 2]);
       }
 
       /// The same on face @p f along the directions of face_dof_indices().
@@ -213,10 +209,10 @@ namespace mortise
           return on_line(cell,
                          GeometryInfo<3>::face_to_cell_lines(f, 2 + j),
                          i);
-        const unsigned int p = cell->get_fe().degree;
-        const auto        &place =
-          carrying_nodes(p, degrees.quad_degree(cell, f)).place;
-        return faces[p][f][2 + place[i - 2] + (p + 1) * (2 + place[j - 2])];
+        const auto &place =
+          carrying_nodes(cell->get_fe().degree, degrees.quad_degree(cell, f))
+            .place;
+        return face_dof(cell, f, 2 + place[i - 2], 2 + place[j - 2]);
       }
 
       /// The value at @p x of line @p l of @p cell, whose masters are in masters, to the entries
@@ -227,16 +223,13 @@ namespace mortise
                   const double        x,
                   const double        weight)
       {
-        const unsigned int p = cell->get_fe().degree;
-        const auto         values =
+        const auto values =
           lagrange_at(carrying_nodes(degrees.line_lattice(cell, l),
                                      degrees.line_degree(cell, l))
                         .points,
                       x);
         for (unsigned int k = 0; k < values.size(); ++k)
-          add(masters[k < 2 ? GeometryInfo<3>::line_to_cell_vertices(l, k) :
-                              8 + l * (p - 1) + k - 2],
-              weight * values[k]);
+          add(masters[line_dof(cell, l, k)], weight * values[k]);
       }
 
       void
@@ -245,7 +238,6 @@ namespace mortise
                   const double        x,
                   const double        y)
       {
-        const unsigned int p  = cell->get_fe().degree;
         const Coordinates &at = carrying_nodes(degrees.quad_lattice(cell, f),
                                                degrees.quad_degree(cell, f))
                                   .points;
@@ -264,8 +256,7 @@ namespace mortise
                           at[k],
                           along_x[k] * along_y[j]);
             for (unsigned int m = 2; m < at.size(); ++m)
-              add(masters[faces[p][f][k + (p + 1) * m]],
-                  along_x[k] * along_y[m]);
+              add(masters[face_dof(cell, f, k, m)], along_x[k] * along_y[m]);
           }
       }
 
@@ -289,10 +280,7 @@ namespace mortise
       }
 
       std::vector<Coordinates> points; ///< by degree
-      std::array<std::array<std::vector<unsigned int>, 6>,
-                 max_lobatto_degree + 1>
-                         faces; ///< face_dof_indices() by degree and face
-      std::vector<Index> masters;
+      std::vector<Index>       masters;
     };
   } // namespace
 
@@ -334,7 +322,8 @@ namespace mortise
     for (const unsigned int l : cell->line_indices())
       if (const unsigned int degree = degrees.line_degree(cell, l); degree < p)
         {
-          const auto  first = nodes.begin() + 8 + l * (p - 1);
+          const auto first =
+            nodes.begin() + fe.get_first_line_index() + l * (p - 1);
           const auto &place = carrying_nodes(p, degree).place;
           own.assign(first, first + p - 1);
           for (unsigned int i = 0; i < p - 1; ++i)

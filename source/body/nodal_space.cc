@@ -5,11 +5,13 @@
 
 #include <mortise/body/fe_legendre.h>
 #include <mortise/body/legendre_basis.h>
+#include <mortise/body/legendre_elements.h>
 #include <mortise/body/nodal_conformity.h>
 #include <mortise/body/nodal_space.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 namespace mortise
 {
@@ -47,27 +49,22 @@ namespace mortise
     auto &lattice = lattices[body.index];
     lattice       = std::make_unique<Lattice>();
     lattice->handler.reinit(body.triangulation());
-    std::map<unsigned int, unsigned int> elements; // index by degree
+    std::set<unsigned int> used;
     for (unsigned int i = 0; i < body.fe.size(); ++i)
-      elements[rule(body, body.fe[i].degree)] = 0;
+      used.insert(degree(body, body.fe[i].degree));
     hp::FECollection<dim> fe;
-    for (auto &[degree, index] : elements)
-      {
-        index = fe.size();
-        fe.push_back(FE_Nodes(degree));
-      }
-    if (elements.size() > 1)
-      for (const auto &cell : body.dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
-          Body::CellIterator(&body.triangulation(),
-                             cell->level(),
-                             cell->index(),
-                             &lattice->handler)
-            ->set_active_fe_index(elements.at(degree(body, cell)));
-    if (fe.size() > 1)
-      lattice->handler.distribute_dofs(fe);
-    else
-      lattice->handler.distribute_dofs(fe[0]);
+    distribute_dofs_by_degree(
+      used,
+      [&](const Body::CellIterator &cell) {
+        return degree(body,
+                      Body::CellIterator(&body.triangulation(),
+                                         cell->level(),
+                                         cell->index(),
+                                         &body.dof_handler));
+      },
+      [](const unsigned int p) { return std::make_unique<FE_Nodes>(p); },
+      fe,
+      lattice->handler);
     lattice->degrees = std::make_unique<EntityDegrees>(lattice->handler);
   }
 

@@ -7,6 +7,7 @@
 
 #include <mortise/body/entity_degrees.h>
 
+#include <array>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -59,6 +60,24 @@ namespace mortise
     virtual void
     constrain_mixed_degrees(const CellIterator &cell) = 0;
 
+    /// Local dof of component @p c of @p cell, a hexahedron, that is function @p i of line @p l,
+    /// in the order of evaluate_lobatto(): its ends are vertices, the others
+    /// its own.
+    unsigned int
+    line_dof(const CellIterator &cell,
+             unsigned int        l,
+             unsigned int        i,
+             unsigned int        c = 0) const;
+
+    /// The same of functions @p i and @p j of face @p f along the directions of
+    /// face_dof_indices().
+    unsigned int
+    face_dof(const CellIterator &cell,
+             unsigned int        f,
+             unsigned int        i,
+             unsigned int        j,
+             unsigned int        c = 0) const;
+
     /// Begin the constraint of @p dof unless it has one already.
     bool
     start_line(Index dof);
@@ -93,6 +112,9 @@ namespace mortise
     dealii::IndexSet
     all_dofs() const;
 
+    /// face_dof_indices() by element and face, of hexahedra.
+    std::vector<std::array<std::vector<unsigned int>, 6>> faces;
+
     std::vector<Line> lines;
     dealii::IndexSet  owned;      ///< of this rank
     std::vector<bool> owned_done; ///< constrained, by place in owned
@@ -102,8 +124,4 @@ namespace mortise
     std::unordered_map<unsigned int, std::pair<CellIterator, unsigned int>>
       coarse_lines;
   };
-
-  /// Direction of each line of a cell.
-  constexpr unsigned int line_direction[12] =
-    {1, 1, 0, 0, 1, 1, 0, 0, 2, 2, 2, 2};
 } // namespace mortise
