@@ -3,6 +3,7 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <mortise/body/cell_face.h>
 #include <mortise/body/fe_legendre.h>
 #include <mortise/body/legendre_basis.h>
 #include <mortise/body/legendre_elements.h>
@@ -52,19 +53,23 @@ namespace mortise
     std::set<unsigned int> used;
     for (unsigned int i = 0; i < body.fe.size(); ++i)
       used.insert(degree(body, body.fe[i].degree));
+    const auto degree_of = [&](const Body::CellIterator &cell) {
+      return degree(body,
+                    Body::CellIterator(&body.triangulation(),
+                                       cell->level(),
+                                       cell->index(),
+                                       &body.dof_handler));
+    };
     hp::FECollection<dim> fe;
-    distribute_dofs_by_degree(
-      used,
-      [&](const Body::CellIterator &cell) {
-        return degree(body,
-                      Body::CellIterator(&body.triangulation(),
-                                         cell->level(),
-                                         cell->index(),
-                                         &body.dof_handler));
-      },
-      [](const unsigned int p) { return std::make_unique<FE_Nodes>(p); },
-      fe,
-      lattice->handler);
+    if (body.mesh.tetrahedra)
+      distribute_legendre_dofs(used, degree_of, 1, fe, lattice->handler);
+    else
+      distribute_dofs_by_degree(
+        used,
+        degree_of,
+        [](const unsigned int p) { return std::make_unique<FE_Nodes>(p); },
+        fe,
+        lattice->handler);
     lattice->degrees = std::make_unique<EntityDegrees>(lattice->handler);
   }
 
@@ -116,8 +121,20 @@ namespace mortise
   NodalSpace::represents(const std::vector<const Body *> &bodies)
   {
     return std::none_of(bodies.begin(), bodies.end(), [](const Body *body) {
-      return body->mesh.tetrahedra;
+      return body->mesh.tetrahedra &&
+             (body->pressure || body->fe[0].degree != body->max_degree());
     });
+  }
+
+  Body::CellIterator
+  NodalSpace::lattice_cell(const unsigned int        body,
+                           const Body::CellIterator &cell) const
+  {
+    const DoFHandler<dim> &handler = lattices[body]->handler;
+    return {&handler.get_triangulation(),
+            cell->level(),
+            cell->index(),
+            &handler};
   }
 
   void
@@ -125,13 +142,15 @@ namespace mortise
                         const Body::CellIterator &cell,
                         std::vector<Index>       &nodes) const
   {
-    const Lattice &lattice = *lattices[body];
-    mortise::get_nodes({&lattice.handler.get_triangulation(),
-                        cell->level(),
-                        cell->index(),
-                        &lattice.handler},
-                       *lattice.degrees,
-                       nodes);
+    const Lattice           &lattice = *lattices[body];
+    const Body::CellIterator own     = lattice_cell(body, cell);
+    if (own->reference_cell() == ReferenceCells::Hexahedron)
+      mortise::get_nodes(own, *lattice.degrees, nodes);
+    else
+      {
+        nodes.resize(own->get_fe().n_dofs_per_cell());
+        own->get_dof_indices(nodes);
+      }
     for (auto &node : nodes)
       node = numbering(body, node);
   }
@@ -146,7 +165,8 @@ namespace mortise
     std::vector<Index> nodes;
     get_nodes(body.index, cell, nodes);
     bool any = false;
-    for (const unsigned int i : face_dof_indices(result.degree, face_number))
+    for (const unsigned int i :
+         CellFace(lattice_cell(body.index, cell), face_number).indices)
       {
         result.nodes.push_back(nodes[i]);
         any = any || hanging.is_constrained(nodes[i]);
@@ -175,22 +195,35 @@ namespace mortise
     return result;
   }
 
+  unsigned int
+  lower_degree(const bool tetrahedra, const unsigned int degree)
+  {
+    if (tetrahedra && degree > 4)
+      return degree - 2;
+    return std::max(1U, degree / 2);
+  }
+
   NodalSpaces
   make_nodal_spaces(const std::vector<const Body *> &bodies,
                     const MPI_Comm                   comm)
   {
-    unsigned int highest = 1;
-    for (const Body *body : bodies)
-      highest = std::max(highest, body->max_degree());
+    const auto degree_on = [](const unsigned int level) {
+      return [level](const Body &body, unsigned int degree) {
+        for (unsigned int l = 0; l < level; ++l)
+          degree = lower_degree(body.mesh.tetrahedra, degree);
+        return degree;
+      };
+    };
     NodalSpaces levels;
-    for (unsigned int level = 0; level == 0 || highest >> (level - 1) > 1;
-         ++level)
-      levels.push_back(std::make_unique<NodalSpace>(
-        bodies,
-        [level](const Body &, const unsigned int degree) {
-          return std::max(1U, degree >> level);
-        },
-        comm));
+    bool        lowest = false;
+    for (unsigned int level = 0; !lowest; ++level)
+      {
+        const auto rule = degree_on(level);
+        levels.push_back(std::make_unique<NodalSpace>(bodies, rule, comm));
+        lowest = std::all_of(bodies.begin(), bodies.end(), [&](const Body *b) {
+          return rule(*b, b->max_degree()) == 1;
+        });
+      }
     return levels;
   }
 

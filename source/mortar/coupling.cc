@@ -69,10 +69,11 @@ namespace mortise
       FullMatrix<double>
       in_columns(const FullMatrix<double> &local) const
       {
-        return trace.nodes.empty() ? local :
-                                     nodal_block(local,
-                                                 {trace.degree, 0},
-                                                 {trace.degree, trace.degree});
+        return trace.nodes.empty() ?
+                 local :
+                 nodal_block(local,
+                             {trace.shape, trace.degree, 0},
+                             {trace.shape, trace.degree, trace.degree});
       }
 
     private:

@@ -1,4 +1,6 @@
 #include <mortise/base/tensor_product.h>
+#include <mortise/body/simplex_basis.h>
+#include <mortise/body/simplex_nodes.h>
 #include <mortise/mortar/nodal_block.h>
 
 namespace mortise
@@ -7,12 +9,39 @@ namespace mortise
 
   namespace
   {
+    /// F^T A with the F of triangles. Modes of higher degree than the nodes'
+    /// are left out: those of a line come one after another, those of the
+    /// inside sorted by degree.
+    FullMatrix<double>
+    transform_triangle_rows(const FullMatrix<double> &A, const BlockSide &side)
+    {
+      const unsigned int        q = side.nodal, p = side.modal;
+      const FullMatrix<double> &modes = triangle_nodes_to_modes(q);
+      std::vector<unsigned int> rows;
+      for (unsigned int v = 0; v < 3; ++v)
+        rows.push_back(v);
+      for (unsigned int e = 0; e < 3; ++e)
+        for (unsigned int k = 0; k < n_line_modes(q); ++k)
+          rows.push_back(3 + e * n_line_modes(p) + k);
+      for (unsigned int k = 0; k < n_face_modes(q); ++k)
+        rows.push_back(3 + 3 * n_line_modes(p) + k);
+      FullMatrix<double> result(modes.n(), A.n());
+      for (unsigned int k = 0; k < modes.m(); ++k)
+        for (unsigned int i = 0; i < modes.n(); ++i)
+          if (modes(k, i) != 0.)
+            for (unsigned int j = 0; j < A.n(); ++j)
+              result(i, j) += modes(k, i) * A(rows[k], j);
+      return result;
+    }
+
     /// F^T A with the two-dimensional F of @p side.
     FullMatrix<double>
     transform_rows(const FullMatrix<double> &A, const BlockSide &side)
     {
       if (side.nodal == 0)
         return A;
+      if (side.shape == FaceShape::triangle)
+        return transform_triangle_rows(A, side);
       const unsigned int        q = side.nodal, n = q + 1, m = side.modal + 1;
       const FullMatrix<double> &modes = nodes_to_modes(q); // (mode, node)
       // first index, then second

@@ -1,4 +1,6 @@
+#include <mortise/body/simplex_nodes.h>
 #include <mortise/operators/degree_transfer.h>
+#include <mortise/operators/dense_kernel.h>
 #include <mortise/operators/matrix_free_kernels.h>
 
 namespace mortise
@@ -104,6 +106,87 @@ namespace mortise
     LineMatrix<Number, m, n> down;
   };
 
+  /// Between cells of tetrahedra.
+  template <typename Number>
+  class DegreeTransfer<Number>::SimplexKernel
+    : public DegreeTransfer<Number>::Kernel
+  {
+  public:
+    using V                    = typename Batch<Number>::Vector;
+    static constexpr int width = Batch<Number>::size;
+
+    SimplexKernel(const unsigned int fine_degree,
+                  const unsigned int coarse_degree)
+    {
+      const FullMatrix<double> values =
+        simplex_nodal_values(coarse_degree, simplex_nodes(fine_degree));
+      up   = DenseMatrix<Number>(values);
+      down = DenseMatrix<Number>(transposed(values));
+      u.resize(dim * values.m() * width);
+      a.resize(dim * values.n() * width);
+    }
+
+    void
+    prolongate(const CellBatches<Number> &fine_cells,
+               const CellBatches<Number> &coarse_cells,
+               Number                    *fine,
+               const Number              *coarse) const override
+    {
+      for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
+        {
+          const unsigned int *nodes = nodes_of(coarse_cells, batch);
+          for (unsigned int i = 0; i < coarse_cells.n_nodes; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              for (int l = 0; l < width; ++l)
+                a[(c * coarse_cells.n_nodes + i) * width + l] =
+                  coarse[nodes[i * width + l] + c];
+          up.apply(reinterpret_cast<const V *>(a.data()),
+                   reinterpret_cast<V *>(u.data()));
+          nodes = nodes_of(fine_cells, batch);
+          for (unsigned int i = 0; i < fine_cells.n_nodes; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int l = 0; l < fine_cells.lanes(batch); ++l)
+                fine[nodes[i * width + l] + c] +=
+                  u[(c * fine_cells.n_nodes + i) * width + l];
+        }
+    }
+
+    void
+    restrict_to(const CellBatches<Number> &fine_cells,
+                const CellBatches<Number> &coarse_cells,
+                const Number              *fine,
+                Number                    *coarse) const override
+    {
+      for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
+        {
+          const unsigned int *nodes = nodes_of(fine_cells, batch);
+          for (unsigned int i = 0; i < fine_cells.n_nodes; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              for (int l = 0; l < width; ++l)
+                u[(c * fine_cells.n_nodes + i) * width + l] =
+                  fine[nodes[i * width + l] + c];
+          down.apply(reinterpret_cast<const V *>(u.data()),
+                     reinterpret_cast<V *>(a.data()));
+          nodes = nodes_of(coarse_cells, batch);
+          for (unsigned int i = 0; i < coarse_cells.n_nodes; ++i)
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int l = 0; l < fine_cells.lanes(batch); ++l)
+                coarse[nodes[i * width + l] + c] +=
+                  a[(c * coarse_cells.n_nodes + i) * width + l];
+        }
+    }
+
+  private:
+    static const unsigned int *
+    nodes_of(const CellBatches<Number> &cells, const unsigned int batch)
+    {
+      return &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
+    }
+
+    DenseMatrix<Number>           up, down;
+    mutable AlignedVector<Number> u, a;
+  };
+
   template <typename Number>
   DegreeTransfer<Number>::DegreeTransfer(const LevelOperator<Number> &fine,
                                          const LevelOperator<Number> &coarse)
@@ -113,17 +196,22 @@ namespace mortise
     fine.initialize(weights);
     fine.initialize(weighted);
     constexpr unsigned int width = Batch<Number>::size;
-    for (const auto &cells : fine.cells())
+    for (unsigned int g = 0; g < fine.cells().size(); ++g)
       {
-        kernels.push_back(make_kernel(cells.degree));
+        const CellBatches<Number> &cells = fine.cells()[g];
+        if (cells.tetrahedra)
+          kernels.push_back(
+            std::make_unique<SimplexKernel>(cells.degree,
+                                            coarse.cells()[g].degree));
+        else
+          kernels.push_back(make_kernel(cells.degree));
         for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
-          for (unsigned int i = 0; i < cells.n_nodes(); ++i)
+          for (unsigned int i = 0; i < cells.n_nodes; ++i)
             for (unsigned int l = 0; l < cells.lanes(batch); ++l)
               for (unsigned int c = 0; c < dim; ++c)
                 weights.local_element(
-                  cells
-                    .nodes[(std::size_t(batch) * cells.n_nodes() + i) * width +
-                           l] +
+                  cells.nodes[(std::size_t(batch) * cells.n_nodes + i) * width +
+                              l] +
                   c) += 1;
       }
     weights.compress(VectorOperation::add);

@@ -4,6 +4,8 @@
 #include <deal.II/fe/fe_tools.h>
 
 #include <mortise/base/error.h>
+#include <mortise/body/simplex_elements.h>
+#include <mortise/body/simplex_nodes.h>
 #include <mortise/operators/cell_geometry.h>
 #include <mortise/operators/matrix_free_elasticity.h>
 #include <mortise/operators/matrix_free_kernels.h>
@@ -53,21 +55,26 @@ namespace mortise
         , element(element)
         , layout(layout)
         , pressures(body.pressure ? pressures : nullptr)
-        , quadrature(space.degree(body, body.fe[element].degree) + 1)
-        , geometry(body, ReferenceCells::Hexahedron, quadrature)
+        , degree(space.degree(body, body.fe[element].degree))
+        , quadrature(make_quadrature())
+        , geometry(body, body.fe[element].reference_cell(), quadrature)
       {
-        batches.degree = space.degree(body, body.fe[element].degree);
-        batches.lambda = body.material.displacement_lambda();
-        batches.mu     = body.material.lame_mu();
-        lexicographic =
-          FETools::lexicographic_to_hierarchic_numbering<dim>(batches.degree);
+        batches.tetrahedra = body.mesh.tetrahedra;
+        batches.degree     = degree;
+        batches.n_points   = quadrature.size();
+        batches.lambda     = body.material.displacement_lambda();
+        batches.mu         = body.material.lame_mu();
+        node_order =
+          batches.tetrahedra ?
+            ascending_dof_indices(degree, order()) :
+            FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
+        batches.n_nodes = node_order.size();
         if (this->pressures == nullptr)
           return;
         batches.compressibility = body.material.compressibility();
         batches.pressure_norm   = body.material.pressure_norm();
         pressure_lexicographic =
-          FETools::lexicographic_to_hierarchic_numbering<dim>(batches.degree -
-                                                              1);
+          FETools::lexicographic_to_hierarchic_numbering<dim>(degree - 1);
       }
 
       /// What is wrong, if anything.
@@ -81,8 +88,8 @@ namespace mortise
         batches.n_affine            = (cells.n_affine + width - 1) / width;
         batches.n_batches = batches.n_affine + (n_curved + width - 1) / width;
         const std::size_t point = dim * dim * width;
-        batches.nodes.resize(std::size_t(batches.n_batches) *
-                             batches.n_nodes() * width);
+        batches.nodes.resize(std::size_t(batches.n_batches) * batches.n_nodes *
+                             width);
         batches.metric.resize(batches.n_affine * point +
                               (batches.n_batches - batches.n_affine) *
                                 quadrature.size() * point);
@@ -106,6 +113,51 @@ namespace mortise
       CellBatches<Number> batches;
 
     private:
+      /// Of the vertices of these tetrahedra.
+      const VertexOrder &
+      order() const
+      {
+        return SimplexElements::base(body.fe[element]).order;
+      }
+
+      /// The rule of the stiffness; on tetrahedra its points have the same
+      /// barycentric coordinates by ascending vertices, whatever their order.
+      Quadrature<dim>
+      make_quadrature()
+      {
+        if (!body.mesh.tetrahedra)
+          return QGauss<dim>(degree + 1);
+        const Quadrature<dim>   rule = simplex_rule(degree);
+        std::vector<Point<dim>> points;
+        axes.clear();
+        for (const Point<dim> &ascending : rule.get_points())
+          {
+            const auto lambda = barycentric_coordinates(ascending);
+            std::array<double, dim + 1> local{};
+            for (unsigned int v = 0; v <= dim; ++v)
+              local[order()[v]] = lambda[v];
+            points.emplace_back(local[1], local[2], local[3]);
+            axes.push_back(simplex_rule_jacobian(degree, ascending));
+          }
+        return {points, rule.get_weights()};
+      }
+
+      /// With derivatives along the edges from the first ascending vertex to
+      /// the others, from those along the axes of the reference cell.
+      CellGeometry::Jacobian
+      ascending(const CellGeometry::Jacobian &jacobian) const
+      {
+        if (!body.mesh.tetrahedra)
+          return jacobian;
+        const auto to_vertex = [&](const unsigned int v) {
+          return v == 0 ? Tensor<1, dim>() : jacobian[v - 1];
+        };
+        CellGeometry::Jacobian result;
+        for (unsigned int a = 0; a < dim; ++a)
+          result[a] = to_vertex(order()[a + 1]) - to_vertex(order()[0]);
+        return result;
+      }
+
       void
       set_nodes(const Body::CellIterator &cell,
                 const unsigned int        batch,
@@ -116,7 +168,7 @@ namespace mortise
           {
             unsigned int *place =
               &batches.nodes[(std::size_t(batch) * nodes.size() + i) * width];
-            place[lane] = layout.global_to_local(dim * nodes[lexicographic[i]]);
+            place[lane] = layout.global_to_local(dim * nodes[node_order[i]]);
             if (lane == 0)
               std::fill(place + 1, place + width, place[0]);
           }
@@ -146,24 +198,28 @@ namespace mortise
                  const unsigned int        batch,
                  const unsigned int        lane)
       {
+        const Tensor<2, dim> identity = unit_symmetric_tensor<dim>();
         Number *place  = const_cast<Number *>(batches.metric_of(batch)) + lane;
         const auto set = [&](const CellGeometry::Jacobian &jacobian,
-                             const double                  weight) {
+                             const double                  weight,
+                             const Tensor<2, dim>         &axes) {
           const double det = determinant(jacobian);
           if (!(det > 0.))
             return false;
           const CellGeometry::Jacobian inverse =
-            std::sqrt(weight * det) * invert(jacobian);
+            std::sqrt(weight * det) * invert(axes * ascending(jacobian));
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int e = 0; e < dim; ++e, place += width)
               *place = inverse[e][a];
           return true;
         };
         if (affine)
-          return set(*geometry.constant_jacobian(cell), 1.);
+          return set(*geometry.constant_jacobian(cell), 1., identity);
         const auto &jacobians = geometry.jacobians(cell);
         for (unsigned int q = 0; q < quadrature.size(); ++q)
-          if (!set(jacobians[q], quadrature.weight(q)))
+          if (!set(jacobians[q],
+                   quadrature.weight(q),
+                   axes.empty() ? identity : axes[q]))
             return false;
         return true;
       }
@@ -173,9 +229,11 @@ namespace mortise
       const unsigned int                 element;
       const Utilities::MPI::Partitioner &layout;
       const PressureNodes               *pressures; ///< of this body
-      const QGauss<dim>                  quadrature;
+      const unsigned int                 degree;
+      std::vector<Tensor<2, dim>>        axes; ///< of the rule on tetrahedra
+      const Quadrature<dim>              quadrature;
       CellGeometry                       geometry;
-      std::vector<unsigned int>          lexicographic, pressure_lexicographic;
+      std::vector<unsigned int>          node_order, pressure_lexicographic;
       std::vector<NodalSpace::Index>     nodes;
     };
   } // namespace
@@ -199,7 +257,7 @@ namespace mortise
     return metric.data() +
            (batch < n_affine ?
               batch * point :
-              (n_affine + std::size_t(batch - n_affine) * n_nodes()) * point);
+              (n_affine + std::size_t(batch - n_affine) * n_points) * point);
   }
 
   template <typename Number>
@@ -218,6 +276,8 @@ namespace mortise
             tangled = builder.build();
           groups.push_back(std::move(builder.batches));
           std::unique_ptr<Kernel> kernel;
+          if (groups.back().tetrahedra)
+            kernel = make_simplex_kernel(groups.back());
           if constexpr (std::is_same_v<Number, double>)
             if (!groups.back().pressure_nodes.empty())
               kernel = make_mixed_kernel(groups.back().degree);

@@ -1,3 +1,4 @@
+#include <mortise/body/simplex_basis.h>
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/operators/nodal_level.h>
 #include <mortise/operators/tensor_kernel.h>
@@ -80,9 +81,12 @@ namespace mortise
                 node += n_nodes;
               }
           };
-          advance(8, 1, 1);
-          advance(12, p - 1, q - 1);
-          advance(6, (p - 1) * (p - 1), (q - 1) * (q - 1));
+          advance(cell->n_vertices(), 1, 1);
+          advance(cell->n_lines(), p - 1, q - 1);
+          if (body.mesh.tetrahedra)
+            advance(cell->n_faces(), n_face_modes(p), n_face_modes(q));
+          else
+            advance(cell->n_faces(), (p - 1) * (p - 1), (q - 1) * (q - 1));
         });
       for (const auto &line : space.hanging_nodes().get_lines())
         for (unsigned int c = 0; c < dim; ++c)
@@ -222,29 +226,29 @@ namespace mortise
                       group.columns.begin(), group.columns.end(), column) -
                     group.columns.begin())] += value;
     };
-    for_each_block(couplings,
-                   [&](const FaceTrace          &row,
-                       const FaceTrace          &column,
-                       const FullMatrix<double> &modal,
-                       const double              factor) {
-                     const FaceNodes &on_rows    = row.nodes[number],
-                                     &on_columns = column.nodes[number];
-                     const FullMatrix<double> nodal =
-                       resolve_hanging(nodal_block(modal,
-                                                   {row.degree, on_rows.degree},
-                                                   {column.degree,
-                                                    on_columns.degree}),
-                                       on_rows,
-                                       on_columns);
-                     const Places rows = find(row), more = find(column);
-                     for (unsigned int i = 0; i < rows.size(); ++i)
-                       for (unsigned int j = 0; j < more.size(); ++j)
-                         {
-                           add(rows[i], more[j], factor * nodal(i, j));
-                           if (&row != &column)
-                             add(more[j], rows[i], factor * nodal(i, j));
-                         }
-                   });
+    for_each_block(
+      couplings,
+      [&](const FaceTrace          &row,
+          const FaceTrace          &column,
+          const FullMatrix<double> &modal,
+          const double              factor) {
+        const FaceNodes &on_rows       = row.nodes[number],
+                        &on_columns    = column.nodes[number];
+        const FullMatrix<double> nodal = resolve_hanging(
+          nodal_block(modal,
+                      {row.shape, row.degree, on_rows.degree},
+                      {column.shape, column.degree, on_columns.degree}),
+          on_rows,
+          on_columns);
+        const Places rows = find(row), more = find(column);
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          for (unsigned int j = 0; j < more.size(); ++j)
+            {
+              add(rows[i], more[j], factor * nodal(i, j));
+              if (&row != &column)
+                add(more[j], rows[i], factor * nodal(i, j));
+            }
+      });
     return penalty;
   }
 

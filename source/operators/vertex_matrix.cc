@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
+#include <mortise/body/fe_simplex_legendre.h>
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/vertex_matrix.h>
 
@@ -31,7 +32,7 @@ namespace mortise
       });
     }
 
-    /// What the 24 values of a cell follow from where some hang: value i is
+    /// What the values of a cell follow from where some hang: value i is
     /// sum_j weights(i, j) u(indices[j]).
     struct Masters
     {
@@ -151,9 +152,11 @@ namespace mortise
 
     result.matrix.reinit(
       owned, owned, sparsity, layout.get_mpi_communicator(), true);
-    const FESystem<dim> system(FE_Q<dim>(1), dim);
+    const std::unique_ptr<FiniteElement<dim>>
+      hexahedron  = std::make_unique<FESystem<dim>>(FE_Q<dim>(1), dim),
+      tetrahedron = make_simplex_system(FE_SimplexLegendre(1), dim);
     std::map<unsigned int, std::unique_ptr<CellKernel>> kernels;
-    FullMatrix<double>                                  local_matrix(24);
+    FullMatrix<double>                                  local_matrix;
     std::vector<Point<dim>> points(owned.n_elements() / dim);
     std::vector<double>     values;
     std::vector<Index>      columns;
@@ -179,9 +182,11 @@ namespace mortise
       [&](const Body &body, const auto &cell, const std::vector<Index> &all) {
         auto &kernel = kernels[body.index];
         if (!kernel)
-          kernel = std::make_unique<CellKernel>(body, system);
+          kernel = std::make_unique<CellKernel>(
+            body, body.mesh.tetrahedra ? *tetrahedron : *hexahedron);
+        local_matrix.reinit(all.size(), all.size());
         kernel->compute(cell, local_matrix);
-        for (unsigned int i = 0; i < 24; ++i)
+        for (unsigned int i = 0; i < all.size(); ++i)
           if (is_held(all[i]))
             result.matrix.add(all[i], all[i], local_matrix(i, i));
         if (const Masters masters = find_masters(level, all);

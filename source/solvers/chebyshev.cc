@@ -12,12 +12,10 @@ namespace mortise
 
   template <typename Number>
   Chebyshev<Number>::Chebyshev(const LevelOperator<Number>       &matrix,
-                               const unsigned int                 degree,
-                               const double                       range,
+                               const double                       smallest,
+                               const double                       effort,
                                const InterfaceCorrection<Number> *correction)
     : matrix(matrix)
-    , degree(degree)
-    , range(range)
     , correction(correction)
   {
     matrix.diagonal(inverse_diagonal);
@@ -26,6 +24,9 @@ namespace mortise
     matrix.initialize(r);
     matrix.initialize(d);
     largest = 1.1 * estimate_largest();
+    range   = std::max(2., largest / smallest);
+    degree  = static_cast<unsigned int>(
+      std::max(1., std::round(effort * std::sqrt(range))));
   }
 
   template <typename Number>

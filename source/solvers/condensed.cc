@@ -6,6 +6,7 @@
 #include <mortise/solvers/condensed.h>
 #include <mortise/solvers/scaled_residual.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -65,7 +66,8 @@ namespace mortise
               projector->project(z);
             const double rho = r * z; // estimates the energy of the error
             if (reached <= target &&
-                rho <= std::pow(options.energy_tolerance(), 2) * energy_of_u)
+                rho <= std::pow(options.energy_tolerance(), 2) *
+                         std::max(energy_of_u, residual.least_energy()))
               break;
             if (first)
               d = z;

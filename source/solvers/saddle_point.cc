@@ -12,6 +12,7 @@
 #include <mortise/solvers/saddle_point.h>
 #include <mortise/solvers/scaled_residual.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace mortise
@@ -295,9 +296,11 @@ namespace mortise
         // beside pressures the residual does not say less than the energy
         const double energy_tolerance =
           system.mixed() ? options.tolerance : options.energy_tolerance();
-        accurate = reached <= target && preconditioner.error_energy(all_r) <=
-                                          energy_tolerance * energy_tolerance *
-                                            energy_of(solution, system);
+        accurate =
+          reached <= target &&
+          preconditioner.error_energy(all_r) <=
+            energy_tolerance * energy_tolerance *
+              std::max(energy_of(solution, system), residual.least_energy());
       }
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= target;

@@ -49,7 +49,7 @@ namespace mortise
       scene.mixed ? SolverMethod::saddle_point : SolverMethod::condensed;
     const std::string form = scene.mixed ? " in mixed form" : "";
     if (scene.nodal)
-      return {iterative, "chosen for hexahedra" + form};
+      return {iterative, "chosen where no matrix is needed" + form};
     const auto limit =
       std::min(direct_dofs * scene.max_degree * scene.max_degree,
                max_direct_dofs);

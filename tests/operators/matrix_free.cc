@@ -1,14 +1,18 @@
 // Proves that the stiffness without a matrix is the assembled one in another
-// basis, for p = 1..8 on affine, straight and curved cells and several bodies
-// at once: w.Ku agrees with the sum over the matrices of cells to rounding,
-// double and single precision, and so does the diagonal; that the transfer
-// between degrees reproduces polynomials and its transpose is the restriction.
-// The same on every number of ranks.
+// basis, for p = 1..8 on affine, straight and curved hexahedra, affine and
+// curved tetrahedra, and several bodies at once: w.Ku agrees with the sum over
+// the matrices of cells to rounding, double and single precision, and so does
+// the diagonal; that the transfer between degrees reproduces polynomials and
+// its transpose is the restriction. The same on every number of ranks.
 #include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_values.h>
 
 #include <mortise/body/fe_legendre.h>
+#include <mortise/body/simplex_elements.h>
+#include <mortise/body/simplex_nodes.h>
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/degree_transfer.h>
+#include <mortise/operators/matrix_free_kernel.h>
 #include <mortise/operators/nodal_system.h>
 
 #include <cmath>
@@ -23,16 +27,19 @@ namespace mortise::testing
   mesh(const std::string &kind)
   {
     MeshParameters result;
-    if (kind == "curved")
+    const bool     tetrahedra = kind.find("tetrahedra") != std::string::npos;
+    if (tetrahedra)
+      result.cells = "tetrahedra";
+    if (kind.find("curved") == 0)
       {
         result.source       = "shell octant";
         result.extent       = {1., 2.};
-        result.subdivisions = {2, 1};
+        result.subdivisions = {tetrahedra ? 1u : 2u, 1};
         return result;
       }
     result.source       = "box";
     result.extent       = {0., 0., 0., 1., 2., 3.};
-    result.subdivisions = {3, 2, 3};
+    result.subdivisions = {tetrahedra ? 2u : 3u, 2, tetrahedra ? 1u : 3u};
     result.rotate       = {{20., 30., 40.}};
     result.distort      = kind == "straight" ? 0.2 : 0.;
     return result;
@@ -79,6 +86,77 @@ namespace mortise::testing
            0.3 * x[c];
   }
 
+  /// The nodal basis of a level on a cell, in the order of get_nodes(): made of
+  /// the hierarchical modes on tetrahedra, deal.II's on hexahedra.
+  struct NodalBasis
+  {
+    NodalBasis(const Body::CellIterator &cell, const unsigned int degree)
+    {
+      if (cell->reference_cell() == ReferenceCells::Hexahedron)
+        {
+          scalar = std::make_unique<FE_Q<dim>>(degree);
+          points = scalar->get_unit_support_points();
+          return;
+        }
+      const VertexOrder order = vertex_order(cell);
+      scalar              = std::make_unique<FE_SimplexLegendre>(degree, order);
+      const auto to_local = [&](const std::vector<Point<dim>> &ascending) {
+        std::vector<Point<dim>> result;
+        for (const Point<dim> &x : ascending)
+          {
+            const auto                  lambda = barycentric_coordinates(x);
+            std::array<double, dim + 1> local;
+            for (unsigned int v = 0; v <= dim; ++v)
+              local[order[v]] = lambda[v];
+            result.emplace_back(local[1], local[2], local[3]);
+          }
+        return result;
+      };
+      const auto         nodes = to_local(simplex_nodes(degree));
+      const auto         place = ascending_dof_indices(degree, order);
+      const unsigned int n     = nodes.size();
+      points.resize(n);
+      for (unsigned int i = 0; i < n; ++i)
+        points[place[i]] = nodes[i];
+      to_modes.reinit(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int k = 0; k < n; ++k)
+          to_modes(i, k) = scalar->shape_value(k, points[i]);
+      to_modes.gauss_jordan();
+      const Quadrature<dim> of_stiffness = simplex_rule(degree);
+      rule = Quadrature<dim>(to_local(of_stiffness.get_points()),
+                             of_stiffness.get_weights());
+    }
+
+    std::unique_ptr<FiniteElement<dim>> scalar;
+    std::vector<Point<dim>>             points;
+    FullMatrix<double>                  to_modes; ///< (mode, node)
+    Quadrature<dim>                     rule;     ///< on tetrahedra
+  };
+
+  /// Calls visit(body, cell, basis, nodes) for the owned cells.
+  template <typename Visit>
+  void
+  for_each_cell(const NodalLevel &level, const Visit &visit)
+  {
+    level.space->for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &nodes) {
+        static std::map<std::pair<unsigned int, VertexOrder>, NodalBasis> made;
+        const unsigned int degree = level.space->degree(body, cell);
+        const VertexOrder  order =
+          body.mesh.tetrahedra ? vertex_order(cell) : VertexOrder{{0, 0, 0, 0}};
+        const auto found = made.find({degree, order});
+        visit(body,
+              cell,
+              found != made.end() ? found->second :
+                                    made
+                                      .emplace(std::make_pair(degree, order),
+                                               NodalBasis(cell, degree))
+                                      .first->second,
+              nodes);
+      });
+  }
+
   /// Values at the nodes of level @p level.
   template <typename Number>
   void
@@ -87,77 +165,144 @@ namespace mortise::testing
               LevelVector<Number> &u)
   {
     u.reinit(level.layout);
-    std::vector<NodalSpace::Index> nodes;
-    for (const Body *body : level.space->bodies())
+    for_each_cell(level,
+                  [&](const Body       &body,
+                      const auto       &cell,
+                      const NodalBasis &basis,
+                      const auto       &nodes) {
+                    for (unsigned int i = 0; i < nodes.size(); ++i)
+                      for (unsigned int c = 0; c < dim; ++c)
+                        if (level.layout->in_local_range(dim * nodes[i] + c))
+                          u.local_element(
+                            level.layout->global_to_local(dim * nodes[i] + c)) =
+                            field(body.mapping->transform_unit_to_real_cell(
+                                    cell, basis.points[i]),
+                                  c,
+                                  shift);
+                  });
+  }
+
+  struct Sums
+  {
+    double product = 0., trace = 0.;
+  };
+
+  using ValuesOfCell = std::array<std::vector<double>, dim>;
+
+  /// Of a hexahedron, by the matrix of the assembled stiffness.
+  void
+  add_by_matrix(CellKernel               &kernel,
+                const Body::CellIterator &cell,
+                const FESystem<dim>      &system,
+                const ValuesOfCell       &w,
+                const ValuesOfCell       &u,
+                Sums                     &sums)
+  {
+    FullMatrix<double>     K(system.n_dofs_per_cell());
+    dealii::Vector<double> a(K.m()), b(K.m());
+    kernel.compute(cell, K);
+    for (unsigned int i = 0; i < K.m(); ++i)
       {
-        const auto unit =
-          FE_Q<dim>(level.space->degree(*body, body->max_degree()))
-            .get_unit_support_points();
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              level.space->get_nodes(body->index, cell, nodes);
-              for (unsigned int i = 0; i < nodes.size(); ++i)
-                for (unsigned int c = 0; c < dim; ++c)
-                  if (level.layout->in_local_range(dim * nodes[i] + c))
-                    u.local_element(
-                      level.layout->global_to_local(dim * nodes[i] + c)) =
-                      field(body->mapping->transform_unit_to_real_cell(cell,
-                                                                       unit[i]),
-                            c,
-                            shift);
-            }
+        const auto [c, k] = system.system_to_component_index(i);
+        a(i)              = w[c][k];
+        b(i)              = u[c][k];
+        sums.trace += K(i, i);
+      }
+    sums.product += K.matrix_scalar_product(a, b);
+  }
+
+  /// Of a tetrahedron, by deal.II's gradients at the points of the rule.
+  void
+  add_by_points(const Body               &body,
+                const Body::CellIterator &cell,
+                const NodalBasis         &basis,
+                const ValuesOfCell       &w,
+                const ValuesOfCell       &u,
+                Sums                     &sums)
+  {
+    const double lambda = body.material.lame_lambda(),
+                 mu     = body.material.lame_mu();
+    FEValues<dim> values(*body.mapping,
+                         *basis.scalar,
+                         basis.rule,
+                         update_gradients | update_JxW_values);
+    values.reinit(Triangulation<dim>::cell_iterator(cell));
+    const unsigned int n = basis.to_modes.n();
+    for (const unsigned int q : values.quadrature_point_indices())
+      {
+        Tensor<2, dim> grad_u, grad_w; // [c][e]
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            Tensor<1, dim> gradient;
+            for (unsigned int k = 0; k < n; ++k)
+              gradient += basis.to_modes(k, i) * values.shape_grad(k, q);
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                grad_u[c] += u[c][i] * gradient;
+                grad_w[c] += w[c][i] * gradient;
+              }
+            sums.trace +=
+              values.JxW(q) * (lambda + 4. * mu) * gradient.norm_square();
+          }
+        sums.product +=
+          values.JxW(q) * (lambda * trace(grad_u) * trace(grad_w) +
+                           2. * mu * (symmetrize(grad_u) * symmetrize(grad_w)));
       }
   }
 
-  /// w.Ku by the matrices of cells, nodal bases of deal.II, and the sums of
-  /// |diagonal| of them.
-  std::pair<double, double>
-  by_matrices(const Scene               &scene,
-              const LevelVector<double> &w,
-              const LevelVector<double> &u)
+  /// w.Ku and the trace of K over all cells.
+  Sums
+  by_cells(const Scene               &scene,
+           const LevelVector<double> &w,
+           const LevelVector<double> &u)
   {
-    const NodalLevel              &level   = scene.levels.front();
-    double                         product = 0., trace = 0.;
-    std::vector<NodalSpace::Index> nodes;
+    const NodalLevel &level = scene.levels.front();
+    Sums              sums;
+    // by body
+    std::map<unsigned int, std::unique_ptr<FESystem<dim>>> systems;
+    std::map<unsigned int, std::unique_ptr<CellKernel>>    kernels;
     u.update_ghost_values();
     w.update_ghost_values();
-    for (const Body *body : level.space->bodies())
-      {
-        const FESystem<dim> system(
-          FE_Q<dim>(level.space->degree(*body, body->max_degree())), dim);
-        CellKernel         kernel(*body, system);
-        FullMatrix<double> K(system.n_dofs_per_cell());
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              kernel.compute(cell, K);
-              level.space->get_nodes(body->index, cell, nodes);
-              dealii::Vector<double> a(K.m()), b(K.m());
-              for (unsigned int i = 0; i < K.m(); ++i)
-                {
-                  const auto [c, k] = system.system_to_component_index(i);
-                  const auto place =
-                    level.layout->global_to_local(dim * nodes[k] + c);
-                  a(i) = w.local_element(place);
-                  b(i) = u.local_element(place);
-                  trace += K(i, i);
-                }
-              product += K.matrix_scalar_product(a, b);
-            }
-      }
+    for_each_cell(
+      level,
+      [&](const Body       &body,
+          const auto       &cell,
+          const NodalBasis &basis,
+          const auto       &nodes) {
+        const auto read = [&](const LevelVector<double> &v) {
+          ValuesOfCell result;
+          for (unsigned int c = 0; c < dim; ++c)
+            for (const auto node : nodes)
+              result[c].push_back(
+                v.local_element(level.layout->global_to_local(dim * node + c)));
+          return result;
+        };
+        if (body.mesh.tetrahedra)
+          {
+            add_by_points(body, cell, basis, read(w), read(u), sums);
+            return;
+          }
+        auto &system = systems[body.index];
+        auto &kernel = kernels[body.index];
+        if (!system)
+          {
+            system = std::make_unique<FESystem<dim>>(*basis.scalar, dim);
+            kernel = std::make_unique<CellKernel>(body, *system);
+          }
+        add_by_matrix(*kernel, cell, *system, read(w), read(u), sums);
+      });
     u.zero_out_ghost_values();
     w.zero_out_ghost_values();
-    return {Utilities::MPI::sum(product, MPI_COMM_WORLD),
-            Utilities::MPI::sum(trace, MPI_COMM_WORLD)};
+    return {Utilities::MPI::sum(sums.product, MPI_COMM_WORLD),
+            Utilities::MPI::sum(sums.trace, MPI_COMM_WORLD)};
   }
 
   template <typename Number>
   void
-  check_product(const std::string               &name,
-                const Scene                     &scene,
-                const std::pair<double, double> &expected,
-                const double                     tolerance)
+  check_product(const std::string &name,
+                const Scene       &scene,
+                const Sums        &expected,
+                const double       tolerance)
   {
     const LevelOperator<Number> K(scene.levels.front(), false);
     LevelVector<Number>         u, w, product, diagonal;
@@ -166,11 +311,11 @@ namespace mortise::testing
     K.initialize(product);
     K.vmult(product, u);
     verdict(name + ", product",
-            std::fabs(product * w / expected.first - 1.),
+            std::fabs(product * w / expected.product - 1.),
             tolerance);
     K.diagonal(diagonal);
     verdict(name + ", diagonal",
-            std::fabs(diagonal.l1_norm() / expected.second - 1.),
+            std::fabs(diagonal.l1_norm() / expected.trace - 1.),
             tolerance);
   }
 
@@ -209,7 +354,7 @@ namespace mortise::testing
     LevelVector<double> u, w;
     interpolate(scene.levels.front(), 0., u);
     interpolate(scene.levels.front(), 1., w);
-    const auto expected = by_matrices(scene, w, u);
+    const auto expected = by_cells(scene, w, u);
     check_product<double>(name, scene, expected, 1e-12);
     check_product<float>(name + ", single", scene, expected, 1e-4);
     check_transfer(name, scene);
@@ -224,6 +369,12 @@ main(int argc, char **argv)
   for (const std::string kind : {"affine", "straight", "curved"})
     for (unsigned int p = 1; p <= mortise::max_degree; ++p)
       check(kind + ", p = " + std::to_string(p), {kind}, {p});
+  for (const std::string kind : {"affine tetrahedra", "curved tetrahedra"})
+    for (unsigned int p = 1; p <= mortise::max_degree; ++p)
+      check(kind + ", p = " + std::to_string(p), {kind}, {p});
+  check("both shapes, p = 5, 3, 6",
+        {"curved", "curved tetrahedra", "affine tetrahedra"},
+        {5, 3, 6});
   check("three bodies, p = 5, 1, 2",
         {"curved", "affine", "straight"},
         {5, 1, 2});

@@ -1,7 +1,7 @@
 // Proves that conjugate gradients with multigrid in the degree need few
-// iterations to 1e-8 on the tied thick sphere whatever the degree, the contrast
-// of the moduli and the side of the slave, on every number of ranks, and that
-// the errors are those of the direct solver.
+// iterations to 1e-8 on the tied thick sphere whatever the degree, the shape of
+// the cells, the contrast of the moduli and the side of the slave, on every
+// number of ranks, and that the errors are those of the direct solver.
 #include "scenes/scene.h"
 #include "scenes/scenes.h"
 
@@ -55,6 +55,17 @@ main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (const unsigned int p : {2, 3, 4, 5, 6})
     check("p = " + std::to_string(p), degree_and_mesh(p), 16, p < 5);
+  const Settings inner_cells = {"Body inner/Mesh/Cells=tetrahedra"},
+                 outer_cells = {"Body outer/Mesh/Cells=tetrahedra"};
+  for (const unsigned int p : {2, 3, 4, 5})
+    check("tetrahedra, p = " + std::to_string(p),
+          degree_and_mesh(p) + inner_cells + outer_cells,
+          16,
+          p < 5);
+  check("tetrahedra beside hexahedra, p = 6 and 3",
+        degree_and_mesh(3) + inner_cells + Settings{"Body inner/Degree=6"},
+        18,
+        true);
   for (const std::string inner : {"1e-5", "1e7"})
     check("inner modulus " + inner + " : 10",
           degree_and_mesh(3) +

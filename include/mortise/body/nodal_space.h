@@ -1,8 +1,9 @@
-// The displacements (or pressures) of a whole scene of hexahedra by values at
-// Gauss-Lobatto points: the space of the hierarchical element, hp and hanging
-// nodes included, in the basis that iterative solvers like better. One
-// numbering of nodes for all bodies, with lower degrees on the same meshes for
-// multigrid. It never evaluates a function and never solves.
+// The displacements (or pressures) of a whole scene by values at nodes
+// (Gauss-Lobatto points of hexahedra, those of simplex_nodes.h of tetrahedra):
+// the space of the hierarchical element, hp and hanging nodes included, in the
+// basis that iterative solvers like better. One numbering of nodes for all
+// bodies, with lower degrees on the same meshes for multigrid. It never
+// evaluates a function and never solves.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -57,13 +58,13 @@ namespace mortise
     using DegreeRule =
       std::function<unsigned int(const Body &body, unsigned int displacement)>;
 
-    /// On bodies of hexahedra, which are kept by reference. Collective.
+    /// The bodies are kept by reference. Collective.
     NodalSpace(const std::vector<const Body *> &bodies,
                const DegreeRule                &rule,
                MPI_Comm                         comm);
 
     /// Whether the bodies are such that a NodalSpace stands for their spaces:
-    /// hexahedra.
+    /// those of tetrahedra have one degree and are not in mixed form.
     static bool
     represents(const std::vector<const Body *> &bodies);
 
@@ -88,7 +89,8 @@ namespace mortise
     }
 
     /// Nodes of a cell of body @p body (one of its DoFHandler's), in the order
-    /// of deal.II's FE_Q: that of the modes of FE_Legendre. @p nodes is resized.
+    /// of the modes of its element: of deal.II's FE_Q on hexahedra, see
+    /// ascending_dof_indices() for tetrahedra. @p nodes is resized.
     void
     get_nodes(unsigned int              body,
               const Body::CellIterator &cell,
@@ -145,6 +147,8 @@ namespace mortise
       std::unique_ptr<EntityDegrees> degrees;
     };
 
+    Body::CellIterator
+    lattice_cell(unsigned int body, const Body::CellIterator &cell) const;
     void
     distribute(const Body &body);
     void
@@ -161,7 +165,14 @@ namespace mortise
   /// Levels of falling degree on the same meshes, the finest first.
   using NodalSpaces = std::vector<std::unique_ptr<NodalSpace>>;
 
-  /// The degrees of all cells and the halves of them, down to one. Collective.
+  /// Degree on the next level: half of it. On tetrahedra, whose nodes are less
+  /// regular, by steps of two above four: the iterations of conjugate gradients
+  /// for degrees 5, 6 on an unstructured mesh are 17, 21 instead of 22, 27.
+  unsigned int
+  lower_degree(bool tetrahedra, unsigned int degree);
+
+  /// The degrees of all cells and those of lower_degree(), down to one.
+  /// Collective.
   NodalSpaces
   make_nodal_spaces(const std::vector<const Body *> &bodies, MPI_Comm comm);
 

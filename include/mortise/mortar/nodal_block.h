@@ -4,6 +4,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <mortise/body/face_shape.h>
 #include <mortise/body/nodal_space.h>
 
 namespace mortise
@@ -11,12 +12,13 @@ namespace mortise
   /// What the rows or columns of a block are made of and become.
   struct BlockSide
   {
+    FaceShape    shape;
     unsigned int modal; ///< degree of the hierarchical functions
     unsigned int nodal; ///< degree of the nodal functions; 0: left as it is
   };
 
   /// @p modal in nodal functions: F_r^T modal F_c, where F expands the nodal
-  /// functions of a quadrilateral in the hierarchical ones. All in the order of
+  /// functions of a face in the hierarchical ones. All in the order of
   /// TraceBasis.
   dealii::FullMatrix<double>
   nodal_block(const dealii::FullMatrix<double> &modal,

@@ -31,6 +31,7 @@ namespace mortise
     class Kernel; ///< between two degrees
     template <int n_fine, int n_coarse>
     class KernelOfSizes;
+    class SimplexKernel;
 
     static std::unique_ptr<Kernel>
     make_kernel(unsigned int fine_degree);

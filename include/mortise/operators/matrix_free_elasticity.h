@@ -1,6 +1,6 @@
-// Linear elasticity on hexahedra without a matrix: products by sum
-// factorisation, several cells at once. It never resolves constraints and never
-// communicates.
+// Linear elasticity without a matrix, several cells at once: products by sum
+// factorisation on hexahedra, by dense matrices of the reference cell on
+// tetrahedra. It never resolves constraints and never communicates.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
@@ -17,27 +17,27 @@ namespace mortise
   template <typename Number>
   struct CellBatches
   {
-    unsigned int degree = 1;
+    bool         tetrahedra = false;
+    unsigned int degree     = 1;
+    /// Per cell; points only of cells with a Jacobian that varies.
+    unsigned int n_nodes = 0, n_points = 0;
     double       lambda = 0., mu = 0.;
     unsigned int n_cells = 0;
     /// Batches with constant Jacobians come first.
     unsigned int n_affine = 0, n_batches = 0;
     unsigned int n_affine_cells = 0;
-    /// [batch][node, lexicographic][lane]: place of the first component. Lanes
-    /// without a cell repeat the first and have no metric.
+    /// [batch][node][lane]: place of the first component. Nodes of hexahedra
+    /// are lexicographic, those of tetrahedra in the order of simplex_nodes().
+    /// Lanes without a cell repeat the first and have no metric.
     dealii::AlignedVector<unsigned int> nodes;
     /// The same of the pressures in mixed form, else empty: places.
     dealii::AlignedVector<unsigned int> pressure_nodes;
     double compressibility = 0., pressure_norm = 0.;
     /// dxi_a/dx_e sqrt(|J|) as [batch][a][e][lane] on affine cells; after these
-    /// dxi_a/dx_e sqrt(w |J|) as [batch][point][a][e][lane].
+    /// dxi_a/dx_e sqrt(w |J|) as [batch][point][a][e][lane]. On tetrahedra xi
+    /// are the barycentric coordinates of the second to last ascending vertex,
+    /// or on curved ones those of simplex_rule().
     dealii::AlignedVector<Number> metric;
-
-    unsigned int
-    n_nodes() const
-    {
-      return (degree + 1) * (degree + 1) * (degree + 1);
-    }
 
     /// Cells of a batch.
     unsigned int
@@ -112,11 +112,15 @@ namespace mortise
     class KernelOfSize;
     template <int n>
     class MixedKernelOfSize;
+    template <int degree>
+    class SimplexKernel;
 
     static std::unique_ptr<Kernel>
     make_kernel(unsigned int degree);
     static std::unique_ptr<Kernel>
     make_mixed_kernel(unsigned int degree);
+    static std::unique_ptr<Kernel>
+    make_simplex_kernel(const CellBatches<Number> &cells);
 
     std::vector<CellBatches<Number>>     groups;
     std::vector<std::unique_ptr<Kernel>> kernels; ///< by group

@@ -6,6 +6,20 @@
 
 namespace mortise
 {
+  /// Least degree on tetrahedra at which sum factorisation beats dense matrices
+  /// on curved cells; where deal.II's symmetric rules end.
+  constexpr unsigned int sum_factorised_from = 6;
+
+  /// The points of curved tetrahedra, of the degree of stiffness_quadrature().
+  dealii::Quadrature<dim>
+  simplex_rule(unsigned int degree);
+
+  /// The coordinates that the kernel of simplex_rule() differentiates along:
+  /// dx_b/dy_a as [a][b] at the point @p x of the reference tetrahedron, y being
+  /// the collapsed ones (CollapsedKernel) or x themselves.
+  dealii::Tensor<2, dim>
+  simplex_rule_jacobian(unsigned int degree, const dealii::Point<dim> &x);
+
   template <typename Number>
   class MatrixFreeElasticity<Number>::Kernel
   {

@@ -8,6 +8,7 @@
 #include <mortise/base/tensor_product.h>
 #include <mortise/operators/matrix_free_kernel.h>
 #include <mortise/operators/node_access.h>
+#include <mortise/operators/point_kernel.h>
 #include <mortise/operators/tensor_kernel.h>
 
 #include <cmath>
@@ -139,49 +140,6 @@ namespace mortise
                              metric[q * n9 + dim * a + e];
     }
 
-    /// sqrt(w |J|) times grad u, du_c/dx_e as h[c][e].
-    static void
-    gradient_at(const V  *g,
-                const int q,
-                const V (&G)[dim][dim],
-                V (&h)[dim][dim])
-    {
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const V g0 = g[(dim * c) * N + q], g1 = g[(dim * c + 1) * N + q],
-                  g2 = g[(dim * c + 2) * N + q];
-          for (unsigned int e = 0; e < dim; ++e)
-            h[c][e] = g0 * G[0][e] + g1 * G[1][e] + g2 * G[2][e];
-        }
-    }
-
-    /// What is tested with gradients of v, from a stress times sqrt(w |J|).
-    static void
-    set_stress(const V (&s)[dim][dim],
-               const V (&G)[dim][dim],
-               const int q,
-               V        *g)
-    {
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int a = 0; a < dim; ++a)
-          g[(dim * c + a) * N + q] =
-            s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
-    }
-
-    static void
-    stress_of(const V (&h)[dim][dim],
-              const Number lambda,
-              const Number mu,
-              V (&s)[dim][dim])
-    {
-      const V mean = lambda * (h[0][0] + h[1][1] + h[2][2]);
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int e = c; e < dim; ++e)
-          s[c][e] = s[e][c] = mu * (h[c][e] + h[e][c]);
-      for (unsigned int c = 0; c < dim; ++c)
-        s[c][c] += mean;
-    }
-
   private:
     using Line          = LineMatrix<Number, n, n>;
     using Antisymmetric = LineMatrix<Number, n, n, true>;
@@ -195,9 +153,9 @@ namespace mortise
         {
           V G[dim][dim], h[dim][dim], s[dim][dim];
           metric_at<affine>(metric, q, G);
-          gradient_at(g, q, G, h);
+          gradient_at(g + q, N, G, h);
           stress_of(h, lambda, mu, s);
-          set_stress(s, G, q, g);
+          set_stress(s, G, N, g + q);
         }
     }
 

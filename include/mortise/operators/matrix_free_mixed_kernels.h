@@ -175,12 +175,12 @@ namespace mortise
         {
           V G[dim][dim], h[dim][dim], s[dim][dim];
           this->template metric_at<affine>(metric, q, G);
-          this->gradient_at(g, q, G, h);
-          this->stress_of(h, lambda, mu, s);
+          gradient_at(g + q, N, G, h);
+          stress_of(h, lambda, mu, s);
           const V w = root(G, q), weighted = w * p[q];
           for (unsigned int c = 0; c < dim; ++c)
             s[c][c] -= weighted;
-          this->set_stress(s, G, q, g);
+          set_stress(s, G, N, g + q);
           p[q] =
             -w * (h[0][0] + h[1][1] + h[2][2] + compressibility * weighted);
         }

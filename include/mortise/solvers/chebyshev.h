@@ -11,14 +11,15 @@ namespace mortise
   class Chebyshev
   {
   public:
-    /// Smooths what belongs to eigenvalues of D^{-1} A between a fraction of
-    /// the largest and the largest, which is estimated; with @p correction,
+    /// Smooths what belongs to eigenvalues of D^{-1} A between @p smallest and the
+    /// largest, which is estimated, by a polynomial of a degree of @p effort
+    /// times the root of their ratio: as well whatever the elements are; with @p correction,
     /// which makes D^{-1} respect a constraint, among what satisfies it.
     /// @p matrix and @p correction must stay alive. Collective. Not valid when
     /// A is not positive definite.
     Chebyshev(const LevelOperator<Number>       &matrix,
-              unsigned int                       degree,
-              double                             range,
+              double                             smallest,
+              double                             effort,
               const InterfaceCorrection<Number> *correction = nullptr);
 
     bool
@@ -38,11 +39,10 @@ namespace mortise
     estimate_largest() const;
 
     const LevelOperator<Number>       &matrix;
-    const unsigned int                 degree;
-    const double                       range;
     const InterfaceCorrection<Number> *correction;
     LevelVector<Number>                inverse_diagonal;
     mutable LevelVector<Number>        r, d;
-    double                             largest;
+    double                             largest, range;
+    unsigned int                       degree;
   };
 } // namespace mortise

@@ -37,6 +37,17 @@ namespace mortise
       return rhs_norm;
     }
 
+    /// A lower bound of the energy of displacements that balance the right hand
+    /// side f without multipliers: f D_u^{-1} f over the largest eigenvalue of
+    /// D_u^{-1} K, 22 at most (degree 8 on tetrahedra). Where multipliers
+    /// balance it and displacements are zero to rounding, what is small beside
+    /// it is rounding.
+    double
+    least_energy() const
+    {
+      return rhs_norm * rhs_norm / 25.;
+    }
+
     /// 1 / D_u, on the owned displacements.
     const Epetra_Vector &
     inverse_diagonal_u() const
