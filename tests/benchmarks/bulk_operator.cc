@@ -1,10 +1,10 @@
-// Products with the stiffness of hexahedra without a matrix. Not a test: it
-// serves bulk_operator.py.
+// Products with the stiffness without a matrix. Not a test: it serves
+// bulk_operator.py.
 //
 //   bulk_operator [DOFS]
 //
-// prints, for curved and straight cells of each degree, million dofs per second
-// and core in double and single precision, and what the core can do: Gflop/s of
+// prints, for curved and straight cells of both shapes and each degree, million
+// dofs per second and core in double and single precision, and what the core can do: Gflop/s of
 // multiplications and additions in registers, and GB/s of a[i] = b[i] + s c[i]
 // on as many bytes as a product of degree 4 on curved cells reads and writes
 // and on those of its workspace, 96 KiB. Run it under mpirun to see all cores
@@ -119,11 +119,15 @@ namespace
   }
 
   void
-  report(const std::string &source, const unsigned int p, const double n_dofs)
+  report(const std::string &source,
+         const std::string &cells,
+         const unsigned int p,
+         const double       n_dofs)
   {
     Body           body("body", 0, {1., 0.3});
     MeshParameters mesh;
     mesh.source = source;
+    mesh.cells  = cells;
     unsigned int n =
       std::max(1.,
                std::round(
@@ -146,7 +150,7 @@ namespace
       MPI_COMM_WORLD);
     const double in_double = rate<double>(space), in_float = rate<float>(space);
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cout << std::setw(14) << source << std::setw(4) << p << std::setw(10)
+      std::cout << std::setw(28) << source + ", " + cells << std::setw(4) << p << std::setw(10)
                 << 3 * space.owned_nodes().size() << std::fixed
                 << std::setprecision(1) << std::setw(10) << in_double
                 << std::setw(10) << in_float << std::endl;
@@ -158,9 +162,10 @@ main(int argc, char **argv)
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const double n_dofs = argc > 1 ? std::atof(argv[1]) : 3e5;
-  for (const std::string source : {"shell octant", "box"})
-    for (unsigned int p = 1; p <= max_degree; ++p)
-      report(source, p, n_dofs);
+  for (const std::string cells : {"hexahedra", "tetrahedra"})
+    for (const std::string source : {"shell octant", "box"})
+      for (unsigned int p = 1; p <= max_degree; ++p)
+        report(source, cells, p, n_dofs);
   const unsigned int n_ranks =
     dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   const double peaks[] = {peak_gflops<double>(),

@@ -14,6 +14,9 @@ MESHES = {1: ("4,2:6,3", "8,4:12,6", "16,8:24,12"), 2: ("4,2:6,3", "8,4:12,6", "
           3: ("2,1:3,2", "4,2:6,3", "8,4:12,6"), 4: ("2,1:3,2", "4,2:6,3", "8,4:12,6"),
           5: ("2,1:3,2", "4,2:6,3", "6,3:9,5"), 6: ("1,1:2,1", "2,1:3,2", "4,2:6,3"),
           7: ("1,1:2,1", "2,1:3,2", "4,2:6,3"), 8: ("1,1:2,1", "2,1:3,2", "3,2:4,3")}
+SIMPLEX_MESHES = {2: ("2,1:3,2", "4,2:6,3", "8,4:12,6"), 3: ("2,1:3,2", "4,2:6,3", "6,3:9,5"), 4: ("1,1:2,1", "2,1:3,2", "4,2:6,3"),
+                  5: ("1,1:2,1", "2,1:3,2", "4,2:5,3"), 6: ("1,1:2,1", "2,1:3,2", "3,2:4,3"), 7: ("1,1:1,1", "1,1:2,1", "2,1:3,2"),
+                  8: ("1,1:1,1", "1,1:2,1", "2,1:3,2")}
 METHODS = ("saddle point", "condensed")
 
 
@@ -96,7 +99,10 @@ def report(mortise):
                             (4, "2,1:3,2", (10, 10))):
         scenes.append((f"tetrahedra, p = {p}, {mesh}, moduli {moduli[0]:g} : {moduli[1]:g}", "thick_sphere",
                        sphere(p, mesh, moduli) + tetrahedra))
-    yield from table("Scenes with tetrahedra, whose meshes need a matrix, over ranks:", ("scene", "1", "2", "3"),
+    yield from table("Tetrahedra:", ("p", "", "", ""),
+                     ((p, *(f"{mesh} {both(mortise, sphere(p, mesh) + tetrahedra)}" for mesh in meshes))
+                      for p, meshes in SIMPLEX_MESHES.items()))
+    yield from table("Scenes with tetrahedra, over ranks:", ("scene", "1", "2", "3"),
                      ((name, *(both(mortise, settings, scene, n) for n in (1, 2, 3))) for name, scene, settings in scenes))
 
 
