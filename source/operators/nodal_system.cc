@@ -1,11 +1,7 @@
-#include <deal.II/lac/vector.h>
-
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
-#include <mortise/base/tensor_product.h>
 #include <mortise/body/fe_legendre.h>
-#include <mortise/body/simplex_elements.h>
-#include <mortise/body/simplex_nodes.h>
+#include <mortise/operators/cell_order.h>
 #include <mortise/operators/nodal_system.h>
 
 #include <algorithm>
@@ -16,88 +12,6 @@ namespace mortise
 
   namespace
   {
-    enum class Basis
-    {
-      nodes,
-      modes
-    };
-
-    /// One component on one cell of hexahedra, in the order of
-    /// cell_dof_indices(), times a matrix along each direction.
-    void
-    transform_product(const FullMatrix<double> &matrix,
-                      std::vector<double>      &values)
-    {
-      const unsigned int n = matrix.n();
-      values =
-        apply_product(matrix, matrix, matrix, {{{n, n, n}}, std::move(values)})
-          .values;
-    }
-
-    /// What cells with one element of a body need to go from one basis to the
-    /// other.
-    class CellOrder
-    {
-    public:
-      explicit CellOrder(const FiniteElement<dim> &system)
-        : degree(system.degree)
-        , tetrahedra(system.reference_cell() == ReferenceCells::Tetrahedron)
-        , scalar(tetrahedra ?
-                   ascending_dof_indices(degree,
-                                         SimplexElements::base(system).order) :
-                   cell_dof_indices(degree))
-        , values(scalar.size())
-      {
-        for (unsigned int c = 0; c < dim; ++c)
-          for (const unsigned int i : scalar)
-            modes[c].push_back(system.component_to_system_index(c, i));
-      }
-
-      /// Of the function that values[] holds.
-      void
-      transform_to(const Basis basis)
-      {
-        if (tetrahedra)
-          multiply(basis == Basis::nodes ? simplex_modes_to_nodes(degree) :
-                                           simplex_nodes_to_modes(degree),
-                   false);
-        else
-          transform_product(basis == Basis::nodes ? modes_to_nodes(degree) :
-                                                    nodes_to_modes(degree),
-                            values);
-      }
-
-      /// Of a functional: what values[] holds for modes, for nodes.
-      void
-      transform_functional()
-      {
-        if (tetrahedra)
-          multiply(simplex_nodes_to_modes(degree), true);
-        else
-          transform_product(transposed(nodes_to_modes(degree)), values);
-      }
-
-      /// In the order of values[]: nodes of a cell, and its dofs by component.
-      const unsigned int                         degree;
-      const bool                                 tetrahedra;
-      const std::vector<unsigned int>            scalar;
-      std::array<std::vector<unsigned int>, dim> modes;
-      std::vector<double>                        values;
-
-    private:
-      void
-      multiply(const FullMatrix<double> &matrix, const bool transpose)
-      {
-        const dealii::Vector<double> in(values.begin(), values.end());
-        dealii::Vector<double>       out(values.size());
-        if (transpose)
-          matrix.Tvmult(out, in);
-        else
-          matrix.vmult(out, in);
-        std::copy(out.begin(), out.end(), values.begin());
-      }
-    };
-
     /// By element of the body.
     std::vector<CellOrder>
     cell_orders(const Body &body)
@@ -299,7 +213,7 @@ namespace mortise
               {
                 for (unsigned int i = 0; i < order.values.size(); ++i)
                   order.values[i] = local(order.modes[c][i]);
-                order.transform_functional();
+                order.transform_functional_to_nodes();
                 for (unsigned int i = 0; i < order.values.size(); ++i)
                   sum.local_element(level.layout->global_to_local(
                     dim * nodes[order.scalar[i]] + c)) += order.values[i];
@@ -349,7 +263,7 @@ namespace mortise
               }
             if (!present)
               continue;
-            order.transform_to(Basis::nodes);
+            order.transform_to_nodes();
             for (unsigned int i = 0; i < order.values.size(); ++i)
               if (const auto index = dim * nodes[order.scalar[i]] + c;
                   level.layout->in_local_range(index))
@@ -405,7 +319,7 @@ namespace mortise
             for (unsigned int i = 0; i < order.values.size(); ++i)
               order.values[i] = in.local_element(level.layout->global_to_local(
                 dim * nodes[order.scalar[i]] + c));
-            order.transform_to(Basis::modes);
+            order.transform_to_modes();
             for (unsigned int i = 0; i < order.values.size(); ++i)
               set(body.index, dofs[order.modes[c][i]], order.values[i]);
           }
@@ -436,7 +350,7 @@ namespace mortise
         for (unsigned int i = 0; i < order.size(); ++i)
           values[i] =
             p_in.local_element(nodes.layout.global_to_local(of_cell[order[i]]));
-        transform_product(nodes_to_modes(degree), values);
+        transform_along_lines(nodes_to_modes(degree), values);
         for (unsigned int i = 0; i < order.size(); ++i)
           set(body.index, dofs[order[i]], values[i]);
       });

@@ -83,6 +83,14 @@ namespace mortise
       return result;
     }
 
+    std::unique_ptr<FiniteElement<dim>>
+    linear_element(const Body &body)
+    {
+      if (body.mesh.tetrahedra)
+        return make_simplex_system(FE_SimplexLegendre(1), dim);
+      return std::make_unique<FESystem<dim>>(FE_Q<dim>(1), dim);
+    }
+
     /// Drops what is held, in rows and columns.
     class HeldIndices
     {
@@ -152,9 +160,6 @@ namespace mortise
 
     result.matrix.reinit(
       owned, owned, sparsity, layout.get_mpi_communicator(), true);
-    const std::unique_ptr<FiniteElement<dim>>
-      hexahedron  = std::make_unique<FESystem<dim>>(FE_Q<dim>(1), dim),
-      tetrahedron = make_simplex_system(FE_SimplexLegendre(1), dim);
     std::map<unsigned int, std::unique_ptr<CellKernel>> kernels;
     FullMatrix<double>                                  local_matrix;
     std::vector<Point<dim>> points(owned.n_elements() / dim);
@@ -182,8 +187,7 @@ namespace mortise
       [&](const Body &body, const auto &cell, const std::vector<Index> &all) {
         auto &kernel = kernels[body.index];
         if (!kernel)
-          kernel = std::make_unique<CellKernel>(
-            body, body.mesh.tetrahedra ? *tetrahedron : *hexahedron);
+          kernel = std::make_unique<CellKernel>(body, *linear_element(body));
         local_matrix.reinit(all.size(), all.size());
         kernel->compute(cell, local_matrix);
         for (unsigned int i = 0; i < all.size(); ++i)
