@@ -134,20 +134,10 @@ namespace mortise
     {
       for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
         {
-          const unsigned int *nodes = nodes_of(coarse_cells, batch);
-          for (unsigned int i = 0; i < coarse_cells.n_nodes; ++i)
-            for (unsigned int c = 0; c < dim; ++c)
-              for (int l = 0; l < width; ++l)
-                a[(c * coarse_cells.n_nodes + i) * width + l] =
-                  coarse[nodes[i * width + l] + c];
+          load(coarse_cells, batch, coarse, a);
           up.apply(reinterpret_cast<const V *>(a.data()),
                    reinterpret_cast<V *>(u.data()));
-          nodes = nodes_of(fine_cells, batch);
-          for (unsigned int i = 0; i < fine_cells.n_nodes; ++i)
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int l = 0; l < fine_cells.lanes(batch); ++l)
-                fine[nodes[i * width + l] + c] +=
-                  u[(c * fine_cells.n_nodes + i) * width + l];
+          add(fine_cells, batch, u, fine);
         }
     }
 
@@ -159,28 +149,58 @@ namespace mortise
     {
       for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
         {
-          const unsigned int *nodes = nodes_of(fine_cells, batch);
-          for (unsigned int i = 0; i < fine_cells.n_nodes; ++i)
-            for (unsigned int c = 0; c < dim; ++c)
-              for (int l = 0; l < width; ++l)
-                u[(c * fine_cells.n_nodes + i) * width + l] =
-                  fine[nodes[i * width + l] + c];
+          load(fine_cells, batch, fine, u);
           down.apply(reinterpret_cast<const V *>(u.data()),
                      reinterpret_cast<V *>(a.data()));
-          nodes = nodes_of(coarse_cells, batch);
-          for (unsigned int i = 0; i < coarse_cells.n_nodes; ++i)
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int l = 0; l < fine_cells.lanes(batch); ++l)
-                coarse[nodes[i * width + l] + c] +=
-                  a[(c * coarse_cells.n_nodes + i) * width + l];
+          add(coarse_cells, batch, a, coarse);
         }
     }
 
   private:
-    static const unsigned int *
-    nodes_of(const CellBatches<Number> &cells, const unsigned int batch)
+    /// Calls visit(place in a vector, place in a batch) for the components at
+    /// the nodes in @p n_lanes lanes.
+    template <typename Visit>
+    static void
+    for_each_place(const CellBatches<Number> &cells,
+                   const unsigned int         batch,
+                   const unsigned int         n_lanes,
+                   const Visit               &visit)
     {
-      return &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
+      const unsigned int *nodes =
+        &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
+      for (unsigned int i = 0; i < cells.n_nodes; ++i)
+        for (unsigned int c = 0; c < dim; ++c)
+          for (unsigned int l = 0; l < n_lanes; ++l)
+            visit(nodes[i * width + l] + c,
+                  (c * cells.n_nodes + i) * width + l);
+    }
+
+    static void
+    load(const CellBatches<Number> &cells,
+         const unsigned int         batch,
+         const Number              *from,
+         AlignedVector<Number>     &to)
+    {
+      for_each_place(cells,
+                     batch,
+                     width,
+                     [&](const unsigned int place, const unsigned int own) {
+                       to[own] = from[place];
+                     });
+    }
+
+    static void
+    add(const CellBatches<Number>   &cells,
+        const unsigned int           batch,
+        const AlignedVector<Number> &from,
+        Number                      *to)
+    {
+      for_each_place(cells,
+                     batch,
+                     cells.lanes(batch),
+                     [&](const unsigned int place, const unsigned int own) {
+                       to[place] += from[own];
+                     });
     }
 
     DenseMatrix<Number>           up, down;

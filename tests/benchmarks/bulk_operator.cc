@@ -4,11 +4,11 @@
 //   bulk_operator [DOFS]
 //
 // prints, for curved and straight cells of both shapes and each degree, million
-// dofs per second and core in double and single precision, and what the core can do: Gflop/s of
-// multiplications and additions in registers, and GB/s of a[i] = b[i] + s c[i]
-// on as many bytes as a product of degree 4 on curved cells reads and writes
-// and on those of its workspace, 96 KiB. Run it under mpirun to see all cores
-// at once.
+// dofs per second and core in double and single precision, and what the core
+// can do: Gflop/s of multiplications and additions in registers, and GB/s of
+// a[i] = b[i] + s c[i] on as many bytes as a product of degree 4 on curved
+// cells reads and writes and on those of its workspace, 96 KiB. Run it under
+// mpirun to see all cores at once.
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/operators/matrix_free_elasticity.h>
@@ -150,8 +150,8 @@ namespace
       MPI_COMM_WORLD);
     const double in_double = rate<double>(space), in_float = rate<float>(space);
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cout << std::setw(28) << source + ", " + cells << std::setw(4) << p << std::setw(10)
-                << 3 * space.owned_nodes().size() << std::fixed
+      std::cout << std::setw(28) << source + ", " + cells << std::setw(4) << p
+                << std::setw(10) << 3 * space.owned_nodes().size() << std::fixed
                 << std::setprecision(1) << std::setw(10) << in_double
                 << std::setw(10) << in_float << std::endl;
   }
