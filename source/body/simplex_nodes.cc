@@ -185,24 +185,24 @@ namespace mortise
   }
 
   FullMatrix<double>
-  simplex_nodal_derivatives(const unsigned int           degree,
-                            const unsigned int           d,
-                            const std::vector<Point<3>> &points)
+  simplex_nodal_gradients(const unsigned int           degree,
+                          const std::vector<Point<3>> &points)
   {
     const SimplexTables      &tables = simplex_tables(degree);
-    const unsigned int        n      = tables.nodes.size();
-    FullMatrix<double>        modal(points.size(), n), result(points.size(), n);
+    const unsigned int        n = tables.nodes.size(), n_points = points.size();
+    FullMatrix<double>        modal(3 * n_points, n), result(3 * n_points, n);
     std::vector<double>       no_values;
     std::vector<Tensor<1, 3>> gradients(n);
     std::vector<Tensor<2, 3>> no_2;
     std::vector<Tensor<3, 3>> no_3;
     std::vector<Tensor<4, 3>> no_4;
-    for (unsigned int q = 0; q < points.size(); ++q)
+    for (unsigned int q = 0; q < n_points; ++q)
       {
         tables.polynomials.evaluate(
           points[q], no_values, gradients, no_2, no_3, no_4);
-        for (unsigned int k = 0; k < n; ++k)
-          modal(q, k) = gradients[k][d];
+        for (unsigned int d = 0; d < 3; ++d)
+          for (unsigned int k = 0; k < n; ++k)
+            modal(d * n_points + q, k) = gradients[k][d];
       }
     modal.mmult(result, tables.to_modes);
     return result;

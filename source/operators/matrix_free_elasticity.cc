@@ -198,28 +198,31 @@ namespace mortise
                  const unsigned int        batch,
                  const unsigned int        lane)
       {
-        const Tensor<2, dim> identity = unit_symmetric_tensor<dim>();
         Number *place  = const_cast<Number *>(batches.metric_of(batch)) + lane;
         const auto set = [&](const CellGeometry::Jacobian &jacobian,
                              const double                  weight,
-                             const Tensor<2, dim>         &axes) {
+                             const CellGeometry::Jacobian &along_axes) {
           const double det = determinant(jacobian);
           if (!(det > 0.))
             return false;
           const CellGeometry::Jacobian inverse =
-            std::sqrt(weight * det) * invert(axes * ascending(jacobian));
+            std::sqrt(weight * det) * invert(along_axes);
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int e = 0; e < dim; ++e, place += width)
               *place = inverse[e][a];
           return true;
         };
         if (affine)
-          return set(*geometry.constant_jacobian(cell), 1., identity);
+          {
+            const auto jacobian = *geometry.constant_jacobian(cell);
+            return set(jacobian, 1., ascending(jacobian));
+          }
         const auto &jacobians = geometry.jacobians(cell);
         for (unsigned int q = 0; q < quadrature.size(); ++q)
           if (!set(jacobians[q],
                    quadrature.weight(q),
-                   axes.empty() ? identity : axes[q]))
+                   axes.empty() ? jacobians[q] :
+                                  axes[q] * ascending(jacobians[q])))
             return false;
         return true;
       }

@@ -20,23 +20,6 @@ namespace mortise
 
   namespace
   {
-    /// Derivatives of the nodal functions along the axes at the points of a
-    /// rule: row (d, point).
-    FullMatrix<double>
-    nodal_gradients(const unsigned int             degree,
-                    const std::vector<Point<dim>> &points)
-    {
-      FullMatrix<double> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto along = simplex_nodal_derivatives(degree, d, points);
-          if (d == 0)
-            result.reinit(dim * along.m(), along.n());
-          result.fill(along, d * along.m());
-        }
-      return result;
-    }
-
     /// What @p make returns, made once for each degree.
     template <typename Make>
     const FullMatrix<double> &
@@ -50,9 +33,10 @@ namespace mortise
                                    made.emplace(degree, make()).first->second;
     }
 
-    /// The same as coefficients in an orthonormal basis of the polynomials of
-    /// degree - 1 on the reference cell, whose sums of products are integrals:
-    /// fewer than the points of a rule.
+    /// Gradients of the nodal functions, row (axis, coefficient), as
+    /// coefficients in an orthonormal basis of the polynomials of degree - 1 on
+    /// the reference cell, whose sums of products are integrals: fewer than the
+    /// points of a rule.
     const FullMatrix<double> &
     gradient_coefficients(const unsigned int degree)
     {
@@ -73,7 +57,8 @@ namespace mortise
             values(q, i) *= std::sqrt(rule.weight(q));
         values.Tmmult(mass, values);
         factor.cholesky(mass);
-        const FullMatrix<double> gradients = nodal_gradients(degree, nodes);
+        const FullMatrix<double> gradients =
+          simplex_nodal_gradients(degree, nodes);
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int i = 0; i < n; ++i)
             for (unsigned int j = i; j < n; ++j)
@@ -119,10 +104,11 @@ namespace mortise
     gradients_on_curved(const unsigned int degree)
     {
       return made_once(degree, [&] {
-        const auto               points     = simplex_rule(degree).get_points();
-        const unsigned int       n          = points.size();
-        const FullMatrix<double> along_axes = nodal_gradients(degree, points);
-        FullMatrix<double>       result(dim * n, along_axes.n());
+        const auto               points = simplex_rule(degree).get_points();
+        const unsigned int       n      = points.size();
+        const FullMatrix<double> along_axes =
+          simplex_nodal_gradients(degree, points);
+        FullMatrix<double> result(dim * n, along_axes.n());
         for (unsigned int q = 0; q < n; ++q)
           {
             const Tensor<2, dim> J = simplex_rule_jacobian(degree, points[q]);

@@ -45,9 +45,9 @@ namespace mortise
   simplex_nodal_values(unsigned int                         degree,
                        const std::vector<dealii::Point<3>> &points);
 
-  /// Their derivatives along the axis @p d of the reference tetrahedron.
+  /// Their derivatives along the axes of the reference tetrahedron: entry (d
+  /// points.size() + point, node) along axis d.
   dealii::FullMatrix<double>
-  simplex_nodal_derivatives(unsigned int                         degree,
-                            unsigned int                         d,
-                            const std::vector<dealii::Point<3>> &points);
+  simplex_nodal_gradients(unsigned int                         degree,
+                          const std::vector<dealii::Point<3>> &points);
 } // namespace mortise
