@@ -26,27 +26,28 @@ namespace mortise
     template <unsigned int degree>
     inline void
     evaluate_basis(const LagrangeBasis &basis,
-                   const Lanes         &x,
-                   Lanes (&value)[degree + 1],
-                   Lanes (&derivative)[degree + 1])
+                   const LanesPart     &x,
+                   LanesPart (&value)[degree + 1],
+                   LanesPart (&derivative)[degree + 1])
     {
-      Lanes left = broadcast(1.), left_derivative = broadcast(0.);
+      using V = LanesPart;
+      V left  = V{} + 1., left_derivative{};
       for (unsigned int i = 0; i <= degree; ++i)
         {
-          value[i]           = left * basis.weight[i];
-          derivative[i]      = left_derivative * basis.weight[i];
-          const Lanes factor = x - basis.node[i];
-          left_derivative    = left_derivative * factor + left;
-          left               = left * factor;
+          value[i]        = left * basis.weight[i];
+          derivative[i]   = left_derivative * basis.weight[i];
+          const V factor  = x - basis.node[i];
+          left_derivative = left_derivative * factor + left;
+          left            = left * factor;
         }
-      Lanes right = broadcast(1.), right_derivative = broadcast(0.);
+      V right = V{} + 1., right_derivative{};
       for (unsigned int i = degree + 1; i-- > 0;)
         {
-          derivative[i] = derivative[i] * right + value[i] * right_derivative;
-          value[i]      = value[i] * right;
-          const Lanes factor = x - basis.node[i];
-          right_derivative   = right_derivative * factor + right;
-          right              = right * factor;
+          derivative[i]  = derivative[i] * right + value[i] * right_derivative;
+          value[i]       = value[i] * right;
+          const V factor = x - basis.node[i];
+          right_derivative = right_derivative * factor + right;
+          right            = right * factor;
         }
     }
 
@@ -58,35 +59,40 @@ namespace mortise
                   Vec3<Lanes>          &x,
                   Vec3<Lanes> (&dx)[2])
     {
-      constexpr unsigned int n = degree + 1;
-      Lanes value_1[n], derivative_1[n], value_2[n], derivative_2[n];
-      evaluate_basis<degree>(lagrange_basis(degree),
-                             xi_1,
-                             value_1,
-                             derivative_1);
-      evaluate_basis<degree>(lagrange_basis(degree),
-                             xi_2,
-                             value_2,
-                             derivative_2);
-      for (unsigned int d = 0; d < 3; ++d)
+      using V                      = LanesPart;
+      constexpr unsigned int n     = degree + 1;
+      const auto            &basis = lagrange_basis(degree);
+      for (unsigned int part = 0; part < n_lane_parts; ++part)
         {
-          const double *c = face.coefficients[d];
-          Lanes         sum{}, sum_1{}, sum_2{};
-          for (unsigned int j = 0; j < n; ++j, c += n)
+          V value_1[n], derivative_1[n], value_2[n], derivative_2[n];
+          evaluate_basis<degree>(basis,
+                                 part_of(xi_1, part),
+                                 value_1,
+                                 derivative_1);
+          evaluate_basis<degree>(basis,
+                                 part_of(xi_2, part),
+                                 value_2,
+                                 derivative_2);
+          for (unsigned int d = 0; d < 3; ++d)
             {
-              Lanes row = value_1[0] * c[0], row_1 = derivative_1[0] * c[0];
-              for (unsigned int i = 1; i < n; ++i)
+              const double *c = face.coefficients[d];
+              V             sum{}, sum_1{}, sum_2{};
+              for (unsigned int j = 0; j < n; ++j, c += n)
                 {
-                  row += value_1[i] * c[i];
-                  row_1 += derivative_1[i] * c[i];
+                  V row = value_1[0] * c[0], row_1 = derivative_1[0] * c[0];
+                  for (unsigned int i = 1; i < n; ++i)
+                    {
+                      row += value_1[i] * c[i];
+                      row_1 += derivative_1[i] * c[i];
+                    }
+                  sum += value_2[j] * row;
+                  sum_1 += value_2[j] * row_1;
+                  sum_2 += derivative_2[j] * row;
                 }
-              sum += value_2[j] * row;
-              sum_1 += value_2[j] * row_1;
-              sum_2 += derivative_2[j] * row;
+              part_of(x[d], part)     = sum;
+              part_of(dx[0][d], part) = sum_1;
+              part_of(dx[1][d], part) = sum_2;
             }
-          x[d]     = sum;
-          dx[0][d] = sum_1;
-          dx[1][d] = sum_2;
         }
     }
 
@@ -98,22 +104,30 @@ namespace mortise
                              Vec3<Lanes> &x,
                              Vec3<Lanes> &dx)
     {
-      constexpr unsigned int n = degree + 1;
-      Lanes                  value[n], derivative[n];
-      evaluate_basis<degree>(lagrange_basis(degree), tau, value, derivative);
-      for (unsigned int d = 0; d < 3; ++d)
+      using V                     = LanesPart;
+      constexpr unsigned int n    = degree + 1;
+      constexpr unsigned int size = n_lanes / n_lane_parts;
+      for (unsigned int part = 0; part < n_lane_parts; ++part)
         {
-          Lanes sum{}, sum_1{};
-          for (unsigned int i = 0; i < n; ++i)
+          V value[n], derivative[n];
+          evaluate_basis<degree>(lagrange_basis(degree),
+                                 part_of(tau, part),
+                                 value,
+                                 derivative);
+          for (unsigned int d = 0; d < 3; ++d)
             {
-              Lanes c;
-              for (unsigned int l = 0; l < n_lanes; ++l)
-                c[l] = edges[edge[l]].coefficients[d][i];
-              sum += value[i] * c;
-              sum_1 += derivative[i] * c;
+              V sum{}, sum_1{};
+              for (unsigned int i = 0; i < n; ++i)
+                {
+                  V c;
+                  for (unsigned int l = 0; l < size; ++l)
+                    c[l] = edges[edge[part * size + l]].coefficients[d][i];
+                  sum += value[i] * c;
+                  sum_1 += derivative[i] * c;
+                }
+              part_of(x[d], part)  = sum;
+              part_of(dx[d], part) = sum_1;
             }
-          x[d]  = sum;
-          dx[d] = sum_1;
         }
     }
 

@@ -163,7 +163,7 @@ namespace mortise
           to[k] = trace[block.columns[c][k]];
         std::fill(to + n, to + m * w, Number());
       }
-    for_each_register_block<4>(
+    for_each_register_block<n_register_rows>(
       block.n_rows, [&](const unsigned int i, const auto n_rows) {
         const V *const from = row + std::size_t(i) * m;
         V              sums[n_rows][n_components];
@@ -200,7 +200,7 @@ namespace mortise
     const V           *row  = reinterpret_cast<const V *>(block_entries);
     V                 *sums = reinterpret_cast<V *>(workspace.data());
     std::fill(sums, sums + n_components * m, V{});
-    for_each_register_block<4>(
+    for_each_register_block<n_register_rows>(
       block.n_rows, [&](const unsigned int i, const auto n_rows) {
         const V *const from = row + std::size_t(i) * m;
         Number         factor[n_rows][n_components];

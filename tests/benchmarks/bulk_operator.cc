@@ -86,8 +86,8 @@ namespace
     Number       total = 0;
     const double time  = median_time([&]() {
       V local[n_sums]; // in registers
-      for (V &sum : local)
-        sum = b;
+      for (unsigned int i = 0; i < n_sums; ++i)
+        local[i] = b * Number(1 + i); // equal ones would be computed once
       for (unsigned int turn = 0; turn < n_turns; ++turn)
 #pragma GCC unroll 16
         for (unsigned int i = 0; i < n_sums; ++i)

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <mortise/base/register_width.h>
+
 #include <cmath>
 
 namespace mortise
@@ -13,6 +15,24 @@ namespace mortise
   using Lanes = double __attribute__((vector_size(64)));
 
   constexpr unsigned int n_lanes = 8;
+
+  /// Those of the lanes that fit a register, for what must be fast.
+  typedef double LanesPart
+    __attribute__((vector_size(register_width), may_alias));
+
+  constexpr unsigned int n_lane_parts = sizeof(Lanes) / sizeof(LanesPart);
+
+  inline const LanesPart &
+  part_of(const Lanes &a, const unsigned int part)
+  {
+    return reinterpret_cast<const LanesPart *>(&a)[part];
+  }
+
+  inline LanesPart &
+  part_of(Lanes &a, const unsigned int part)
+  {
+    return reinterpret_cast<LanesPart *>(&a)[part];
+  }
 
   /// All lanes equal to @p value.
   inline Lanes

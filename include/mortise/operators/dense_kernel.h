@@ -50,8 +50,7 @@ namespace mortise
     }
 
   private:
-    /// Rows that stay in registers together, for three components.
-    static constexpr int block = 4;
+    static constexpr int block = n_register_rows;
 
     template <int n>
     void

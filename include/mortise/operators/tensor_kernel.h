@@ -4,17 +4,19 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <mortise/base/register_width.h>
+
 #include <array>
 
 namespace mortise
 {
-  /// 64 bytes of numbers that are computed together; the compiler maps them to
-  /// what the processor has.
+  /// As many numbers as the processor computes together.
   template <typename Number>
   struct Batch
   {
-    static constexpr unsigned int size = 64 / sizeof(Number);
-    typedef Number Vector __attribute__((vector_size(64), may_alias));
+    static constexpr unsigned int size = register_width / sizeof(Number);
+    typedef Number                Vector
+      __attribute__((vector_size(register_width), may_alias));
   };
 
   /// The least number not below @p n that fills whole batches.
