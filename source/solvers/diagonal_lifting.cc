@@ -42,6 +42,17 @@ namespace mortise
       return result;
     }
 
+    /// Whether the owned rows of @p B are the first columns of @p transposed.
+    bool
+    owned_columns_first(const Epetra_CrsMatrix &B,
+                        const Epetra_CrsMatrix &transposed)
+    {
+      for (int i = 0; i < B.NumMyRows(); ++i)
+        if (transposed.LCID(B.GRID(i)) != i)
+          return false;
+      return true;
+    }
+
     /// B T B^T with the rows of B, by dense blocks. @p transposed: T B^T with
     /// one row for each column of B, in the order of these.
     SparseRows
@@ -56,9 +67,18 @@ namespace mortise
           group_of[column_groups[g].first + i] = g;
       const auto pattern =
         columns_of_square(B, row_groups, transposed, group_of);
-      std::size_t n_entries = 0;
+      std::size_t              n_entries = 0;
+      std::vector<std::size_t> begin_of(row_groups.size());
+      std::vector<int>         row_group_of(B.NumMyRows());
       for (unsigned int g = 0; g < row_groups.size(); ++g)
-        n_entries += pattern[g].size() * row_groups[g].n_rows;
+        {
+          begin_of[g] = n_entries;
+          n_entries += pattern[g].size() * row_groups[g].n_rows;
+          for (int i = 0; i < row_groups[g].n_rows; ++i)
+            row_group_of[row_groups[g].first + i] = g;
+        }
+      // what is left of the diagonal has been computed right of it
+      const bool is_mirrored = owned_columns_first(B, transposed);
 
       SparseRows result;
       result.columns.reserve(n_entries);
@@ -66,11 +86,12 @@ namespace mortise
       const Teuchos::BLAS<int, double> blas;
       std::vector<double>              product;
       std::vector<int>                 place(transposed.NumMyCols()), global;
-      double                          *sums = result.values.data();
       for (unsigned int g = 0; g < row_groups.size(); ++g)
         {
           const auto &group = row_groups[g];
           const int   n = group.n_rows, m = pattern[g].size();
+          double     *sums  = &result.values[begin_of[g]];
+          const int   first = is_mirrored ? group.first : 0;
           global.clear();
           for (int l = 0; l < m; ++l)
             {
@@ -93,26 +114,50 @@ namespace mortise
               while (k < row.length && group_of[row.columns[k]] == h &&
                      row.columns[k] - row.columns[begin] == k - begin)
                 ++k;
-              product.resize(std::size_t(n) * multipliers.length);
+              const int skipped =
+                std::lower_bound(multipliers.columns,
+                                 multipliers.columns + multipliers.length,
+                                 first) -
+                multipliers.columns;
+              const int length = multipliers.length - skipped;
+              if (length == 0)
+                continue;
+              product.resize(std::size_t(n) * length);
               blas.GEMM(Teuchos::NO_TRANS,
                         Teuchos::NO_TRANS,
-                        multipliers.length,
+                        length,
                         n,
                         k - begin,
                         1.,
-                        multipliers.values,
+                        multipliers.values + skipped,
                         multipliers.length,
                         row.values + begin,
                         row.length,
                         0.,
                         product.data(),
-                        multipliers.length);
+                        length);
               for (int i = 0; i < n; ++i)
-                for (int l = 0; l < multipliers.length; ++l)
-                  sums[std::size_t(i) * m + place[multipliers.columns[l]]] +=
-                    product[std::size_t(i) * multipliers.length + l];
+                for (int l = 0; l < length; ++l)
+                  sums[std::size_t(i) * m +
+                       place[multipliers.columns[skipped + l]]] +=
+                    product[std::size_t(i) * length + l];
             }
-          sums += std::size_t(n) * m;
+          for (int l = 0; l < m && pattern[g][l] < first;)
+            {
+              // rows of a group have the same columns, so all or none of them
+              const int h   = row_group_of[pattern[g][l]];
+              const int n_h = row_groups[h].n_rows, m_h = pattern[h].size();
+              const int at = std::lower_bound(pattern[h].begin(),
+                                              pattern[h].end(),
+                                              group.first) -
+                             pattern[h].begin();
+              const double *from = &result.values[begin_of[h]] + at;
+              for (int i = 0; i < n; ++i)
+                for (int k = 0; k < n_h; ++k)
+                  sums[std::size_t(i) * m + l + k] =
+                    from[std::size_t(k) * m_h + i];
+              l += n_h;
+            }
         }
       return result;
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Products without a matrix, one core and two: bulk_operator.py BENCHMARK_BULK
+"""Products without a matrix, one core and two: bulk_operator.py BENCHMARK_BULK [PAGE]
 
-Runs the program benchmark_bulk (ninja benchmark_bulk) on one and two ranks and writes doc/bulk.md."""
+Runs the program benchmark_bulk (ninja benchmark_bulk) on one and two ranks and writes PAGE, doc/bulk.md unless said."""
 import os
 import subprocess
 import sys
@@ -14,7 +14,7 @@ def rows(program, ranks):
     command = ["mpirun", "-q", "-n", str(ranks), "--bind-to", "none"] + root + [program, str(3e5 * ranks)]
     lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
     peak = lines[-1].split()
-    return [line.rsplit(None, 4) for line in lines[:-1]], float(peak[3]), float(peak[4]), float(peak[6]), float(peak[8])
+    return [line.rsplit(None, 4) for line in lines[:-1]], *(float(peak[k]) for k in (3, 4, 6, 8, 10))
 
 
 def flops_per_dof(p):
@@ -39,12 +39,16 @@ def workspace_per_dof(p, number):
 
 
 def main():
-    (one, *peaks, bandwidth, caches), (two, *_) = (rows(os.path.abspath(sys.argv[1]), ranks) for ranks in (1, 2))
+    (one, *peaks, bandwidth, caches, width), (two, *_) = (rows(os.path.abspath(sys.argv[1]), ranks) for ranks in (1, 2))
+    page = sys.argv[2] if len(sys.argv) > 2 else os.path.join(TOP, "doc", "bulk.md")
+    name = "" if len(sys.argv) < 3 else " " + os.path.relpath(page, TOP)
+    with open("/sys/devices/system/cpu/cpu0/cache/index0/size") as size:
+        first_cache = size.read().strip().rstrip("K")
     model = next(line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name"))
     text = ["# Products with the stiffness without a matrix", "",
-            "Regenerate: `ninja -C build benchmark_bulk && tests/benchmarks/bulk_operator.py build/benchmark_bulk`.",
-            f"Million displacements per second and core on {model}, medians of nine products on 0.3 million",
-            "displacements per core; gathering, scattering and the ghost entries' place included, no communication.",
+            f"Regenerate: `ninja -C build benchmark_bulk && tests/benchmarks/bulk_operator.py build/benchmark_bulk{name}`.",
+            f"Million displacements per second and core on {model}, registers of {width:.0f} bytes, medians of nine products on",
+            "0.3 million displacements per core; gathering, scattering and the ghost entries' place included, no communication.",
             "`shell octant`: curved cells, nine numbers per point; `box`: constant Jacobians. Tetrahedra, six to a",
             "hexahedron, with dense matrices of the reference cell, on curved cells from p = 6 on by sum factorisation in",
             "collapsed coordinates.", "",
@@ -54,7 +58,7 @@ def main():
     text += ["", "## What bounds them", "",
              f"One core does {peaks[0]:.0f} Gflop/s in double and {peaks[1]:.0f} in single precision (multiplications with additions, in",
              f"registers), and moves {bandwidth:.0f} GB/s (a = b + s c on as many bytes as these products read and write),",
-             f"{caches:.0f} GB/s on 96 KiB, the workspace of eight cells of degree 4, which the first cache (48 KiB) cannot hold.",
+             f"{caches:.0f} GB/s on {12 * 125 * width / 1e3:.0f} kB, the workspace of {width / 8:.0f} cells of degree 4 (first cache: {first_cache} KiB).",
              "Counted for curved hexahedra (functions of the script): flops, bytes from and to memory, and bytes that the passes over lines",
              "read from and write to the workspace; bounds in million dofs per second:", "",
              "| p | precision | per dof: flops | bytes | of the workspace | measured | Gflop/s | GB/s | of the workspace | "
@@ -70,7 +74,7 @@ def main():
                             " | ".join(f"{1e3 * limit / count:.0f}" for limit, count in zip((peak, bandwidth, caches), counts)) + " |")
     text += ["", "The workspace is what binds first: of that bound " + ", ".join(
         f"products in {name} precision reach {min(share):.2f} to {max(share):.2f}" for name, share in shares.items()) + "."]
-    with open(os.path.join(TOP, "doc", "bulk.md"), "w") as out:
+    with open(page, "w") as out:
         out.write("\n".join(text) + "\n")
     print("\n".join(text))
 

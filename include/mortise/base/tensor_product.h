@@ -17,6 +17,44 @@ namespace mortise
     std::vector<double>         values;
   };
 
+  /// out = matrix in for arrays of rows of @p step numbers; the matrix has
+  /// @p n columns, or any number if that is zero.
+  template <unsigned int n>
+  inline void
+  combine_rows(const dealii::FullMatrix<double> &matrix,
+               const unsigned int                step,
+               const double *__restrict in,
+               double *__restrict out)
+  {
+    const unsigned int n_columns = n > 0 ? n : matrix.n();
+    for (unsigned int i = 0; i < matrix.m(); ++i)
+      {
+        const double *factors = &matrix(i, 0);
+        for (unsigned int k = 0; k < step; ++k)
+          {
+            double sum = 0.;
+#pragma GCC unroll 16
+            for (unsigned int j = 0; j < n_columns; ++j)
+              sum += factors[j] * in[j * step + k];
+            out[i * step + k] = sum;
+          }
+      }
+  }
+
+  /// The same with a number of columns that the compiler knows, up to @p n.
+  template <unsigned int n = 9>
+  inline void
+  combine_rows_of_number(const dealii::FullMatrix<double> &matrix,
+                         const unsigned int                step,
+                         const double                     *in,
+                         double                           *out)
+  {
+    if (n == 0 || matrix.n() == n)
+      combine_rows<n>(matrix, step, in, out);
+    else if constexpr (n > 0)
+      combine_rows_of_number<n - 1>(matrix, step, in, out);
+  }
+
   /// The array with @p matrix (m x n[d]) applied along direction @p d.
   inline TensorArray
   apply_along_direction(const dealii::FullMatrix<double> &matrix,
@@ -30,20 +68,13 @@ namespace mortise
     for (unsigned int e = 0; e < d; ++e)
       step *= in.n[e];
     const unsigned int n_blocks = in.values.size() / (step * n);
-    out.values.assign(std::size_t(n_blocks) * m * step, 0.);
+    out.values.resize(std::size_t(n_blocks) * m * step);
     for (unsigned int block = 0; block < n_blocks; ++block)
-      for (unsigned int i = 0; i < m; ++i)
-        {
-          double *to = &out.values[(std::size_t(block) * m + i) * step];
-          for (unsigned int j = 0; j < n; ++j)
-            {
-              const double  factor = matrix(i, j);
-              const double *from =
-                &in.values[(std::size_t(block) * n + j) * step];
-              for (unsigned int k = 0; k < step; ++k)
-                to[k] += factor * from[k];
-            }
-        }
+      {
+        const double *from = &in.values[std::size_t(block) * n * step];
+        double       *to   = &out.values[std::size_t(block) * m * step];
+        combine_rows_of_number(matrix, step, from, to);
+      }
     return out;
   }
 
