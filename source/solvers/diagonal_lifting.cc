@@ -114,6 +114,7 @@ namespace mortise
               while (k < row.length && group_of[row.columns[k]] == h &&
                      row.columns[k] - row.columns[begin] == k - begin)
                 ++k;
+              // columns of a row are sorted
               const int skipped =
                 std::lower_bound(multipliers.columns,
                                  multipliers.columns + multipliers.length,

@@ -7,8 +7,8 @@
 // dofs per second and core in double and single precision, and what the core
 // can do: Gflop/s of multiplications and additions in registers, and GB/s of
 // a[i] = b[i] + s c[i] on as many bytes as a product of degree 4 on curved
-// cells reads and writes and on those of its workspace, 96 KiB. Run it under
-// mpirun to see all cores at once.
+// cells reads and writes and on those of its workspace, and the bytes of a
+// register. Run it under mpirun to see all cores at once.
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/operators/matrix_free_elasticity.h>

@@ -41,17 +41,17 @@ def workspace_per_dof(p, number):
 def main():
     (one, *peaks, bandwidth, caches, width), (two, *_) = (rows(os.path.abspath(sys.argv[1]), ranks) for ranks in (1, 2))
     page = sys.argv[2] if len(sys.argv) > 2 else os.path.join(TOP, "doc", "bulk.md")
-    name = "" if len(sys.argv) < 3 else " " + os.path.relpath(page, TOP)
+    argument = "" if len(sys.argv) < 3 else " " + os.path.relpath(page, TOP)
     with open("/sys/devices/system/cpu/cpu0/cache/index0/size") as size:
         first_cache = size.read().strip().rstrip("K")
     model = next(line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name"))
     text = ["# Products with the stiffness without a matrix", "",
-            f"Regenerate: `ninja -C build benchmark_bulk && tests/benchmarks/bulk_operator.py build/benchmark_bulk{name}`.",
+            f"Regenerate: `ninja -C build benchmark_bulk && tests/benchmarks/bulk_operator.py build/benchmark_bulk{argument}`.",
             f"Million displacements per second and core on {model}, registers of {width:.0f} bytes, medians of nine products on",
             "0.3 million displacements per core; gathering, scattering and the ghost entries' place included, no communication.",
             "`shell octant`: curved cells, nine numbers per point; `box`: constant Jacobians. Tetrahedra, six to a",
             "hexahedron, with dense matrices of the reference cell, on curved cells from p = 6 on by sum factorisation in",
-            "collapsed coordinates." + ("" if name else " The same on a processor without AVX-512: [bulk_avx2.md](bulk_avx2.md)."), "",
+            "collapsed coordinates." + ("" if argument else " The same on a processor without AVX-512: [bulk_avx2.md](bulk_avx2.md)."), "",
             "| mesh | p | dofs | double | single | double, both cores | single, both cores |", "|---|---|---|---|---|---|---|"]
     for (mesh, p, dofs, double, single), (*_, double2, single2) in zip(one, two):
         text.append(f"| {mesh.strip()} | {p} | {dofs} | {double} | {single} | {double2} | {single2} |")

@@ -1,5 +1,4 @@
-// Eight numbers or vectors at a time, which the compiler maps to what the
-// processor has. It never knows what they stand for.
+// Eight numbers or vectors at a time. It never knows what they stand for.
 #pragma once
 
 #include <deal.II/base/tensor.h>
@@ -10,8 +9,8 @@
 
 namespace mortise
 {
-  /// Eight numbers that are computed together; the compiler maps them to what
-  /// the processor has.
+  /// Eight numbers that are computed together, in memory where registers are
+  /// narrower.
   using Lanes = double __attribute__((vector_size(64)));
 
   constexpr unsigned int n_lanes = 8;
