@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace mortise
 {
@@ -368,6 +369,25 @@ namespace mortise
     diagonal.compress(VectorOperation::add);
     for (const unsigned int place : level.held)
       diagonal.local_element(place) = 1;
+  }
+
+  template <typename Number>
+  void
+  LevelOperator<Number>::node_diagonal(LevelVector<Number> &mean) const
+  {
+    diagonal(mean);
+    for (const unsigned int place : level.held)
+      mean.local_element(place) = 0;
+    for (unsigned int k = 0; k < mean.locally_owned_size(); k += dim)
+      {
+        Number *node = &mean.local_element(k);
+        if (const auto n = dim - std::count(node, node + dim, Number()); n > 0)
+          std::fill_n(node,
+                      dim,
+                      std::accumulate(node, node + dim, Number()) / n);
+      }
+    for (const unsigned int place : level.held)
+      mean.local_element(place) = 1;
   }
 
   template class LevelOperator<float>;

@@ -133,6 +133,12 @@ namespace mortise
                       solver.max_iterations,
                       "After so many iterations the run ends with exit code 3.",
                       1);
+      declare.integer(
+        "Multipliers on all ranks",
+        solver.max_gathered,
+        "Up to so many multipliers every rank helps to factorise what couples "
+        "them; of more it knows its own and their neighbours.",
+        0);
       declare.yes_no("Print iterations",
                      solver.print_iterations,
                      "A line for each.");

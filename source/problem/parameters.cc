@@ -334,6 +334,8 @@ namespace mortise
       parameters.solver.method = solver_method_from_name(solver.text("Method"));
       parameters.solver.tolerance      = solver.number("Tolerance");
       parameters.solver.max_iterations = solver.integer("Max iterations");
+      parameters.solver.max_gathered =
+        solver.integer("Multipliers on all ranks");
       parameters.solver.print_iterations =
         solver.text("Print iterations") == "true";
       parameters.output = read_output({schema, parameters, {"Output"}}, file);

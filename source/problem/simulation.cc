@@ -321,6 +321,7 @@ namespace mortise
     options.method         = parameters.solver.method;
     options.tolerance      = parameters.solver.tolerance;
     options.max_iterations = parameters.solver.max_iterations;
+    options.max_gathered   = parameters.solver.max_gathered;
     if (parameters.solver.print_iterations)
       options.monitor = [&](const unsigned int iteration,
                             const double       residual) {

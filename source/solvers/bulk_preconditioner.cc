@@ -5,10 +5,11 @@
 namespace mortise
 {
   std::unique_ptr<BulkPreconditioner>
-  make_bulk_preconditioner(const BlockSystem &system)
+  make_bulk_preconditioner(const BlockSystem   &system,
+                           const SolverOptions &options)
   {
     if (system.nodal)
-      return std::make_unique<DegreeMultigrid>();
+      return std::make_unique<DegreeMultigrid>(options.max_gathered);
     return std::make_unique<HierarchicalPreconditioner>();
   }
 } // namespace mortise

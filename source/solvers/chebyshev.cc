@@ -18,7 +18,7 @@ namespace mortise
     : matrix(matrix)
     , correction(correction)
   {
-    matrix.diagonal(inverse_diagonal);
+    matrix.node_diagonal(inverse_diagonal);
     for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
       inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
     matrix.initialize(r);

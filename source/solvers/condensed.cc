@@ -122,7 +122,7 @@ namespace mortise
     report.method = "condensed";
     announce_stage("solver_setup");
     Timer       timer;
-    const auto  preconditioner = make_bulk_preconditioner(system);
+    const auto  preconditioner = make_bulk_preconditioner(system, options);
     const bool  valid          = preconditioner->initialize(system);
     const auto *projector      = valid ? preconditioner->projector() : nullptr;
     const ScaledResidual residual(system);

@@ -46,16 +46,18 @@ namespace mortise
 
   struct DegreeMultigrid::Implementation
   {
-    explicit Implementation(const BlockSystem &system)
+    Implementation(const BlockSystem &system, const std::size_t max_gathered)
     {
       const auto &all = system.nodal->levels();
       initialize_vertices(all.back(), system.communicator);
       if (system.owned_multiplier.size() > 0)
         {
-          lifting = std::make_unique<DiagonalLifting>(system);
-          valid   = lifting->is_valid() && valid;
-          correction =
-            std::make_unique<InterfaceCorrection<Number>>(system, *lifting);
+          product = std::make_unique<CouplingProduct<Number>>(system);
+          lifting =
+            std::make_unique<DiagonalLifting>(system, *product, max_gathered);
+          valid      = lifting->is_valid() && valid;
+          correction = std::make_unique<InterfaceCorrection<Number>>(
+            *product, *lifting, system.coupling.trilinos_matrix().RowMap());
           projector = std::make_unique<ConstraintProjector>(system, *lifting);
         }
       for (unsigned int l = 0; l + 1 < all.size(); ++l)
@@ -124,6 +126,7 @@ namespace mortise
       level.smoother.smooth(level.x, level.b, false);
     }
 
+    std::unique_ptr<CouplingProduct<Number>>             product;
     std::unique_ptr<DiagonalLifting>                     lifting;
     std::unique_ptr<ConstraintProjector>                 projector;
     std::unique_ptr<InterfaceCorrection<Number>>         correction;
@@ -136,13 +139,16 @@ namespace mortise
     bool                                                 valid = true;
   };
 
-  DegreeMultigrid::DegreeMultigrid()  = default;
+  DegreeMultigrid::DegreeMultigrid(const std::size_t max_gathered)
+    : max_gathered(max_gathered)
+  {}
+
   DegreeMultigrid::~DegreeMultigrid() = default;
 
   bool
   DegreeMultigrid::initialize(const BlockSystem &system)
   {
-    implementation = std::make_unique<Implementation>(system);
+    implementation = std::make_unique<Implementation>(system, max_gathered);
     return implementation->valid;
   }
 
@@ -176,7 +182,10 @@ namespace mortise
   std::string
   DegreeMultigrid::description() const
   {
+    const bool by_parts =
+      implementation->lifting && implementation->lifting->is_by_parts();
     return "multigrid in the degree, " +
-           implementation->vertex_solver.description();
+           implementation->vertex_solver.description() +
+           (by_parts ? ", multipliers by parts" : "");
   }
 } // namespace mortise

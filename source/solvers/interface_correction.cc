@@ -5,11 +5,12 @@ namespace mortise
 {
   template <typename Number>
   InterfaceCorrection<Number>::InterfaceCorrection(
-    const BlockSystem     &system,
-    const DiagonalLifting &lifting)
-    : lifting(lifting)
-    , product(system)
-    , jump(system.coupling.trilinos_matrix().RowMap())
+    const CouplingProduct<Number> &product,
+    const DiagonalLifting         &lifting,
+    const Epetra_Map              &multipliers)
+    : product(product)
+    , lifting(lifting)
+    , jump(multipliers)
     , multiplier(jump)
   {
     product.initialize(trace);

@@ -1,11 +1,7 @@
 // See lifting.h.
-#include <Epetra_Import.h>
-#include <Epetra_LocalMap.h>
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
 #include <mortise/solvers/lifting.h>
-
-#include <cmath>
 
 namespace mortise
 {
@@ -17,60 +13,53 @@ namespace mortise
     /// with 2e-4.
     constexpr double accurate_enough = 1e-5;
 
+    /// The number of rows that a last attempt may have on all ranks.
+    constexpr std::size_t always_gathered = 100000;
+
     /// By how much a second solve corrects a first one.
     double
-    relative_correction(const SparseCholesky<float> &inverse,
-                        const SparseRows            &matrix,
-                        const Epetra_Map            &map)
+    relative_correction(const SparseCholesky<float>   &inverse,
+                        const SchwarzInverse::Product &product,
+                        const Epetra_Map              &map)
     {
-      Epetra_Vector         b(map), x(map), y(map);
-      const Epetra_LocalMap everywhere(map.NumGlobalElements(), 0, map.Comm());
-      Epetra_Vector         all_x(everywhere);
-      const std::size_t     n = matrix.lengths.size();
-      for (std::size_t i = 0, k = 0; i < n; k += matrix.lengths[i++])
-        for (std::size_t l = k; l < k + matrix.lengths[i]; ++l)
-          if (matrix.columns[l] == map.GID(static_cast<int>(i)))
-            b[i] = std::sqrt(matrix.values[l]) *
-                   ((matrix.columns[l] * 2654435761U) % 1000 / 500. - 1.);
+      Epetra_Vector b(map), x(map), y(map);
+      for (int i = 0; i < y.MyLength(); ++i)
+        y[i] = (map.GID(i) * 2654435761U) % 1000 / 500. - 1.;
+      product(b, y);
       inverse.solve(x, b);
-      all_x.Import(x, Epetra_Import(everywhere, map), Insert);
-      for (std::size_t i = 0, k = 0; i < n; ++i)
-        for (const std::size_t end = k + matrix.lengths[i]; k < end; ++k)
-          b[i] -= matrix.values[k] * all_x[matrix.columns[k]];
+      product(y, x);
+      b.Update(-1., y, 1.);
       inverse.solve(y, b);
       double norm_x = 0., norm_y = 0.;
       x.Norm2(&norm_x);
       y.Norm2(&norm_y);
       return norm_x > 0. ? norm_y / norm_x : 0.;
     }
-
-    Epetra_CrsMatrix
-    as_matrix(const SparseRows &rows, const Epetra_Map &map)
-    {
-      const std::vector<int> lengths(rows.lengths.begin(), rows.lengths.end());
-      Epetra_CrsMatrix       matrix(Copy, map, lengths.data(), true);
-      for (std::size_t i = 0, k = 0; i < rows.lengths.size();
-           k += rows.lengths[i++])
-        matrix.InsertGlobalValues(map.GID(static_cast<int>(i)),
-                                  lengths[i],
-                                  &rows.values[k],
-                                  &rows.columns[k]);
-      matrix.FillComplete();
-      return matrix;
-    }
   } // namespace
 
   void
-  Lifting::factorise(SparseRows schur, const Epetra_Map &map)
+  Lifting::factorise(const NodeRows         &schur,
+                     SchwarzInverse::Product product,
+                     const Epetra_Map       &map,
+                     const std::size_t       max_gathered)
   {
-    constexpr int max_gathered = 100000;
-    if (map.NumGlobalElements() <= max_gathered)
+    const MPI_Comm comm =
+      dynamic_cast<const Epetra_MpiComm &>(map.Comm()).Comm();
+    const std::size_t size = map.NumGlobalElements();
+    const bool together    = map.Comm().NumProc() == 1 || size <= max_gathered;
+    if (!together)
       {
-        const MPI_Comm comm =
-          dynamic_cast<const Epetra_MpiComm &>(map.Comm()).Comm();
+        distributed = std::make_unique<SchwarzInverse>();
+        valid       = distributed->initialize(schur, product, map);
+        if (valid)
+          return;
+        distributed.reset();
+      }
+    if (together || size <= always_gathered)
+      {
         light = std::make_unique<SparseCholesky<float>>();
         valid = light->initialize(schur, comm) &&
-                relative_correction(*light, schur, map) < accurate_enough;
+                relative_correction(*light, product, map) < accurate_enough;
         if (valid)
           return;
         light.reset();
@@ -80,12 +69,39 @@ namespace mortise
           return;
         exact.reset();
       }
-    factorise(as_matrix(schur, map));
+    const auto matrix = as_matrix(schur, map.Comm());
+    factorise(*matrix);
+    heavy_entries = schur.entries;
+    heavy_x       = std::make_unique<Epetra_Vector>(matrix->RowMap());
+    heavy_b       = std::make_unique<Epetra_Vector>(matrix->RowMap());
   }
 
   void
   Lifting::factorise(const Epetra_CrsMatrix &schur)
   {
     valid = heavy.initialize(schur, MatrixKind::positive_definite);
+  }
+
+  void
+  Lifting::apply_inverse_schur(Epetra_Vector       &y,
+                               const Epetra_Vector &jump) const
+  {
+    if (distributed)
+      distributed->solve(y, jump);
+    else if (light)
+      light->solve(y, jump);
+    else if (exact)
+      exact->solve(y, jump);
+    else if (heavy_entries.empty())
+      heavy.solve(y, jump);
+    else
+      {
+        for (unsigned int i = 0; i < heavy_entries.size(); ++i)
+          (*heavy_b)[i] = heavy_entries[i] < 0 ? 0. : jump[heavy_entries[i]];
+        heavy.solve(*heavy_x, *heavy_b);
+        for (unsigned int i = 0; i < heavy_entries.size(); ++i)
+          if (heavy_entries[i] >= 0)
+            y[heavy_entries[i]] = (*heavy_x)[i];
+      }
   }
 } // namespace mortise

@@ -114,10 +114,11 @@ namespace mortise
     {
     public:
       BlockPreconditioner(const BlockSystem    &system,
-                          const ScaledOperator &scaling)
+                          const ScaledOperator &scaling,
+                          const SolverOptions  &options)
         : system(system)
         , scaling(scaling)
-        , bulk(make_bulk_preconditioner(system))
+        , bulk(make_bulk_preconditioner(system, options))
         , valid(bulk->initialize(system))
       {
         if (valid)
@@ -230,7 +231,7 @@ namespace mortise
     Timer                     timer;
     const ScaledResidual      residual(system);
     const ScaledOperator      matrix(system, residual);
-    const BlockPreconditioner preconditioner(system, matrix);
+    const BlockPreconditioner preconditioner(system, matrix, options);
     report.preconditioner = preconditioner.description();
     report.setup_seconds  = timer.wall_time();
     announce_stage("solve");

@@ -2,6 +2,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <Epetra_IntVector.h>
+#include <Epetra_MpiComm.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <mortise/solvers/vertex_solver.h>
@@ -33,7 +34,9 @@ namespace mortise
     if (coarse->NumGlobalRows() <= max_direct_size)
       {
         factorization = std::make_unique<SparseCholesky<double>>();
-        return factorization->initialize(*coarse);
+        return factorization->initialize(
+          rows_as_nodes(*coarse),
+          dynamic_cast<const Epetra_MpiComm &>(coarse->Comm()).Comm());
       }
     compute_rigid_modes(vertices);
     Teuchos::ParameterList parameters;

@@ -80,7 +80,9 @@ namespace
   {
     const Epetra_CrsMatrix matrix = grids.matrix();
     SparseCholesky<Number> inverse;
-    say(name + ": positive definite", inverse.initialize(matrix) ? 0 : 1, 0);
+    say(name + ": positive definite",
+        inverse.initialize(rows_as_nodes(matrix), MPI_COMM_WORLD) ? 0 : 1,
+        0);
     Epetra_Vector x(matrix.RowMap()), b(x), y(x);
     for (int i = 0; i < x.MyLength(); ++i)
       x[i] = std::sin(1. + matrix.GRID(i)) / grids.scale(matrix.GRID(i));
@@ -115,7 +117,9 @@ main(int argc, char **argv)
       const Grids            grids{15, 2, 3, 0., shift};
       say("shift " + std::to_string(static_cast<int>(shift)) +
             ": not positive definite",
-          inverse.initialize(grids.matrix()) ? 1 : 0,
+          inverse.initialize(rows_as_nodes(grids.matrix()), MPI_COMM_WORLD) ?
+            1 :
+            0,
           0);
     }
 }

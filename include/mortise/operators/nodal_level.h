@@ -85,6 +85,11 @@ namespace mortise
     void
     diagonal(LevelVector<Number> &diagonal) const;
 
+    /// The mean over the components of a node that are not held; 1 at those
+    /// that are. Collective.
+    void
+    node_diagonal(LevelVector<Number> &mean) const;
+
     /// Zero at held components.
     void
     clear_held(LevelVector<Number> &v) const;

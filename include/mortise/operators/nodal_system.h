@@ -84,6 +84,16 @@ namespace mortise
       return stiffness_diagonal;
     }
 
+    /// The same, its mean over the components of a node that are not held.
+    /// Collective.
+    LevelVector<double>
+    node_diagonal() const
+    {
+      LevelVector<double> mean;
+      stiffness->node_diagonal(mean);
+      return mean;
+    }
+
     /// int b.v + int t.v less the work of prescribed displacements, zero where
     /// held, and what these leave to the pressures (not touched without mixed
     /// bodies). @p loads: by body. Collective.

@@ -110,6 +110,7 @@ namespace mortise
     SolverMethod method           = SolverMethod::automatic;
     double       tolerance        = 1e-10; ///< residual over right hand side
     unsigned int max_iterations   = 1000;
+    unsigned int max_gathered     = 30000; ///< multipliers
     bool         print_iterations = false;
   };
 

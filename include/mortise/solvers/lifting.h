@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/schwarz_inverse.h>
 #include <mortise/solvers/sparse_cholesky.h>
 #include <mortise/solvers/sparse_factorization.h>
 
@@ -22,6 +23,13 @@ namespace mortise
       return valid;
     }
 
+    /// Is C on no rank as a whole?
+    bool
+    is_by_parts() const
+    {
+      return distributed != nullptr;
+    }
+
     /// dst = T src. Collective.
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
@@ -29,32 +37,31 @@ namespace mortise
     /// y = C^{-1} jump, to five digits at least where single precision was
     /// allowed; both with the rows of B. Collective.
     void
-    apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const
-    {
-      if (light)
-        light->solve(y, jump);
-      else if (exact)
-        exact->solve(y, jump);
-      else
-        heavy.solve(y, jump);
-    }
+    apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const;
 
   protected:
-    /// The rows of C, distributed as @p map; in single precision where that is
-    /// accurate enough. Collective.
+    /// The rows of C, entries those of vectors on @p map; in single precision
+    /// where that is accurate enough. @p product: with C, likewise; it is kept.
+    /// @p max_gathered: the largest number of rows that all ranks may have, if
+    /// they can do without. Collective.
     void
-    factorise(SparseRows schur, const Epetra_Map &map);
+    factorise(const NodeRows         &schur,
+              SchwarzInverse::Product product,
+              const Epetra_Map       &map,
+              std::size_t             max_gathered);
 
     /// C as a matrix, in double precision. Collective.
     void
     factorise(const Epetra_CrsMatrix &schur);
 
   private:
-    /// The first that is accurate enough; the last for what is too large to be
-    /// gathered.
+    /// One of them; the last for what no other can.
+    std::unique_ptr<SchwarzInverse>         distributed;
     std::unique_ptr<SparseCholesky<float>>  light;
     std::unique_ptr<SparseCholesky<double>> exact;
     SparseFactorization                     heavy;
+    std::vector<int>                        heavy_entries; ///< as in NodeRows
+    std::unique_ptr<Epetra_Vector>          heavy_x, heavy_b; ///< by these
     bool                                    valid = false;
   };
 } // namespace mortise

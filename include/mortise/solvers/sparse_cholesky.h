@@ -7,68 +7,73 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
-#include <mortise/solvers/elimination_tree.h>
+#include <mortise/solvers/gathered_rows.h>
+#include <mortise/solvers/node_rows.h>
 
 #include <memory>
 #include <vector>
 
 namespace mortise
 {
-  /// Owned rows of a matrix, those of a rank behind those of the rank before.
-  struct SparseRows
-  {
-    std::vector<unsigned int> lengths;
-    std::vector<int>          columns; ///< global
-    std::vector<double>       values;
-  };
-
   /// Computed in double precision, kept and applied in @p Number.
   template <typename Number>
   class SparseCholesky
   {
   public:
-    /// Factorise the symmetric matrix of these rows. False, on every rank, when
-    /// it is not positive definite. Collective.
+    /// Factorise the matrix of these rows, once for all components where they
+    /// have the same. False, on every rank, when it is not positive definite.
+    /// Collective.
     bool
-    initialize(SparseRows rows, MPI_Comm comm);
+    initialize(NodeRows rows, MPI_Comm comm);
 
-    /// The same; rows must be numbered 0, 1, ... over the ranks.
-    bool
-    initialize(const Epetra_CrsMatrix &matrix);
-
-    /// x = matrix^{-1} b, both with the rows of the matrix. Collective.
+    /// x = matrix^{-1} b, both with the entries of NodeRows. Collective.
     void
     solve(Epetra_Vector &x, const Epetra_Vector &b) const;
 
   private:
-    struct GatheredMatrix;
+    class Factorisation;
 
     void
     list_parts();
     bool
-    factorise(const GatheredMatrix &matrix);
+    factorise(const GatheredRows &matrix);
+    /// visit(panel, number of components, the first of them).
+    template <typename Visit>
+    void
+    for_each_panel(unsigned int s, const Visit &visit) const;
     void
     forward(unsigned int s) const;
     void
     backward(unsigned int s) const;
+    /// With one panel, @p n components from the first.
+    template <unsigned int n>
+    void
+    forward(unsigned int s, const Number *panel, unsigned int first) const;
+    template <unsigned int n>
+    void
+    backward(unsigned int s, const Number *panel, unsigned int first) const;
 
     MPI_Comm                  comm = MPI_COMM_NULL;
     int                       rank = 0, n_ranks = 1;
-    std::vector<int>          counts, starts; ///< rows by rank
-    std::vector<double>       scale;          ///< by owned row
-    std::vector<unsigned int> place;          ///< of each row in the order
+    unsigned int              n_components = 1;
+    std::vector<int>          entries;        ///< as in NodeRows
+    std::vector<int>          counts, starts; ///< nodes, components, by rank
+    std::vector<double>       scale;          ///< by owned node, component
+    std::vector<unsigned int> place;          ///< of each node in the order
     std::vector<Supernode>    supernodes;
     std::vector<int>          owner;         ///< rank or on_all_ranks
     std::vector<unsigned int> own, common;   ///< supernodes
-    std::vector<unsigned int> common_places; ///< of rows
-    std::vector<int>          part_counts, part_starts; ///< rows of subtrees
-    std::vector<unsigned int> part_place; ///< of these, rank by rank
-    /// By supernode, see Front::panel().
+    std::vector<unsigned int> common_places; ///< of nodes
+    /// Nodes, components, of subtrees.
+    std::vector<int>          part_counts, part_starts;
+    std::vector<unsigned int> part_places; ///< of nodes, rank by rank
+    /// By supernode, see Front::panel(); one for all components where that
+    /// does for them.
     std::vector<dealii::AlignedVector<Number>> panels;
-    mutable std::vector<Number> vector; ///< in the order of elimination
-    mutable std::vector<Number> exchange;
+    /// By component, in the order of elimination.
+    mutable std::vector<Number>           vector;
+    mutable std::vector<Number>           exchange;
     mutable dealii::AlignedVector<Number> workspace; ///< of one supernode
   };
 } // namespace mortise

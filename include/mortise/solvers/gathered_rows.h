@@ -1,0 +1,35 @@
+// The rows of all ranks, for a matrix that is factorised on all. It never
+// orders them.
+#pragma once
+
+#include <mortise/solvers/elimination_tree.h>
+#include <mortise/solvers/node_rows.h>
+#include <mpi.h>
+
+#include <vector>
+
+namespace mortise
+{
+  struct GatheredRows : MatrixGraph
+  {
+    /// Collective.
+    GatheredRows(NodeRows rows, MPI_Comm comm);
+
+    /// Values of the columns of node @p i.
+    const double *
+    row(const unsigned int i, const unsigned int component) const
+    {
+      return &values[begin_values[i]] +
+             (variants[i] == 1 ?
+                0 :
+                std::size_t(component) * (begin[i + 1] - begin[i]));
+    }
+
+    unsigned int              n_components;
+    std::vector<unsigned int> variants; ///< as in NodeRows
+    std::vector<std::size_t>  begin_values;
+    std::vector<double>       values;
+    /// To a diagonal of ones, by node and component; 0: not possible.
+    std::vector<double> scale;
+  };
+} // namespace mortise

@@ -1,0 +1,62 @@
+// See gathered_rows.h.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/solvers/gathered_rows.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <typename T>
+    std::vector<T>
+    gather_on_all(std::vector<T> mine, const MPI_Comm comm)
+    {
+      int n_ranks = 1, n_mine = mine.size();
+      MPI_Comm_size(comm, &n_ranks);
+      if (n_ranks == 1)
+        return mine;
+      std::vector<int> counts(n_ranks), starts(n_ranks + 1);
+      MPI_Allgather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+      std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
+      std::vector<T> all(starts.back());
+      const auto     type = Utilities::MPI::mpi_type_id_for_type<T>;
+      MPI_Allgatherv(mine.data(),
+                     n_mine,
+                     type,
+                     all.data(),
+                     counts.data(),
+                     starts.data(),
+                     type,
+                     comm);
+      return all;
+    }
+  } // namespace
+
+  GatheredRows::GatheredRows(NodeRows rows, const MPI_Comm comm)
+    : n_components(rows.n_components)
+  {
+    const auto lengths = gather_on_all(std::move(rows.lengths), comm);
+    columns            = gather_on_all(std::move(rows.columns), comm);
+    variants           = gather_on_all(std::move(rows.variants), comm);
+    values             = gather_on_all(std::move(rows.values), comm);
+    begin.assign(lengths.size() + 1, 0);
+    std::partial_sum(lengths.begin(), lengths.end(), begin.begin() + 1);
+    std::size_t n_values = 0;
+    scale.assign(lengths.size() * n_components, 0.);
+    for (unsigned int i = 0; i < size(); ++i)
+      {
+        begin_values.push_back(n_values);
+        n_values += std::size_t(variants[i]) * lengths[i];
+        for (unsigned int k = begin[i]; k < begin[i + 1]; ++k)
+          if (columns[k] == static_cast<int>(i))
+            for (unsigned int c = 0; c < n_components; ++c)
+              if (const double value = row(i, c)[k - begin[i]]; value > 0.)
+                scale[i * n_components + c] = 1. / std::sqrt(value);
+      }
+  }
+} // namespace mortise

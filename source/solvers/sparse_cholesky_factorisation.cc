@@ -1,0 +1,161 @@
+// The panels of sparse_cholesky.h.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/operators/tensor_kernel.h>
+#include <mortise/solvers/front.h>
+#include <mortise/solvers/sparse_cholesky.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  /// Makes the panels, children in front of their parents.
+  template <typename Number>
+  class SparseCholesky<Number>::Factorisation
+  {
+  public:
+    Factorisation(const SparseCholesky &inverse, const GatheredRows &matrix)
+      : inverse(inverse)
+      , matrix(matrix)
+      , node_at(inverse.place.size())
+      , local(inverse.place.size(), -1)
+      , n_variants(inverse.supernodes.size(), 1)
+      , updates(inverse.supernodes.size())
+    {
+      for (unsigned int i = 0; i < node_at.size(); ++i)
+        node_at[inverse.place[i]] = i;
+      for (unsigned int s = 0; s < n_variants.size(); ++s)
+        {
+          const Supernode &supernode = inverse.supernodes[s];
+          for (unsigned int i = 0; i < supernode.width; ++i)
+            n_variants[s] =
+              std::max(n_variants[s],
+                       matrix.variants[node_at[supernode.first + i]]);
+          for (const unsigned int child : supernode.children)
+            n_variants[s] = std::max(n_variants[s], n_variants[child]);
+        }
+    }
+
+    /// The panels of supernode @p s; empty when it is not positive definite.
+    AlignedVector<Number>
+    process(const unsigned int s)
+    {
+      const Supernode &supernode = inverse.supernodes[s];
+      for (unsigned int i = 0; i < supernode.width; ++i)
+        local[supernode.first + i] = i;
+      for (unsigned int i = 0; i < supernode.rows.size(); ++i)
+        local[supernode.rows[i]] = supernode.width + i;
+      if (inverse.owner[s] == on_all_ranks)
+        receive(supernode.children);
+      const std::size_t size =
+        padded<Number>(supernode.height()) * supernode.width;
+      AlignedVector<Number> panels(size * n_variants[s]);
+      for (unsigned int variant = 0; variant < n_variants[s]; ++variant)
+        {
+          Front front(supernode);
+          add_matrix(front, supernode, variant);
+          for (const unsigned int child : supernode.children)
+            add_update(front, child, variant);
+          if (!front.eliminate())
+            return {};
+          updates[s].push_back(front.update());
+          const auto panel = front.panel<Number>();
+          std::copy(panel.begin(),
+                    panel.end(),
+                    panels.begin() + size * variant);
+        }
+      for (const unsigned int child : supernode.children)
+        updates[child].clear();
+      return panels;
+    }
+
+  private:
+    void
+    receive(const std::vector<unsigned int> &children)
+    {
+      for (const unsigned int child : children)
+        if (inverse.owner[child] != on_all_ranks)
+          {
+            const std::size_t height = inverse.supernodes[child].rows.size();
+            updates[child].resize(n_variants[child]);
+            for (auto &update : updates[child])
+              {
+                update.resize(height * height);
+                MPI_Bcast(update.data(),
+                          update.size(),
+                          MPI_DOUBLE,
+                          inverse.owner[child],
+                          inverse.comm);
+              }
+          }
+    }
+
+    void
+    add_matrix(Front             &front,
+               const Supernode   &supernode,
+               const unsigned int component) const
+    {
+      const auto scale = [&](const unsigned int node) {
+        return matrix.scale[node * matrix.n_components + component];
+      };
+      for (int j = 0; j < front.width; ++j)
+        {
+          const unsigned int i      = node_at[supernode.first + j];
+          const double      *values = matrix.row(i, component);
+          for (unsigned int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k)
+            if (const int column = matrix.columns[k];
+                inverse.place[column] >= supernode.first + j)
+              front(local[inverse.place[column]], j) =
+                values[k - matrix.begin[i]] * scale(i) * scale(column);
+        }
+    }
+
+    void
+    add_update(Front             &front,
+               const unsigned int child,
+               const unsigned int component) const
+    {
+      const auto &rows = inverse.supernodes[child].rows;
+      const auto &update =
+        updates[child][n_variants[child] == 1 ? 0 : component];
+      for (unsigned int j = 0; j < rows.size(); ++j)
+        for (unsigned int i = j; i < rows.size(); ++i)
+          front(local[rows[i]], local[rows[j]]) += update[i + rows.size() * j];
+    }
+
+    const SparseCholesky     &inverse;
+    const GatheredRows       &matrix;
+    std::vector<unsigned int> node_at;    ///< by place
+    std::vector<int>          local;      ///< in the front, by place
+    std::vector<unsigned int> n_variants; ///< by supernode
+    /// By supernode and variant, see Front::update().
+    std::vector<std::vector<std::vector<double>>> updates;
+  };
+
+  template <typename Number>
+  bool
+  SparseCholesky<Number>::factorise(const GatheredRows &matrix)
+  {
+    Factorisation factorisation(*this, matrix);
+    panels.resize(supernodes.size());
+    bool       positive = true;
+    const auto process  = [&](const unsigned int s) {
+      if (positive)
+        panels[s] = factorisation.process(s);
+      positive = positive && !panels[s].empty();
+    };
+    for (const unsigned int s : own)
+      process(s);
+    positive = Utilities::MPI::min(positive ? 1 : 0, comm) == 1;
+    for (const unsigned int s : common)
+      process(s);
+    return positive;
+  }
+
+  template bool
+  SparseCholesky<float>::factorise(const GatheredRows &);
+  template bool
+  SparseCholesky<double>::factorise(const GatheredRows &);
+} // namespace mortise

@@ -1,0 +1,180 @@
+// Proves that C = B T B^T by nodes is what the products with B and B^T make it,
+// where components have the same rows, where they have others and where some
+// lack them, and that its factorisation on all ranks and the one by parts
+// invert it, on every number of ranks.
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_MpiComm.h>
+#include <mortise/solvers/schwarz_inverse.h>
+#include <mortise/solvers/sparse_cholesky.h>
+#include <mortise/solvers/weighted_square.h>
+#include <verdict.h>
+
+#include <cmath>
+
+using namespace mortise;
+using namespace dealii;
+
+namespace
+{
+  /// Rows of @p n_entities entities in a line, up to three for each component;
+  /// those of an entity move the nodes beside it. At both ends one component
+  /// lacks rows or columns.
+  struct Line
+  {
+    int n_entities;
+
+    int
+    n_nodes() const
+    {
+      return 3 * n_entities + 6;
+    }
+
+    bool
+    is_row(const int entity, const int i, const int component) const
+    {
+      if (entity == 0 && component == 1)
+        return false;
+      if (entity == n_entities - 1 && component == 2)
+        return i > 0;
+      return i <= entity % 3;
+    }
+
+    bool
+    is_column(const int node, const int component) const
+    {
+      return !(node < 3 && component == 1);
+    }
+
+    double
+    value(const int entity, const int i, const int node) const
+    {
+      return std::cos(3. * entity + i + 0.7 * node) +
+             (node == 3 * entity + i ? 9. : 0.);
+    }
+
+    int
+    n_rows(const int entity) const
+    {
+      int n = 0;
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 3; ++i)
+          n += is_row(entity, i, c);
+      return n;
+    }
+
+    /// Entities are dealt out in their order.
+    Epetra_CrsMatrix
+    matrix() const
+    {
+      const Epetra_MpiComm comm(MPI_COMM_WORLD);
+      const Epetra_Map     entities(n_entities, 0, comm);
+      int                  n = 0;
+      for (int e = 0; e < entities.NumMyElements(); ++e)
+        n += n_rows(entities.GID(e));
+      const Epetra_Map rows(-1, n, 0, comm), nodes(n_nodes(), 0, comm),
+        columns(-1, 3 * nodes.NumMyElements(), 0, comm);
+      Epetra_CrsMatrix result(Copy, rows, 0);
+      int              row = rows.MinMyGID();
+      for (int k = 0; k < entities.NumMyElements(); ++k)
+        for (int c = 0; c < 3; ++c)
+          for (int e = entities.GID(k), i = 0; i < 3; ++i)
+            if (is_row(e, i, c))
+              {
+                for (int node = 3 * e; node < 3 * e + 8; ++node)
+                  if (is_column(node, c))
+                    {
+                      const double entry  = value(e, i, node);
+                      const int    column = 3 * node + c;
+                      result.InsertGlobalValues(row, 1, &entry, &column);
+                    }
+                ++row;
+              }
+      result.FillComplete(columns, rows);
+      return result;
+    }
+  };
+
+  void
+  check(const int n_entities)
+  {
+    const Line             line{n_entities};
+    const Epetra_CrsMatrix B       = line.matrix();
+    const auto             largest = [](const Epetra_Vector &x) {
+      double norm = 0.;
+      x.NormInf(&norm);
+      return norm;
+    };
+    const auto say =
+      [&](const std::string &what, const double got, const double allowed) {
+        if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+          verdict(std::to_string(n_entities) + " entities: " + what,
+                  got,
+                  allowed);
+      };
+    IndexSet owned(B.DomainMap().NumGlobalElements());
+    if (B.DomainMap().NumMyElements() > 0)
+      owned.add_range(B.DomainMap().MinMyGID(), B.DomainMap().MaxMyGID() + 1);
+    LevelVector<double> weights(owned, MPI_COMM_WORLD);
+    for (const auto i : owned)
+      weights(i) = 1. + i / 3 % 5;
+
+    const NodeRows C     = weighted_square(B, weights);
+    const auto     alike = std::count(C.variants.begin(), C.variants.end(), 1U);
+    const int      n_alike = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
+              n_nodes      = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);
+    say("nodes whose components differ", n_nodes - n_alike, 20);
+    say("without such", n_nodes - n_alike > 0 ? 0 : 1, 0);
+
+    Epetra_Vector y(B.RowMap()), expected(y), got(y), u(B.DomainMap());
+    for (int i = 0; i < y.MyLength(); ++i)
+      y[i] = std::sin(1. + B.GRID(i));
+    B.Multiply(true, y, u);
+    for (int i = 0; i < u.MyLength(); ++i)
+      u[i] *= weights.local_element(i);
+    B.Multiply(false, u, expected);
+    const auto    matrix = as_matrix(C, B.Comm());
+    Epetra_Vector by_node(matrix->RowMap()), product(by_node);
+    for (unsigned int i = 0; i < C.entries.size(); ++i)
+      if (C.entries[i] >= 0)
+        by_node[i] = y[C.entries[i]];
+    matrix->Multiply(false, by_node, product);
+    for (unsigned int i = 0; i < C.entries.size(); ++i)
+      if (C.entries[i] >= 0)
+        got[C.entries[i]] = product[i];
+    got.Update(-1., expected, 1.);
+    say("products", largest(got) / largest(expected), 1e-14);
+
+    SparseCholesky<double> inverse;
+    say("positive definite", inverse.initialize(C, MPI_COMM_WORLD) ? 0 : 1, 0);
+    inverse.solve(got, expected);
+    got.Update(-1., y, 1.);
+    say("inverse", largest(got), 1e-12);
+
+    SchwarzInverse by_parts;
+    const auto multiply = [&](Epetra_Vector &to, const Epetra_Vector &from) {
+      B.Multiply(true, from, u);
+      for (int i = 0; i < u.MyLength(); ++i)
+        u[i] *= weights.local_element(i);
+      B.Multiply(false, u, to);
+    };
+    say("by parts", by_parts.initialize(C, multiply, B.RowMap()) ? 0 : 1, 0);
+    say("by parts, corrections", by_parts.n_corrections(), 12);
+    by_parts.solve(got, expected);
+    got.Update(-1., y, 1.);
+    double        error = 0., norm = 0.;
+    Epetra_Vector C_error(got);
+    multiply(C_error, got);
+    got.Dot(C_error, &error);
+    y.Dot(expected, &norm);
+    say("by parts, energy of the error", std::sqrt(error / norm), 4e-6);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (const int n_entities : {5, 12, 200})
+    check(n_entities);
+}
