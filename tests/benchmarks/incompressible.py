@@ -17,6 +17,8 @@ import subprocess
 import tempfile
 import time
 
+from processor import openblas
+
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FILES = os.path.join(TOP, "doc", "incompressible")
 STAGES = ("spaces", "interface_search", "interface_clipping", "coupling", "bulk", "solver_setup", "solve")  # as run_time.py
@@ -52,7 +54,7 @@ def run(mortise, scene, settings, ranks=1):
         if ranks > 1:
             root = ["--allow-run-as-root"] if os.getuid() == 0 else []
             command = ["mpirun", "-q", *root, "-n", str(ranks), "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"] + command
-        environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", OPENBLAS_CORETYPE="SkylakeX")
+        environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", **openblas())
         start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
         result = subprocess.run(command, stdout=subprocess.DEVNULL, cwd=TOP, env=environment)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)

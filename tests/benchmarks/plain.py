@@ -18,6 +18,7 @@ import subprocess
 import tempfile
 import time
 
+from processor import openblas
 from scaling import busy, is_quiet, wait_for_quiet
 from scaling_report import machine, table
 
@@ -41,7 +42,7 @@ def parallel(ranks):
 
 def timed(command, ranks=1):
     """Output of the program, and seconds of the process, of all its cores, and whether it had the cores to itself."""
-    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "OPENBLAS_CORETYPE": "SkylakeX"}
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **openblas()}
     before, start = busy(), time.perf_counter()
     output = subprocess.run(parallel(ranks) + command, check=True, capture_output=True, text=True, env=environment).stdout
     seconds, after = time.perf_counter() - start, busy()

@@ -25,6 +25,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plot
 import numpy
 
+from processor import openblas
+
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 STAGES = ("spaces", "interface_search", "interface_clipping", "coupling", "bulk", "solver_setup", "solve")
 COUPLING = STAGES[1:4]
@@ -132,7 +134,7 @@ def numbers_of_mortise(file_name):
 def measure(job, patience, work):
     """Numbers of one run, or None if it failed."""
     mortise = job["program"] == "Mortise"
-    environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_CORETYPE="SkylakeX", LAMEP="1e-4",
+    environment = dict(os.environ, OMP_NUM_THREADS="1", **openblas(), LAMEP="1e-4",
                        OPENBLAS_NUM_THREADS=str(job["cores"] if job["program"] == "GetFEM" else 1))
     wait_for_cores(job["cores"], patience)
     start, (busy, own) = time.perf_counter(), busy_and_own()

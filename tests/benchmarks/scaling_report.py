@@ -31,14 +31,13 @@ def value(row, quantity):
     return row["bytes"] + row["collective_bytes"] if quantity == "bytes" else row[quantity]
 
 
-def fit(rows, quantity, gathered=False, known=None):
-    """Coefficients of the terms beside the known ones: least squares of relative errors, none negative, few terms, and such as
+def fit(rows, quantity, gathered=False):
+    """Coefficients of the terms: least squares of relative errors, none negative, few terms, and such as
     grow with all cells or a whole interface only where errors are half as large again without them (a whole
     interface at once where the solver is known to gather it)."""
     rows = [r for r in rows if value(r, quantity) > 0 and (r["ranks"] > 1 or quantity == "work")]
-    known = known or {}
-    terms = [t for t in TERMS[quantity] if t not in known]
-    amount = np.array([value(r, quantity) - evaluate(known, quantity, r["dofs"] / 1e6, r["ranks"]) for r in rows])
+    terms = list(TERMS[quantity])
+    amount = np.array([value(r, quantity) for r in rows])
     weight = np.array([1. if "large" in r["scene"] else 0.5 for r in rows])
     matrix = np.array([[TERMS[quantity][t](r["dofs"] / 1e6, r["ranks"]) for t in terms] for r in rows])
     matrix *= (weight / amount)[:, None]
@@ -51,7 +50,7 @@ def fit(rows, quantity, gathered=False, known=None):
             error = np.linalg.norm(part @ c - weight) / np.linalg.norm(weight) * penalty + 1e-9 * length
             if (c > 0).all() and error < best:
                 best, found = error, {terms[i]: x for i, x in zip(columns, c)}
-    return {**found, **known}
+    return found
 
 
 def evaluate(coefficients, quantity, n, p):
@@ -60,16 +59,8 @@ def evaluate(coefficients, quantity, n, p):
 
 def fits(rows, family):
     counts = [r for r in pick(rows, study="counts") if r["scene"].startswith(family)]
-    model = {s: {q: fit(pick(counts, stage=s), q, s in ("solver_setup", "solve")) for q in TERMS} for s in STAGES}
-    # Known from the program: in a solve MUMPS sends two messages from each rank to all others (dmumps_mcast2), and
-    # right-hand sides and solutions pass through rank 0. Per iteration two solves on the interface, with factorised
-    # vertices one more.
-    last = max(pick(counts, stage="solve"), key=lambda r: r["dofs"])
-    solves = (2 + (family == "p4")) * last["iterations"]
-    model["solve"]["messages"] = fit(pick(counts, stage="solve"), "messages", known={"p": 2. * solves})
-    through = 8 * 2 * last["iterations"] * last["multipliers"] / (last["dofs"] / 1e6)**(2 / 3)
-    model["solve"]["bytes"]["n^2/3"] = max(through, model["solve"]["bytes"].get("n^2/3", 0.))
-    return model
+    together = family == "p4"  # multipliers are on all ranks
+    return {s: {q: fit(pick(counts, stage=s), q, together and s in ("solver_setup", "solve")) for q in TERMS} for s in STAGES}
 
 
 def parts(model, stage, n, p):
@@ -177,7 +168,7 @@ def model_tables(rows):
         yield from table(["stage", "work", "messages", "bytes", "collectives"],
                          [[s, *(formula(model[s][q]) for q in TERMS)] for s in STAGES])
         lines = []
-        for n in (1e1, 1e2, 1e3):
+        for n in SIZES[family]:
             for p in (64, 1000, 10000):
                 times = seconds(model, n, p)
                 efficiency = sum(seconds(model, n, 1).values()) / p / sum(times.values())
@@ -187,7 +178,9 @@ def model_tables(rows):
         yield from table(["dofs", "ranks", "s", "efficiency", "most of it"], lines)
 
 
-FAMILIES = {"p2": "Degree 2, vertices by algebraic multigrid", "p4": "Degree 4, vertices factorised"}
+FAMILIES = {"p2": "Degree 2, vertices by algebraic multigrid, multipliers by parts: large scenes",
+            "p4": "Degree 4, vertices and multipliers factorised on all ranks: scenes up to 20,000 dofs of vertices and 30,000 multipliers"}
+SIZES = {"p2": (1e1, 1e2, 1e3), "p4": (0.3, 1.)}  # millions of dofs of the model's tables
 PARTS = ("work", "messages", "bytes", "collectives")
 
 
@@ -217,8 +210,6 @@ def picture(rows, path):
         total = np.array([sum(t.values()) for t in times])
         axis.loglog(ranks, total, "k", lw=2.5, label="all stages, degree 2")
         axis.loglog(ranks, total[0] / ranks, "k:", label="ideal")
-        other = fits(rows, "p4")
-        axis.loglog(ranks, [sum(seconds(other, n, p).values()) for p in ranks], "k--", lw=1, label="all stages, degree 4, vertices factorised")
         axis.set_title(f"model, {n:g} million dofs")
         axis.set_ylabel("seconds")
         axis.legend(fontsize=8)
