@@ -34,6 +34,8 @@ namespace mortise
     supernodes = std::move(tree.supernodes);
     place      = std::move(tree.place);
     owner      = deal_out(supernodes, n_ranks);
+    if (n_components == dim && n_ranks >= static_cast<int>(dim))
+      common_component = rank % static_cast<int>(dim);
     list_parts();
     vector.resize(place.size() * n_components);
     exchange.resize(vector.size());
@@ -164,8 +166,13 @@ namespace mortise
   {
     const std::size_t size =
       padded<Number>(supernodes[s].height()) * supernodes[s].width;
-    const Number *panel = panels[s].begin();
-    if (n_components == dim && panels[s].size() == size)
+    const Number *panel    = panels[s].begin();
+    const bool    is_alike = panels[s].size() == size;
+    if (owner[s] == on_all_ranks && common_component >= 0)
+      visit(panel + (is_alike ? 0 : common_component * size),
+            std::integral_constant<unsigned int, 1>(),
+            common_component);
+    else if (n_components == dim && is_alike)
       visit(panel, std::integral_constant<unsigned int, dim>(), 0);
     else
       for (unsigned int c = 0; c < n_components; ++c)
@@ -188,6 +195,23 @@ namespace mortise
     for_each_panel(s, [&](const Number *panel, const auto n, const auto c) {
       backward<n()>(s, panel, c);
     });
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky<Number>::add_up_common() const
+  {
+    const unsigned int n = n_components;
+    for (unsigned int i = 0; i < common_places.size(); ++i)
+      std::copy_n(&vector[common_places[i] * n], n, &exchange[i * n]);
+    MPI_Allreduce(MPI_IN_PLACE,
+                  exchange.data(),
+                  static_cast<int>(common_places.size() * n),
+                  Utilities::MPI::mpi_type_id_for_type<Number>,
+                  MPI_SUM,
+                  comm);
+    for (unsigned int i = 0; i < common_places.size(); ++i)
+      std::copy_n(&exchange[i * n], n, &vector[common_places[i] * n]);
   }
 
   template <typename Number>
@@ -225,22 +249,20 @@ namespace mortise
       forward(s);
     if (!common.empty())
       {
-        for (unsigned int i = 0; i < common_places.size(); ++i)
-          copy(&vector[common_places[i] * n_components],
-               &exchange[i * n_components]);
-        MPI_Allreduce(MPI_IN_PLACE,
-                      exchange.data(),
-                      static_cast<int>(common_places.size() * n_components),
-                      type,
-                      MPI_SUM,
-                      comm);
-        for (unsigned int i = 0; i < common_places.size(); ++i)
-          copy(&exchange[i * n_components],
-               &vector[common_places[i] * n_components]);
+        add_up_common();
         for (const unsigned int s : common)
           forward(s);
         for (auto s = common.rbegin(); s != common.rend(); ++s)
           backward(*s);
+        if (common_component >= 0)
+          {
+            // each component from one rank
+            for (const unsigned int i : common_places)
+              for (unsigned int c = 0; c < dim; ++c)
+                if (static_cast<int>(c) != rank)
+                  vector[i * dim + c] = 0;
+            add_up_common();
+          }
       }
     for (auto s = own.rbegin(); s != own.rend(); ++s)
       backward(*s);

@@ -47,21 +47,22 @@ namespace mortise
         local[supernode.first + i] = i;
       for (unsigned int i = 0; i < supernode.rows.size(); ++i)
         local[supernode.rows[i]] = supernode.width + i;
-      if (inverse.owner[s] == on_all_ranks)
-        receive(supernode.children);
       const std::size_t size =
         padded<Number>(supernode.height()) * supernode.width;
       AlignedVector<Number> panels(size * n_variants[s]);
       for (unsigned int variant = 0; variant < n_variants[s]; ++variant)
         {
+          updates[s].emplace_back();
+          if (!is_needed(s, variant))
+            continue;
           Front front(supernode);
           add_matrix(front, supernode, variant);
           for (const unsigned int child : supernode.children)
             add_update(front, child, variant);
           if (!front.eliminate())
             return {};
-          updates[s].push_back(front.update());
-          const auto panel = front.panel<Number>();
+          updates[s].back() = front.update();
+          const auto panel  = front.panel<Number>();
           std::copy(panel.begin(),
                     panel.end(),
                     panels.begin() + size * variant);
@@ -71,11 +72,11 @@ namespace mortise
       return panels;
     }
 
-  private:
+    /// What other ranks leave to supernode @p s, which is on all. Collective.
     void
-    receive(const std::vector<unsigned int> &children)
+    receive(const unsigned int s)
     {
-      for (const unsigned int child : children)
+      for (const unsigned int child : inverse.supernodes[s].children)
         if (inverse.owner[child] != on_all_ranks)
           {
             const std::size_t height = inverse.supernodes[child].rows.size();
@@ -90,6 +91,16 @@ namespace mortise
                           inverse.comm);
               }
           }
+    }
+
+  private:
+    /// Is a variant of the panel of supernode @p s needed on this rank?
+    bool
+    is_needed(const unsigned int s, const unsigned int variant) const
+    {
+      return inverse.owner[s] != on_all_ranks || n_variants[s] == 1 ||
+             inverse.common_component < 0 ||
+             static_cast<int>(variant) == inverse.common_component;
     }
 
     void
@@ -150,8 +161,11 @@ namespace mortise
       process(s);
     positive = Utilities::MPI::min(positive ? 1 : 0, comm) == 1;
     for (const unsigned int s : common)
-      process(s);
-    return positive;
+      {
+        factorisation.receive(s);
+        process(s);
+      }
+    return Utilities::MPI::min(positive ? 1 : 0, comm) == 1;
   }
 
   template bool

@@ -42,6 +42,9 @@ namespace mortise
     template <typename Visit>
     void
     for_each_panel(unsigned int s, const Visit &visit) const;
+    /// Sums over the ranks of what is on all of them.
+    void
+    add_up_common() const;
     void
     forward(unsigned int s) const;
     void
@@ -62,7 +65,9 @@ namespace mortise
     std::vector<double>       scale;          ///< by owned node, component
     std::vector<unsigned int> place;          ///< of each node in the order
     std::vector<Supernode>    supernodes;
-    std::vector<int>          owner;         ///< rank or on_all_ranks
+    std::vector<int>          owner; ///< rank or on_all_ranks
+    /// The one that this rank treats of what is on all ranks; -1: each.
+    int                       common_component = -1;
     std::vector<unsigned int> own, common;   ///< supernodes
     std::vector<unsigned int> common_places; ///< of nodes
     /// Nodes, components, of subtrees.
