@@ -373,21 +373,20 @@ namespace mortise
 
   template <typename Number>
   void
-  LevelOperator<Number>::node_diagonal(LevelVector<Number> &mean) const
+  LevelOperator<Number>::average_components(LevelVector<Number> &diagonal) const
   {
-    diagonal(mean);
     for (const unsigned int place : level.held)
-      mean.local_element(place) = 0;
-    for (unsigned int k = 0; k < mean.locally_owned_size(); k += dim)
+      diagonal.local_element(place) = 0;
+    for (unsigned int k = 0; k < diagonal.locally_owned_size(); k += dim)
       {
-        Number *node = &mean.local_element(k);
+        Number *node = &diagonal.local_element(k);
         if (const auto n = dim - std::count(node, node + dim, Number()); n > 0)
           std::fill_n(node,
                       dim,
                       std::accumulate(node, node + dim, Number()) / n);
       }
     for (const unsigned int place : level.held)
-      mean.local_element(place) = 1;
+      diagonal.local_element(place) = 1;
   }
 
   template class LevelOperator<float>;

@@ -3,6 +3,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <mortise/solvers/chebyshev.h>
+#include <mortise/solvers/rough.h>
 
 #include <cmath>
 
@@ -18,7 +19,8 @@ namespace mortise
     : matrix(matrix)
     , correction(correction)
   {
-    matrix.node_diagonal(inverse_diagonal);
+    matrix.diagonal(inverse_diagonal);
+    matrix.average_components(inverse_diagonal);
     for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
       inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
     matrix.initialize(r);
@@ -37,8 +39,8 @@ namespace mortise
     LevelVector<Number> p(r), q(r);
     const auto          first = r.get_partitioner()->local_range().first;
     for (unsigned int i = 0; i < r.locally_owned_size(); ++i)
-      r.local_element(i) = std::sqrt(1 / inverse_diagonal.local_element(i)) *
-                           (((first + i) * 2654435761U) % 1000 / 500. - 1.);
+      r.local_element(i) =
+        std::sqrt(1 / inverse_diagonal.local_element(i)) * rough(first + i);
     matrix.clear_held(r);
     std::vector<double> alpha, beta;
     double              rho_old = 0.;

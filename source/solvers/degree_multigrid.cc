@@ -52,9 +52,8 @@ namespace mortise
       initialize_vertices(all.back(), system.communicator);
       if (system.owned_multiplier.size() > 0)
         {
-          product = std::make_unique<CouplingProduct<Number>>(system);
-          lifting =
-            std::make_unique<DiagonalLifting>(system, *product, max_gathered);
+          product    = std::make_unique<CouplingProduct<Number>>(system);
+          lifting    = std::make_unique<DiagonalLifting>(system, max_gathered);
           valid      = lifting->is_valid() && valid;
           correction = std::make_unique<InterfaceCorrection<Number>>(
             *product, *lifting, system.coupling.trilinos_matrix().RowMap());
@@ -182,10 +181,10 @@ namespace mortise
   std::string
   DegreeMultigrid::description() const
   {
-    const bool by_parts =
-      implementation->lifting && implementation->lifting->is_by_parts();
+    const std::string multipliers =
+      implementation->lifting ? implementation->lifting->description() : "";
     return "multigrid in the degree, " +
            implementation->vertex_solver.description() +
-           (by_parts ? ", multipliers by parts" : "");
+           (multipliers.empty() ? "" : ", " + multipliers);
   }
 } // namespace mortise

@@ -4,6 +4,7 @@
 
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/find_free_pressures.h>
+#include <mortise/solvers/rough.h>
 #include <mortise/solvers/scaled_residual.h>
 
 #include <cmath>
@@ -69,7 +70,7 @@ namespace mortise
       Vector any(system.owned_multiplier, system.communicator), reached(force),
         outside(force);
       for (unsigned int i = 0; i < any.locally_owned_size(); ++i)
-        any.begin()[i] = 1. + (i * 2654435761U) % 1000 / 1000.;
+        any.begin()[i] = 1.5 + 0.5 * rough(i);
       system.coupling.Tvmult(reached, any);
       for (unsigned int i = 0; i < reached.locally_owned_size(); ++i)
         if (reached.begin()[i] != 0.)

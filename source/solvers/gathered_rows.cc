@@ -3,6 +3,7 @@
 
 #include <mortise/solvers/gathered_rows.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -47,16 +48,23 @@ namespace mortise
     begin.assign(lengths.size() + 1, 0);
     std::partial_sum(lengths.begin(), lengths.end(), begin.begin() + 1);
     std::size_t n_values = 0;
-    scale.assign(lengths.size() * n_components, 0.);
+    scale.assign(lengths.size(), 0.);
     for (unsigned int i = 0; i < size(); ++i)
       {
         begin_values.push_back(n_values);
         n_values += std::size_t(variants[i]) * lengths[i];
         for (unsigned int k = begin[i]; k < begin[i + 1]; ++k)
           if (columns[k] == static_cast<int>(i))
-            for (unsigned int c = 0; c < n_components; ++c)
-              if (const double value = row(i, c)[k - begin[i]]; value > 0.)
-                scale[i * n_components + c] = 1. / std::sqrt(value);
+            {
+              double least = row(i, 0)[k - begin[i]], largest = least;
+              for (unsigned int c = 1; c < n_components; ++c)
+                {
+                  least   = std::min(least, row(i, c)[k - begin[i]]);
+                  largest = std::max(largest, row(i, c)[k - begin[i]]);
+                }
+              if (least > 0.)
+                scale[i] = 1. / std::sqrt(largest);
+            }
       }
   }
 } // namespace mortise

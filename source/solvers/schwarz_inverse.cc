@@ -3,12 +3,11 @@
 
 #include <boost/serialization/utility.hpp>
 
-#include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
+#include <mortise/solvers/rough.h>
 #include <mortise/solvers/schwarz_inverse.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -24,14 +23,13 @@ namespace mortise
     /// Lengths, variants and columns of rows, and their values.
     using RowPackage = std::pair<std::vector<int>, std::vector<double>>;
 
-    /// Appends rows to @p to, with columns numbered by @p local, others left
-    /// out.
+    /// Appends rows to @p to, with columns that are local to @p matrix.
     class RowCollector
     {
     public:
-      RowCollector(NodeRows &to, const std::map<int, int> &local)
+      RowCollector(NodeRows &to, const NodeMatrix &matrix)
         : to(to)
-        , local(local)
+        , matrix(matrix)
       {}
 
       void
@@ -42,10 +40,10 @@ namespace mortise
       {
         kept.clear();
         for (int k = 0; k < length; ++k)
-          if (const auto known = local.find(columns[k]); known != local.end())
+          if (const int local = matrix.local(columns[k]); local >= 0)
             {
               kept.push_back(k);
-              to.columns.push_back(known->second);
+              to.columns.push_back(local);
             }
         to.lengths.push_back(kept.size());
         to.variants.push_back(variants);
@@ -55,9 +53,9 @@ namespace mortise
       }
 
     private:
-      NodeRows                 &to;
-      const std::map<int, int> &local;
-      std::vector<int>          kept;
+      NodeRows         &to;
+      const NodeMatrix &matrix;
+      std::vector<int>  kept;
     };
 
     /// The rows of @p nodes, local.
@@ -83,27 +81,22 @@ namespace mortise
       return package;
     }
 
-    /// The square matrix of the owned nodes of @p rows and @p ghosts, sorted,
-    /// numbered in this order. @p starts: first node by rank. Collective.
+    /// What owned nodes and ghosts have among each other, in this order.
+    /// Collective.
     NodeRows
-    overlapping_matrix(const NodeRows         &rows,
-                       const std::vector<int> &ghosts,
-                       const std::vector<int> &starts,
-                       const MPI_Comm          comm)
+    overlapping_rows(const NodeMatrix &matrix)
     {
-      const int first = starts[Utilities::MPI::this_mpi_process(comm)],
-                n     = static_cast<int>(rows.size());
-      std::map<int, int> local;
-      for (int i = 0; i < n; ++i)
-        local.emplace_hint(local.end(), first + i, i);
+      const MPI_Comm  comm   = matrix.communicator();
+      const NodeRows &rows   = matrix.rows();
+      const auto     &starts = matrix.starts();
+      const int       n      = static_cast<int>(rows.size());
       std::map<unsigned int, std::vector<int>> wanted;
-      for (unsigned int g = 0; g < ghosts.size(); ++g)
+      for (const int ghost : matrix.ghosts())
         {
-          local.emplace(ghosts[g], n + static_cast<int>(g));
           const auto rank =
-            std::upper_bound(starts.begin(), starts.end(), ghosts[g]) -
+            std::upper_bound(starts.begin(), starts.end(), ghost) -
             starts.begin() - 1;
-          wanted[rank].push_back(ghosts[g] - starts[rank]);
+          wanted[rank].push_back(ghost - starts[rank]);
         }
 
       std::vector<std::size_t> first_column(n + 1), first_value(n + 1);
@@ -118,9 +111,9 @@ namespace mortise
            Utilities::MPI::some_to_some(comm, wanted))
         packages[rank] = pack(rows, nodes, first_column, first_value);
 
-      NodeRows matrix;
-      matrix.n_components = rows.n_components;
-      RowCollector collector(matrix, local);
+      NodeRows result;
+      result.n_components = rows.n_components;
+      RowCollector collector(result, matrix);
       for (int i = 0; i < n; ++i)
         collector.add(rows.lengths[i],
                       rows.variants[i],
@@ -140,60 +133,28 @@ namespace mortise
               value += length * variants;
             }
         }
-      matrix.entries.resize(matrix.size() * matrix.n_components);
-      std::iota(matrix.entries.begin(), matrix.entries.end(), 0);
-      return matrix;
+      result.entries.resize(result.size() * result.n_components);
+      std::iota(result.entries.begin(), result.entries.end(), 0);
+      return result;
     }
   } // namespace
 
   bool
-  SchwarzInverse::initialize(const NodeRows   &rows,
-                             Product           matrix_product,
-                             const Epetra_Map &map)
+  SchwarzInverse::initialize(std::shared_ptr<const NodeMatrix> node_matrix)
   {
-    const MPI_Comm comm =
-      dynamic_cast<const Epetra_MpiComm &>(map.Comm()).Comm();
-    product = std::move(matrix_product);
-    entries = rows.entries;
-    const auto counts =
-      Utilities::MPI::all_gather(comm, static_cast<int>(rows.size()));
-    std::vector<int> starts(counts.size() + 1);
-    std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
-    std::vector<int>   ghosts;
-    for (const int node : rows.columns)
-      if (node < starts[rank] || node >= starts[rank + 1])
-        ghosts.push_back(node);
-    std::sort(ghosts.begin(), ghosts.end());
-    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-
-    const unsigned int n_components = rows.n_components;
-    IndexSet           owned(starts.back() * n_components),
-      relevant(starts.back() * n_components);
-    owned.add_range(starts[rank] * n_components,
-                    starts[rank + 1] * n_components);
-    for (const int node : ghosts)
-      relevant.add_range(node * n_components, (node + 1) * n_components);
-    owned.compress();
-    relevant.compress();
-    residual.reinit(owned, relevant, comm);
-    correction.reinit(residual);
-
-    const NodeRows overlapping = overlapping_matrix(rows, ghosts, starts, comm);
-    const Epetra_Map local_map(static_cast<int>(overlapping.entries.size()),
-                               0,
-                               Epetra_MpiComm(MPI_COMM_SELF));
-    local_residual =
-      std::make_unique<Epetra_Vector>(View, local_map, residual.begin());
-    local_correction =
-      std::make_unique<Epetra_Vector>(View, local_map, correction.begin());
+    matrix               = std::move(node_matrix);
+    NodeRows overlapping = overlapping_rows(*matrix);
+    local_map =
+      std::make_unique<Epetra_Map>(static_cast<int>(overlapping.entries.size()),
+                                   0,
+                                   Epetra_MpiComm(MPI_COMM_SELF));
+    local_x = std::make_unique<Epetra_Vector>(*local_map);
     for (auto *vector : {&r, &z, &q})
-      *vector = std::make_unique<Epetra_Vector>(map);
-    const bool positive = local.initialize(overlapping, MPI_COMM_SELF);
-    if (Utilities::MPI::min(positive ? 1 : 0, comm) == 0)
-      return false;
-
-    return count_solves();
+      *vector = std::make_unique<Epetra_Vector>(matrix->map());
+    const bool positive =
+      local.initialize(std::move(overlapping), MPI_COMM_SELF);
+    return Utilities::MPI::min(positive ? 1 : 0, matrix->communicator()) == 1 &&
+           count_solves();
   }
 
   bool
@@ -201,8 +162,8 @@ namespace mortise
   {
     Epetra_Vector x(*r);
     for (int i = 0; i < x.MyLength(); ++i)
-      x[i] = (x.Map().GID(i) * 2654435761U) % 1000 / 500. - 1.;
-    product(*r, x); // of the matrix's scale
+      x[i] = rough(x.Map().GID(i));
+    matrix->vmult(*r, x); // of the matrix's scale
     double first = 0., norm = 0.;
     for (n_solves = 0; n_solves < max_solves; ++n_solves)
       {
@@ -215,7 +176,7 @@ namespace mortise
             n_solves = std::max(n_solves, 1U);
             return true;
           }
-        product(*q, *z);
+        matrix->vmult(*q, *z);
         r->Update(-1., *q, 1.);
       }
     return false;
@@ -225,14 +186,13 @@ namespace mortise
   SchwarzInverse::solve_local(Epetra_Vector       &to,
                               const Epetra_Vector &from) const
   {
-    residual.zero_out_ghost_values();
-    for (unsigned int i = 0; i < entries.size(); ++i)
-      residual.local_element(i) = entries[i] < 0 ? 0. : from[entries[i]];
-    residual.update_ghost_values();
-    local.solve(*local_correction, *local_residual);
+    // a view of what is only read
+    double *nodal = const_cast<double *>(matrix->at_nodes(from).begin());
+    local.solve(*local_x, Epetra_Vector(View, *local_map, nodal));
+    const auto &entries = matrix->rows().entries;
     for (unsigned int i = 0; i < entries.size(); ++i)
       if (entries[i] >= 0)
-        to[entries[i]] = correction.local_element(i);
+        to[entries[i]] = (*local_x)[i];
   }
 
   void
@@ -242,7 +202,7 @@ namespace mortise
     solve_local(x, *r);
     for (unsigned int k = 1; k < n_solves; ++k)
       {
-        product(*q, k == 1 ? x : *z);
+        matrix->vmult(*q, k == 1 ? x : *z);
         r->Update(-1., *q, 1.);
         solve_local(*z, *r);
         x.Update(1., *z, 1.);

@@ -28,8 +28,8 @@ namespace mortise
     std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
     if (std::find(all.scale.begin(), all.scale.end(), 0.) != all.scale.end())
       return false;
-    scale.assign(all.scale.begin() + starts[rank],
-                 all.scale.begin() + starts[rank + 1]);
+    scale.assign(all.scale.begin() + starts[rank] / n_components,
+                 all.scale.begin() + starts[rank + 1] / n_components);
     EliminationTree tree(all);
     supernodes = std::move(tree.supernodes);
     place      = std::move(tree.place);
@@ -199,19 +199,41 @@ namespace mortise
 
   template <typename Number>
   void
+  SparseCholesky<Number>::pack(const unsigned int *places,
+                               const unsigned int  n,
+                               Number             *to) const
+  {
+    for (unsigned int i = 0; i < n; ++i)
+      std::copy_n(&vector[places[i] * n_components],
+                  n_components,
+                  to + i * n_components);
+  }
+
+  template <typename Number>
+  void
+  SparseCholesky<Number>::unpack(const unsigned int *places,
+                                 const unsigned int  n,
+                                 const Number       *from) const
+  {
+    for (unsigned int i = 0; i < n; ++i)
+      std::copy_n(from + i * n_components,
+                  n_components,
+                  &vector[places[i] * n_components]);
+  }
+
+  template <typename Number>
+  void
   SparseCholesky<Number>::add_up_common() const
   {
-    const unsigned int n = n_components;
-    for (unsigned int i = 0; i < common_places.size(); ++i)
-      std::copy_n(&vector[common_places[i] * n], n, &exchange[i * n]);
+    const unsigned int n = common_places.size();
+    pack(common_places.data(), n, exchange.data());
     MPI_Allreduce(MPI_IN_PLACE,
                   exchange.data(),
-                  static_cast<int>(common_places.size() * n),
+                  static_cast<int>(n * n_components),
                   Utilities::MPI::mpi_type_id_for_type<Number>,
                   MPI_SUM,
                   comm);
-    for (unsigned int i = 0; i < common_places.size(); ++i)
-      std::copy_n(&exchange[i * n], n, &vector[common_places[i] * n]);
+    unpack(common_places.data(), n, exchange.data());
   }
 
   template <typename Number>
@@ -231,16 +253,13 @@ namespace mortise
                        type,
                        comm);
     };
-    const auto copy = [n = n_components](const Number *from, Number *to) {
-      std::copy_n(from, n, to);
-    };
     Number *mine = exchange.data() + starts[rank];
     for (unsigned int i = 0; i < entries.size(); ++i)
-      mine[i] = entries[i] < 0 ? Number() :
-                                 static_cast<Number>(scale[i] * b[entries[i]]);
+      mine[i] = entries[i] < 0 ?
+                  Number() :
+                  static_cast<Number>(scale[i / n_components] * b[entries[i]]);
     gather(counts, starts);
-    for (unsigned int i = 0; i < place.size(); ++i)
-      copy(&exchange[i * n_components], &vector[place[i] * n_components]);
+    unpack(place.data(), place.size(), exchange.data());
 
     if (rank > 0) // what all have counts once
       for (const unsigned int i : common_places)
@@ -268,21 +287,19 @@ namespace mortise
       backward(*s);
     if (n_ranks > 1)
       {
-        for (int i = part_starts[rank]; i < part_starts[rank + 1];
-             i += n_components)
-          copy(&vector[part_places[i / n_components] * n_components],
-               &exchange[i]);
+        const int first = part_starts[rank];
+        pack(part_places.data() + first / n_components,
+             part_counts[rank] / n_components,
+             exchange.data() + first);
         gather(part_counts, part_starts);
-        for (unsigned int i = 0; i < part_places.size(); ++i)
-          copy(&exchange[i * n_components],
-               &vector[part_places[i] * n_components]);
+        unpack(part_places.data(), part_places.size(), exchange.data());
       }
     const unsigned int first = starts[rank] / n_components;
     for (unsigned int i = 0; i < entries.size(); ++i)
       if (entries[i] >= 0)
-        x[entries[i]] =
-          scale[i] * vector[place[first + i / n_components] * n_components +
-                            i % n_components];
+        x[entries[i]] = scale[i / n_components] *
+                        vector[place[first + i / n_components] * n_components +
+                               i % n_components];
   }
 
   template class SparseCholesky<float>;

@@ -108,9 +108,6 @@ namespace mortise
                const Supernode   &supernode,
                const unsigned int component) const
     {
-      const auto scale = [&](const unsigned int node) {
-        return matrix.scale[node * matrix.n_components + component];
-      };
       for (int j = 0; j < front.width; ++j)
         {
           const unsigned int i      = node_at[supernode.first + j];
@@ -119,7 +116,8 @@ namespace mortise
             if (const int column = matrix.columns[k];
                 inverse.place[column] >= supernode.first + j)
               front(local[inverse.place[column]], j) =
-                values[k - matrix.begin[i]] * scale(i) * scale(column);
+                values[k - matrix.begin[i]] * matrix.scale[i] *
+                matrix.scale[column];
         }
     }
 

@@ -229,8 +229,12 @@ namespace mortise
                 {
                   // no other row couples with it
                   const auto at =
-                    std::lower_bound(columns.begin(), columns.end(), i);
-                  values(e, i, c)[at - columns.begin()] = 1.;
+                    std::lower_bound(columns.begin(), columns.end(), i) -
+                    columns.begin();
+                  double largest = 0.;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    largest = std::max(largest, values(e, i, d)[at]);
+                  values(e, i, c)[at] = largest > 0. ? largest : 1.;
                 }
           }
       }
@@ -321,14 +325,13 @@ namespace mortise
     scaled_transpose(const Epetra_CrsMatrix    &B,
                      const LevelVector<double> &weights)
     {
-      const bool        one_rank = B.Comm().NumProc() == 1;
-      const Epetra_Map &owned    = one_rank ? B.ColMap() : B.DomainMap();
-      auto              scaled   = transpose(B, owned);
+      const Epetra_Map &owned  = B.DomainMap();
+      auto              scaled = transpose(B, owned);
       Epetra_Vector     scale(owned);
       for (int i = 0; i < scale.MyLength(); ++i)
-        scale[i] = weights.local_element(B.DomainMap().LID(owned.GID(i)));
+        scale[i] = weights.local_element(i);
       scaled->LeftScale(scale);
-      if (one_rank)
+      if (B.Comm().NumProc() == 1)
         return scaled;
       auto on_columns = std::make_unique<Epetra_CrsMatrix>(Copy, B.ColMap(), 0);
       on_columns->Import(*scaled, Epetra_Import(B.ColMap(), owned), Insert);

@@ -85,10 +85,10 @@ namespace mortise
     void
     diagonal(LevelVector<Number> &diagonal) const;
 
-    /// The mean over the components of a node that are not held; 1 at those
-    /// that are. Collective.
+    /// Each value of diagonal() by the mean over the components of its node
+    /// that are not held; 1 at those that are.
     void
-    node_diagonal(LevelVector<Number> &mean) const;
+    average_components(LevelVector<Number> &diagonal) const;
 
     /// Zero at held components.
     void

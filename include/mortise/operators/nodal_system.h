@@ -85,12 +85,11 @@ namespace mortise
     }
 
     /// The same, its mean over the components of a node that are not held.
-    /// Collective.
     LevelVector<double>
     node_diagonal() const
     {
-      LevelVector<double> mean;
-      stiffness->node_diagonal(mean);
+      LevelVector<double> mean(stiffness_diagonal);
+      stiffness->average_components(mean);
       return mean;
     }
 

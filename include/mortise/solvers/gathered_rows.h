@@ -29,7 +29,8 @@ namespace mortise
     std::vector<unsigned int> variants; ///< as in NodeRows
     std::vector<std::size_t>  begin_values;
     std::vector<double>       values;
-    /// To a diagonal of ones, by node and component; 0: not possible.
+    /// To diagonals of at most one, by node: its components share it, as they
+    /// share rows in which it is a column. 0: not possible.
     std::vector<double> scale;
   };
 } // namespace mortise

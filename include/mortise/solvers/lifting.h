@@ -7,6 +7,10 @@
 #include <mortise/solvers/sparse_cholesky.h>
 #include <mortise/solvers/sparse_factorization.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 namespace mortise
 {
   /// T symmetric, positive semi-definite and positive on the range of B^T, and
@@ -23,32 +27,26 @@ namespace mortise
       return valid;
     }
 
-    /// Is C on no rank as a whole?
-    bool
-    is_by_parts() const
-    {
-      return distributed != nullptr;
-    }
+    /// How C is inverted; empty for what does in most scenes, a factorisation
+    /// in single precision that all ranks share.
+    std::string
+    description() const;
 
     /// dst = T src. Collective.
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
 
-    /// y = C^{-1} jump, to five digits at least where single precision was
-    /// allowed; both with the rows of B. Collective.
+    /// y = C^{-1} jump, to four digits at least in the norm of C; both with the
+    /// rows of B. Collective.
     void
     apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const;
 
   protected:
     /// The rows of C, entries those of vectors on @p map; in single precision
-    /// where that is accurate enough. @p product: with C, likewise; it is kept.
-    /// @p max_gathered: the largest number of rows that all ranks may have, if
-    /// they can do without. Collective.
+    /// where that is accurate enough. @p max_gathered: the largest number of
+    /// rows that all ranks may have, if they can do without. Collective.
     void
-    factorise(const NodeRows         &schur,
-              SchwarzInverse::Product product,
-              const Epetra_Map       &map,
-              std::size_t             max_gathered);
+    factorise(NodeRows schur, const Epetra_Map &map, std::size_t max_gathered);
 
     /// C as a matrix, in double precision. Collective.
     void

@@ -12,7 +12,7 @@ namespace mortise
   /// The owned rows of a matrix whose nodes have a number of components that do
   /// not couple with each other. Nodes of a rank are numbered behind those of
   /// the rank before. A component that a node lacks has a row that is zero but
-  /// for a positive diagonal.
+  /// for a diagonal as large as the others'.
   struct NodeRows
   {
     unsigned int n_components = 1;

@@ -6,33 +6,24 @@
 // Sources: Demko, Moss, Smith (1984); Cai, Sarkis (1999).
 #pragma once
 
-#include <deal.II/lac/la_parallel_vector.h>
-
 #include <Epetra_Vector.h>
-#include <mortise/solvers/node_rows.h>
+#include <mortise/solvers/node_matrix.h>
 #include <mortise/solvers/sparse_cholesky.h>
 
-#include <functional>
 #include <memory>
-#include <vector>
 
 namespace mortise
 {
   class SchwarzInverse
   {
   public:
-    /// y = matrix x, both with the entries of NodeRows.
-    using Product =
-      std::function<void(Epetra_Vector &y, const Epetra_Vector &x)>;
-
     /// False, on every rank, when the matrix is not positive definite or
-    /// corrections do not fall fast enough. @p product: with the same matrix;
-    /// it is kept. Collective.
+    /// corrections do not fall fast enough. Collective.
     bool
-    initialize(const NodeRows &rows, Product product, const Epetra_Map &map);
+    initialize(std::shared_ptr<const NodeMatrix> matrix);
 
-    /// x = matrix^{-1} b to six digits, both with the entries of NodeRows: a
-    /// fixed number of corrections, so that it is linear. Collective.
+    /// x = matrix^{-1} b to six digits: a fixed number of corrections, so that
+    /// it is linear. Collective.
     void
     solve(Epetra_Vector &x, const Epetra_Vector &b) const;
 
@@ -44,20 +35,16 @@ namespace mortise
     }
 
   private:
-    using NodeVector = dealii::LinearAlgebra::distributed::Vector<double>;
-
     /// Until they are six digits smaller, for a vector without structure.
     bool
     count_solves();
     void
     solve_local(Epetra_Vector &to, const Epetra_Vector &from) const;
 
-    Product                        product;
-    std::vector<int>               entries; ///< as in NodeRows
-    SparseCholesky<float>          local;   ///< owned nodes and neighbours
-    mutable NodeVector             residual, correction; ///< of these
-    std::unique_ptr<Epetra_Vector> local_residual, local_correction; ///< views
-    std::unique_ptr<Epetra_Vector> r, z, q;
-    unsigned int                   n_solves = 0;
+    std::shared_ptr<const NodeMatrix> matrix;
+    SparseCholesky<float>             local; ///< owned nodes and neighbours
+    std::unique_ptr<Epetra_Map>       local_map;
+    std::unique_ptr<Epetra_Vector>    local_x, r, z, q;
+    unsigned int                      n_solves = 0;
   };
 } // namespace mortise

@@ -42,6 +42,13 @@ namespace mortise
     template <typename Visit>
     void
     for_each_panel(unsigned int s, const Visit &visit) const;
+    /// The components of nodes in or from a buffer.
+    void
+    pack(const unsigned int *places, unsigned int n, Number *to) const;
+    void
+    unpack(const unsigned int *places,
+           unsigned int        n,
+           const Number       *from) const;
     /// Sums over the ranks of what is on all of them.
     void
     add_up_common() const;
@@ -62,7 +69,7 @@ namespace mortise
     unsigned int              n_components = 1;
     std::vector<int>          entries;        ///< as in NodeRows
     std::vector<int>          counts, starts; ///< nodes, components, by rank
-    std::vector<double>       scale;          ///< by owned node, component
+    std::vector<double>       scale;          ///< by owned node
     std::vector<unsigned int> place;          ///< of each node in the order
     std::vector<Supernode>    supernodes;
     std::vector<int>          owner; ///< rank or on_all_ranks

@@ -1,0 +1,102 @@
+// See node_matrix.h.
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_MpiComm.h>
+#include <mortise/solvers/node_matrix.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  NodeMatrix::NodeMatrix(NodeRows rows, const Epetra_Map &map)
+    : node_rows(std::move(rows))
+    , vector_map(map)
+  {
+    const auto counts =
+      Utilities::MPI::all_gather(communicator(),
+                                 static_cast<int>(node_rows.size()));
+    rank_starts.resize(counts.size() + 1);
+    std::partial_sum(counts.begin(), counts.end(), rank_starts.begin() + 1);
+    first = rank_starts[map.Comm().MyPID()];
+    end   = rank_starts[map.Comm().MyPID() + 1];
+    find_ghosts();
+    for (const int node : node_rows.columns)
+      local_columns.push_back(local(node));
+    const unsigned int n = node_rows.n_components;
+    IndexSet owned(rank_starts.back() * n), relevant(rank_starts.back() * n);
+    owned.add_range(first * n, end * n);
+    for (const int node : ghost_nodes)
+      relevant.add_range(node * n, (node + 1) * n);
+    owned.compress();
+    relevant.compress();
+    nodal.reinit(owned, relevant, communicator());
+  }
+
+  MPI_Comm
+  NodeMatrix::communicator() const
+  {
+    return dynamic_cast<const Epetra_MpiComm &>(vector_map.Comm()).Comm();
+  }
+
+  void
+  NodeMatrix::find_ghosts()
+  {
+    for (const int node : node_rows.columns)
+      if (!is_owned(node))
+        ghost_nodes.push_back(node);
+    std::sort(ghost_nodes.begin(), ghost_nodes.end());
+    ghost_nodes.erase(std::unique(ghost_nodes.begin(), ghost_nodes.end()),
+                      ghost_nodes.end());
+  }
+
+  int
+  NodeMatrix::local(const int node) const
+  {
+    if (is_owned(node))
+      return node - first;
+    const auto ghost =
+      std::lower_bound(ghost_nodes.begin(), ghost_nodes.end(), node);
+    if (ghost == ghost_nodes.end() || *ghost != node)
+      return -1;
+    return end - first + static_cast<int>(ghost - ghost_nodes.begin());
+  }
+
+  const NodeMatrix::NodeVector &
+  NodeMatrix::at_nodes(const Epetra_Vector &x) const
+  {
+    const auto &entries = node_rows.entries;
+    nodal.zero_out_ghost_values();
+    for (unsigned int i = 0; i < entries.size(); ++i)
+      nodal.local_element(i) = entries[i] < 0 ? 0. : x[entries[i]];
+    nodal.update_ghost_values();
+    return nodal;
+  }
+
+  void
+  NodeMatrix::vmult(Epetra_Vector &y, const Epetra_Vector &x) const
+  {
+    const unsigned int n      = node_rows.n_components;
+    const double      *from   = at_nodes(x).begin();
+    const int         *column = local_columns.data();
+    const double      *values = node_rows.values.data();
+    for (unsigned int i = 0; i < node_rows.size(); ++i)
+      {
+        const unsigned int length   = node_rows.lengths[i],
+                           variants = node_rows.variants[i];
+        for (unsigned int c = 0; c < n; ++c)
+          {
+            const double *variant = values + (variants == 1 ? 0 : c * length);
+            double        sum     = 0.;
+            for (unsigned int k = 0; k < length; ++k)
+              sum += variant[k] * from[column[k] * n + c];
+            if (const int entry = node_rows.entries[i * n + c]; entry >= 0)
+              y[entry] = sum;
+          }
+        column += length;
+        values += std::size_t(length) * variants;
+      }
+  }
+} // namespace mortise
