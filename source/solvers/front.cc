@@ -1,99 +1,77 @@
+// See front.h.
 #include <Teuchos_BLAS.hpp>
 #include <Teuchos_LAPACK.hpp>
-#include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/front.h>
-
-#include <algorithm>
 
 namespace mortise
 {
-  using namespace dealii;
-
-  Front::Front(const Supernode &supernode)
+  template <typename Number>
+  Front<Number>::Front(const Supernode     &supernode,
+                       Number              *columns,
+                       const int            stride,
+                       std::vector<Number> &rest)
     : width(supernode.width)
-    , height(supernode.height())
-    , values(std::size_t(height) * height)
-  {}
+    , n_below(supernode.rows.size())
+    , stride(stride)
+    , columns(columns)
+    , rest(rest)
+  {
+    rest.assign(std::size_t(n_below) * n_below, Number());
+  }
 
+  template <typename Number>
   bool
-  Front::eliminate()
+  Front<Number>::eliminate()
   {
     using namespace Teuchos;
-    const BLAS<int, double>   blas;
-    const LAPACK<int, double> lapack;
-    const int                 n    = height - width;
-    int                       info = 0;
-    lapack.POTRF('L', width, values.data(), height, &info);
+    const BLAS<int, Number>   blas;
+    const LAPACK<int, Number> lapack;
+    Number                   *below = columns + width;
+    const Number              one   = 1;
+    int                       info  = 0;
+    lapack.POTRF('L', width, columns, stride, &info);
     if (info != 0)
       return false;
-    if (n > 0)
+    if (n_below > 0)
       {
-        double *below = &(*this)(width, 0);
         blas.TRSM(RIGHT_SIDE,
                   LOWER_TRI,
                   TRANS,
                   NON_UNIT_DIAG,
-                  n,
+                  n_below,
                   width,
-                  1.,
-                  values.data(),
-                  height,
+                  one,
+                  columns,
+                  stride,
                   below,
-                  height);
+                  stride);
         blas.SYRK(LOWER_TRI,
                   NO_TRANS,
-                  n,
+                  n_below,
                   width,
-                  -1.,
+                  -one,
                   below,
-                  height,
-                  1.,
-                  &(*this)(width, width),
-                  height);
+                  stride,
+                  one,
+                  rest.data(),
+                  n_below);
       }
-    lapack.TRTRI('L', 'N', width, values.data(), height, &info);
+    lapack.TRTRI('L', 'N', width, columns, stride, &info);
+    if (n_below > 0)
+      blas.TRMM(RIGHT_SIDE,
+                LOWER_TRI,
+                NO_TRANS,
+                NON_UNIT_DIAG,
+                n_below,
+                width,
+                -one,
+                columns,
+                stride,
+                below,
+                stride);
     return info == 0;
   }
 
-  std::vector<double>
-  Front::update()
-  {
-    const int           n = height - width;
-    std::vector<double> result(std::size_t(n) * n);
-    for (int j = 0; j < n; ++j)
-      std::copy_n(&(*this)(width + j, width + j),
-                  n - j,
-                  &result[j + std::size_t(n) * j]);
-    return result;
-  }
-
-  template <typename Number>
-  AlignedVector<Number>
-  Front::panel()
-  {
-    using namespace Teuchos;
-    if (height > width)
-      BLAS<int, double>().TRMM(RIGHT_SIDE,
-                               LOWER_TRI,
-                               NO_TRANS,
-                               NON_UNIT_DIAG,
-                               height - width,
-                               width,
-                               -1.,
-                               values.data(),
-                               height,
-                               &(*this)(width, 0),
-                               height);
-    const std::size_t     stride = padded<Number>(height);
-    AlignedVector<Number> result(stride * width);
-    for (int j = 0; j < width; ++j)
-      for (int i = j; i < height; ++i)
-        result[stride * j + i] = static_cast<Number>((*this)(i, j));
-    return result;
-  }
-
-  template AlignedVector<float>
-  Front::panel();
-  template AlignedVector<double>
-  Front::panel();
+  template class Front<float>;
+  template class Front<double>;
 } // namespace mortise

@@ -1,8 +1,6 @@
 // See lifting.h.
 #include <mortise/solvers/lifting.h>
-#include <mortise/solvers/rough.h>
-
-#include <cmath>
+#include <mortise/solvers/relative_correction.h>
 
 namespace mortise
 {
@@ -17,28 +15,6 @@ namespace mortise
 
     /// The number of rows that a last attempt may have on all ranks.
     constexpr std::size_t always_gathered = 100000;
-
-    /// By how much a second solve corrects a first one. Products are of C:
-    /// those with B and B^T in single precision cancel.
-    double
-    relative_correction(const SparseCholesky<float> &inverse,
-                        const NodeMatrix            &matrix)
-    {
-      Epetra_Vector b(matrix.map()), x(b), y(b);
-      for (int i = 0; i < y.MyLength(); ++i)
-        y[i] = rough(y.Map().GID(i));
-      matrix.vmult(b, y);
-      inverse.solve(x, b);
-      matrix.vmult(y, x);
-      b.Update(-1., y, 1.);
-      inverse.solve(y, b);
-      double energy_x = 0., energy_y = 0.;
-      matrix.vmult(b, x);
-      b.Dot(x, &energy_x);
-      matrix.vmult(b, y);
-      b.Dot(y, &energy_y);
-      return energy_x == 0. ? 0. : std::sqrt(std::abs(energy_y) / energy_x);
-    }
   } // namespace
 
   void
@@ -60,9 +36,12 @@ namespace mortise
       }
     if (together || size <= always_gathered)
       {
+        const auto multiply = [&C](Epetra_Vector &y, const Epetra_Vector &x) {
+          C->vmult(y, x);
+        };
         light = std::make_unique<SparseCholesky<float>>();
         valid = light->initialize(C->rows(), comm) &&
-                relative_correction(*light, *C) < accurate_enough;
+                relative_correction(*light, multiply, map) < accurate_enough;
         if (valid)
           return;
         light.reset();

@@ -13,9 +13,10 @@ namespace mortise
 {
   using namespace dealii;
 
-  template <typename Number>
+  template <typename Number, typename Work>
   bool
-  SparseCholesky<Number>::initialize(NodeRows rows, const MPI_Comm communicator)
+  SparseCholesky<Number, Work>::initialize(NodeRows       rows,
+                                           const MPI_Comm communicator)
   {
     comm = communicator;
     MPI_Comm_rank(comm, &rank);
@@ -46,9 +47,9 @@ namespace mortise
     return factorise(all);
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   void
-  SparseCholesky<Number>::list_parts()
+  SparseCholesky<Number, Work>::list_parts()
   {
     const unsigned int n = supernodes.size();
     part_counts.assign(n_ranks, 0);
@@ -73,12 +74,12 @@ namespace mortise
         }
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   template <unsigned int n>
   void
-  SparseCholesky<Number>::forward(const unsigned int s,
-                                  const Number      *values,
-                                  const unsigned int first) const
+  SparseCholesky<Number, Work>::forward(const unsigned int s,
+                                        const Number      *values,
+                                        const unsigned int first) const
   {
     using V                          = typename Batch<Number>::Vector;
     constexpr unsigned int size      = Batch<Number>::size;
@@ -114,12 +115,12 @@ namespace mortise
       }
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   template <unsigned int n>
   void
-  SparseCholesky<Number>::backward(const unsigned int s,
-                                   const Number      *values,
-                                   const unsigned int first) const
+  SparseCholesky<Number, Work>::backward(const unsigned int s,
+                                         const Number      *values,
+                                         const unsigned int first) const
   {
     using V                        = typename Batch<Number>::Vector;
     constexpr unsigned int size    = Batch<Number>::size;
@@ -158,11 +159,11 @@ namespace mortise
       });
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   template <typename Visit>
   void
-  SparseCholesky<Number>::for_each_panel(const unsigned int s,
-                                         const Visit       &visit) const
+  SparseCholesky<Number, Work>::for_each_panel(const unsigned int s,
+                                               const Visit       &visit) const
   {
     const std::size_t size =
       padded<Number>(supernodes[s].height()) * supernodes[s].width;
@@ -179,29 +180,29 @@ namespace mortise
         visit(panel + c * size, std::integral_constant<unsigned int, 1>(), c);
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   void
-  SparseCholesky<Number>::forward(const unsigned int s) const
+  SparseCholesky<Number, Work>::forward(const unsigned int s) const
   {
     for_each_panel(s, [&](const Number *panel, const auto n, const auto c) {
       forward<n()>(s, panel, c);
     });
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   void
-  SparseCholesky<Number>::backward(const unsigned int s) const
+  SparseCholesky<Number, Work>::backward(const unsigned int s) const
   {
     for_each_panel(s, [&](const Number *panel, const auto n, const auto c) {
       backward<n()>(s, panel, c);
     });
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   void
-  SparseCholesky<Number>::pack(const unsigned int *places,
-                               const unsigned int  n,
-                               Number             *to) const
+  SparseCholesky<Number, Work>::pack(const unsigned int *places,
+                                     const unsigned int  n,
+                                     Number             *to) const
   {
     for (unsigned int i = 0; i < n; ++i)
       std::copy_n(&vector[places[i] * n_components],
@@ -209,11 +210,11 @@ namespace mortise
                   to + i * n_components);
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   void
-  SparseCholesky<Number>::unpack(const unsigned int *places,
-                                 const unsigned int  n,
-                                 const Number       *from) const
+  SparseCholesky<Number, Work>::unpack(const unsigned int *places,
+                                       const unsigned int  n,
+                                       const Number       *from) const
   {
     for (unsigned int i = 0; i < n; ++i)
       std::copy_n(from + i * n_components,
@@ -221,9 +222,9 @@ namespace mortise
                   &vector[places[i] * n_components]);
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   void
-  SparseCholesky<Number>::add_up_common() const
+  SparseCholesky<Number, Work>::add_up_common() const
   {
     const unsigned int n = common_places.size();
     pack(common_places.data(), n, exchange.data());
@@ -236,9 +237,10 @@ namespace mortise
     unpack(common_places.data(), n, exchange.data());
   }
 
-  template <typename Number>
+  template <typename Number, typename Work>
   void
-  SparseCholesky<Number>::solve(Epetra_Vector &x, const Epetra_Vector &b) const
+  SparseCholesky<Number, Work>::solve(Epetra_Vector       &x,
+                                      const Epetra_Vector &b) const
   {
     const auto type   = Utilities::MPI::mpi_type_id_for_type<Number>;
     const auto gather = [&](const std::vector<int> &counts,
@@ -302,6 +304,7 @@ namespace mortise
                                i % n_components];
   }
 
-  template class SparseCholesky<float>;
-  template class SparseCholesky<double>;
+  template class SparseCholesky<float, float>;
+  template class SparseCholesky<float, double>;
+  template class SparseCholesky<double, double>;
 } // namespace mortise

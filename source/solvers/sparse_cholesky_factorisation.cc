@@ -6,14 +6,15 @@
 #include <mortise/solvers/sparse_cholesky.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace mortise
 {
   using namespace dealii;
 
   /// Makes the panels, children in front of their parents.
-  template <typename Number>
-  class SparseCholesky<Number>::Factorisation
+  template <typename Number, typename Work>
+  class SparseCholesky<Number, Work>::Factorisation
   {
   public:
     Factorisation(const SparseCholesky &inverse, const GatheredRows &matrix)
@@ -49,27 +50,33 @@ namespace mortise
         local[supernode.rows[i]] = supernode.width + i;
       const std::size_t size =
         padded<Number>(supernode.height()) * supernode.width;
-      AlignedVector<Number> panels(size * n_variants[s]);
+      AlignedVector<Work> panels(size * n_variants[s]);
       for (unsigned int variant = 0; variant < n_variants[s]; ++variant)
         {
-          updates[s].emplace_back();
+          auto &update = updates[s].emplace_back();
           if (!is_needed(s, variant))
             continue;
-          Front front(supernode);
+          Front<Work> front(supernode,
+                            panels.begin() + size * variant,
+                            padded<Number>(supernode.height()),
+                            update);
           add_matrix(front, supernode, variant);
           for (const unsigned int child : supernode.children)
             add_update(front, child, variant);
           if (!front.eliminate())
             return {};
-          updates[s].back() = front.update();
-          const auto panel  = front.panel<Number>();
-          std::copy(panel.begin(),
-                    panel.end(),
-                    panels.begin() + size * variant);
         }
       for (const unsigned int child : supernode.children)
         updates[child].clear();
-      return panels;
+      if constexpr (std::is_same_v<Number, Work>)
+        return panels;
+      else
+        {
+          AlignedVector<Number> converted;
+          converted.resize_fast(panels.size());
+          std::copy(panels.begin(), panels.end(), converted.begin());
+          return converted;
+        }
     }
 
     /// What other ranks leave to supernode @p s, which is on all. Collective.
@@ -86,7 +93,7 @@ namespace mortise
                 update.resize(height * height);
                 MPI_Bcast(update.data(),
                           update.size(),
-                          MPI_DOUBLE,
+                          Utilities::MPI::mpi_type_id_for_type<Work>,
                           inverse.owner[child],
                           inverse.comm);
               }
@@ -104,34 +111,39 @@ namespace mortise
     }
 
     void
-    add_matrix(Front             &front,
+    add_matrix(Front<Work>       &front,
                const Supernode   &supernode,
                const unsigned int component) const
     {
-      for (int j = 0; j < front.width; ++j)
+      for (unsigned int j = 0; j < supernode.width; ++j)
         {
           const unsigned int i      = node_at[supernode.first + j];
           const double      *values = matrix.row(i, component);
+          Work              *to     = front.column(static_cast<int>(j));
           for (unsigned int k = matrix.begin[i]; k < matrix.begin[i + 1]; ++k)
             if (const int column = matrix.columns[k];
                 inverse.place[column] >= supernode.first + j)
-              front(local[inverse.place[column]], j) =
-                values[k - matrix.begin[i]] * matrix.scale[i] *
-                matrix.scale[column];
+              to[local[inverse.place[column]]] =
+                static_cast<Work>(values[k - matrix.begin[i]] *
+                                  matrix.scale[i] * matrix.scale[column]);
         }
     }
 
     void
-    add_update(Front             &front,
+    add_update(Front<Work>       &front,
                const unsigned int child,
                const unsigned int component) const
     {
-      const auto &rows = inverse.supernodes[child].rows;
-      const auto &update =
-        updates[child][n_variants[child] == 1 ? 0 : component];
-      for (unsigned int j = 0; j < rows.size(); ++j)
-        for (unsigned int i = j; i < rows.size(); ++i)
-          front(local[rows[i]], local[rows[j]]) += update[i + rows.size() * j];
+      const auto        &rows = inverse.supernodes[child].rows;
+      const unsigned int n    = rows.size();
+      const Work        *update =
+        updates[child][n_variants[child] == 1 ? 0 : component].data();
+      for (unsigned int j = 0; j < n; ++j, update += n)
+        {
+          Work *to = front.column(local[rows[j]]);
+          for (unsigned int i = j; i < n; ++i)
+            to[local[rows[i]]] += update[i];
+        }
     }
 
     const SparseCholesky     &inverse;
@@ -139,13 +151,13 @@ namespace mortise
     std::vector<unsigned int> node_at;    ///< by place
     std::vector<int>          local;      ///< in the front, by place
     std::vector<unsigned int> n_variants; ///< by supernode
-    /// By supernode and variant, see Front::update().
-    std::vector<std::vector<std::vector<double>>> updates;
+    /// What remains for parents, by supernode and variant.
+    std::vector<std::vector<std::vector<Work>>> updates;
   };
 
-  template <typename Number>
+  template <typename Number, typename Work>
   bool
-  SparseCholesky<Number>::factorise(const GatheredRows &matrix)
+  SparseCholesky<Number, Work>::factorise(const GatheredRows &matrix)
   {
     Factorisation factorisation(*this, matrix);
     panels.resize(supernodes.size());
@@ -167,7 +179,9 @@ namespace mortise
   }
 
   template bool
-  SparseCholesky<float>::factorise(const GatheredRows &);
+  SparseCholesky<float, float>::factorise(const GatheredRows &);
   template bool
-  SparseCholesky<double>::factorise(const GatheredRows &);
+  SparseCholesky<float, double>::factorise(const GatheredRows &);
+  template bool
+  SparseCholesky<double, double>::factorise(const GatheredRows &);
 } // namespace mortise

@@ -5,6 +5,7 @@
 #include <Epetra_MpiComm.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#include <mortise/solvers/relative_correction.h>
 #include <mortise/solvers/vertex_solver.h>
 
 #include <cmath>
@@ -32,12 +33,7 @@ namespace mortise
     r_c = std::make_unique<Epetra_Vector>(*map);
     x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
-      {
-        factorization = std::make_unique<SparseCholesky<double>>();
-        return factorization->initialize(
-          rows_as_nodes(*coarse),
-          dynamic_cast<const Epetra_MpiComm &>(coarse->Comm()).Comm());
-      }
+      return factorise();
     compute_rigid_modes(vertices);
     Teuchos::ParameterList parameters;
     ML_Epetra::SetDefaults("SA", parameters);
@@ -64,6 +60,31 @@ namespace mortise
                                                             parameters,
                                                             true);
     return multigrid->IsPreconditionerComputed();
+  }
+
+  bool
+  VertexSolver::factorise()
+  {
+    const MPI_Comm comm =
+      dynamic_cast<const Epetra_MpiComm &>(coarse->Comm()).Comm();
+    const auto multiply = [this](Epetra_Vector &y, const Epetra_Vector &x) {
+      coarse->Multiply(false, x, y);
+    };
+    // 2e-7 to 6e-7 with moduli that are 1e6 apart
+    constexpr double largest_correction = 1e-4;
+    light = std::make_unique<SparseCholesky<float, float>>();
+    const bool is_accurate =
+      light->initialize(rows_as_nodes(*coarse), comm) &&
+      relative_correction(*light, multiply, *map) < largest_correction;
+    if (!is_accurate)
+      {
+        light.reset();
+        exact = std::make_unique<SparseCholesky<double>>();
+        if (!exact->initialize(rows_as_nodes(*coarse), comm))
+          return false;
+      }
+    coarse.reset();
+    return true;
   }
 
   void
@@ -164,8 +185,10 @@ namespace mortise
   {
     for (unsigned int i = 0; i < rows.size(); ++i)
       (*r_c)[i] = r[rows[i]];
-    if (factorization)
-      factorization->solve(*x_c, *r_c);
+    if (light)
+      light->solve(*x_c, *r_c);
+    else if (exact)
+      exact->solve(*x_c, *r_c);
     else
       multigrid->ApplyInverse(*r_c, *x_c);
     x.PutScalar(0.);
@@ -176,7 +199,7 @@ namespace mortise
   std::string
   VertexSolver::description() const
   {
-    return factorization ? "vertices factorised" :
-                           "vertices by smoothed aggregation (ML)";
+    return multigrid ? "vertices by smoothed aggregation (ML)" :
+                       "vertices factorised";
   }
 } // namespace mortise

@@ -3,43 +3,42 @@
 // Source: Liu (1992), "The multifrontal method for sparse matrix solution".
 #pragma once
 
-#include <deal.II/base/aligned_vector.h>
-
 #include <mortise/solvers/elimination_tree.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// The columns of a supernode, then its rows below, with what they update;
-  /// columnwise, the lower triangle.
-  struct Front
+  /// The columns of a supernode, with its rows below, and what they update;
+  /// columnwise, the lower triangle. Both are kept by others.
+  template <typename Number>
+  class Front
   {
-    explicit Front(const Supernode &supernode);
+  public:
+    /// @p columns: zeros, padded<Number>(height) by width; @p rest becomes the square of the rows below.
+    Front(const Supernode     &supernode,
+          Number              *columns,
+          int                  stride,
+          std::vector<Number> &rest);
 
-    double &
-    operator()(const int i, const int j)
+    /// The entries of column @p j by row, good from the diagonal on.
+    Number *
+    column(const int j)
     {
-      return values[i + std::size_t(height) * j];
+      return j < width ?
+               columns + std::size_t(stride) * j :
+               rest.data() + std::size_t(n_below) * (j - width) - width;
     }
 
-    /// [L_11^{-1}; L_21] in the columns and what remains for the parent behind
-    /// them. False when the columns are not positive definite.
+    /// The columns become [L_11^{-1}; -L_21 L_11^{-1}], so that both halves of
+    /// a solve with them are one product, the rest what remains for the parent.
+    /// False when the columns are not positive definite.
     bool
     eliminate();
 
-    /// What remains for the parent: rows below, squared.
-    std::vector<double>
-    update();
-
-    /// After eliminate(): [L_11^{-1}; -L_21 L_11^{-1}], columns padded with
-    /// zeros to whole batches, so that both halves of a solve with these
-    /// columns are one product. Spoils the front.
-    template <typename Number>
-    dealii::AlignedVector<Number>
-    panel();
-
-    int                 width, height;
-    std::vector<double> values;
+  private:
+    int                  width, n_below, stride;
+    Number              *columns;
+    std::vector<Number> &rest;
   };
 } // namespace mortise

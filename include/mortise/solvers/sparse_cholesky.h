@@ -16,8 +16,8 @@
 
 namespace mortise
 {
-  /// Computed in double precision, kept and applied in @p Number.
-  template <typename Number>
+  /// Computed in the precision of @p Work, kept and applied in @p Number.
+  template <typename Number, typename Work = double>
   class SparseCholesky
   {
   public:
@@ -80,7 +80,7 @@ namespace mortise
     /// Nodes, components, of subtrees.
     std::vector<int>          part_counts, part_starts;
     std::vector<unsigned int> part_places; ///< of nodes, rank by rank
-    /// By supernode, see Front::panel(); one for all components where that
+    /// By supernode, see Front::eliminate(); one for all components where that
     /// does for them.
     std::vector<dealii::AlignedVector<Number>> panels;
     /// By component, in the order of elimination.

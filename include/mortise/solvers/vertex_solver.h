@@ -50,6 +50,8 @@ namespace mortise
     description() const;
 
   private:
+    bool
+    factorise();
     void
     extract(const VertexFunctions &vertices, const Epetra_CrsMatrix &matrix);
     void
@@ -57,9 +59,11 @@ namespace mortise
 
     std::vector<int>            rows; ///< of the matrix given, in coarse order
     std::unique_ptr<Epetra_Map> map;
-    std::unique_ptr<Epetra_CrsMatrix>                    coarse;
-    std::vector<double>                                  rigid_modes;
-    std::unique_ptr<SparseCholesky<double>>              factorization;
+    std::unique_ptr<Epetra_CrsMatrix> coarse;
+    std::vector<double>               rigid_modes;
+    /// Only one of the three.
+    std::unique_ptr<SparseCholesky<float, float>>        light;
+    std::unique_ptr<SparseCholesky<double>>              exact;
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> multigrid;
     std::unique_ptr<Epetra_Vector>                       r_c, x_c;
   };
