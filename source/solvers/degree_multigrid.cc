@@ -85,7 +85,8 @@ namespace mortise
       const auto &matrix = vertices.matrix.trilinos_matrix();
       valid =
         vertex_solver.initialize({vertices.rows, vertices.points, communicator},
-                                 matrix);
+                                 matrix,
+                                 true);
       vertex_x = std::make_unique<Epetra_Vector>(matrix.RowMap());
       vertex_r = std::make_unique<Epetra_Vector>(matrix.RowMap());
     }

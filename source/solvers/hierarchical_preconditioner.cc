@@ -62,8 +62,11 @@ namespace mortise
       , multiplier(system.owned_multiplier, system.communicator)
       , has_high_modes(system.max_degree > 1)
     {
-      valid = coarse.initialize(
-        {system.vertex_dofs, system.vertex_points, system.communicator}, *bulk);
+      valid = coarse.initialize({system.vertex_dofs,
+                                 system.vertex_points,
+                                 system.communicator},
+                                *bulk,
+                                false);
       if (has_high_modes || system.owned_multiplier.size() > 0)
         valid =
           smoother.initialize(*bulk, EntityGraph(system).patches(system)) &&

@@ -27,13 +27,14 @@ namespace mortise
 
   bool
   VertexSolver::initialize(const VertexFunctions  &vertices,
-                           const Epetra_CrsMatrix &matrix)
+                           const Epetra_CrsMatrix &matrix,
+                           const bool              allow_single)
   {
     extract(vertices, matrix);
     r_c = std::make_unique<Epetra_Vector>(*map);
     x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
-      return factorise();
+      return factorise(allow_single);
     compute_rigid_modes(vertices);
     Teuchos::ParameterList parameters;
     ML_Epetra::SetDefaults("SA", parameters);
@@ -63,7 +64,7 @@ namespace mortise
   }
 
   bool
-  VertexSolver::factorise()
+  VertexSolver::factorise(const bool allow_single)
   {
     const MPI_Comm comm =
       dynamic_cast<const Epetra_MpiComm &>(coarse->Comm()).Comm();
@@ -72,13 +73,15 @@ namespace mortise
     };
     // 2e-7 to 6e-7 with moduli that are 1e6 apart
     constexpr double largest_correction = 1e-4;
-    light = std::make_unique<SparseCholesky<float, float>>();
-    const bool is_accurate =
-      light->initialize(rows_as_nodes(*coarse), comm) &&
-      relative_correction(*light, multiply, *map) < largest_correction;
-    if (!is_accurate)
+    if (allow_single)
       {
-        light.reset();
+        light = std::make_unique<SparseCholesky<float, float>>();
+        if (!light->initialize(rows_as_nodes(*coarse), comm) ||
+            !(relative_correction(*light, multiply, *map) < largest_correction))
+          light.reset();
+      }
+    if (!light)
+      {
         exact = std::make_unique<SparseCholesky<double>>();
         if (!exact->initialize(rows_as_nodes(*coarse), comm))
           return false;

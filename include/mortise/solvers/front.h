@@ -15,7 +15,8 @@ namespace mortise
   class Front
   {
   public:
-    /// @p columns: zeros, padded<Number>(height) by width; @p rest becomes the square of the rows below.
+    /// @p columns: zeros, @p stride apart; @p rest becomes the square of the
+    /// rows below.
     Front(const Supernode     &supernode,
           Number              *columns,
           int                  stride,
