@@ -52,8 +52,9 @@ namespace mortise
       initialize_vertices(all.back(), system.communicator);
       if (system.owned_multiplier.size() > 0)
         {
-          product    = std::make_unique<CouplingProduct<Number>>(system);
-          lifting    = std::make_unique<DiagonalLifting>(system, max_gathered);
+          product = std::make_unique<CouplingProduct<Number>>(system);
+          lifting =
+            std::make_unique<DiagonalLifting>(system, *product, max_gathered);
           valid      = lifting->is_valid() && valid;
           correction = std::make_unique<InterfaceCorrection<Number>>(
             *product, *lifting, system.coupling.trilinos_matrix().RowMap());

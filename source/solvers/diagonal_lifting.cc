@@ -3,14 +3,27 @@
 
 namespace mortise
 {
-  DiagonalLifting::DiagonalLifting(const BlockSystem &system,
-                                   const std::size_t  max_gathered)
+  DiagonalLifting::DiagonalLifting(const BlockSystem            &system,
+                                   const CouplingProduct<float> &product,
+                                   const std::size_t             max_gathered)
     : weights(system.nodal->node_diagonal())
   {
     for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
       weights.local_element(i) = 1. / weights.local_element(i);
+    LevelVector<float> trace;
+    product.initialize(trace);
+    const auto multiply =
+      [&product, trace, this](Epetra_Vector       &to,
+                              const Epetra_Vector &from) mutable {
+        product.multiply_transposed(trace, from);
+        const auto &places = product.places();
+        for (unsigned int k = 0; k < places.size(); ++k)
+          trace.local_element(k) *= weights.local_element(places[k]);
+        product.multiply(to, trace);
+      };
     const auto &coupling = system.coupling.trilinos_matrix();
     factorise(weighted_square(coupling, weights),
+              multiply,
               coupling.RowMap(),
               max_gathered);
   }

@@ -18,18 +18,19 @@ namespace mortise
   } // namespace
 
   void
-  Lifting::factorise(NodeRows          schur,
-                     const Epetra_Map &map,
-                     const std::size_t max_gathered)
+  Lifting::factorise(NodeRows                schur,
+                     SchwarzInverse::Product product,
+                     const Epetra_Map       &map,
+                     const std::size_t       max_gathered)
   {
-    const auto C = std::make_shared<const NodeMatrix>(std::move(schur), map);
+    const auto        C = std::make_shared<NodeMatrix>(std::move(schur), map);
     const MPI_Comm    comm = C->communicator();
     const std::size_t size = map.NumGlobalElements();
     const bool together    = map.Comm().NumProc() == 1 || size <= max_gathered;
     if (!together)
       {
         distributed = std::make_unique<SchwarzInverse>();
-        valid       = distributed->initialize(C);
+        valid       = distributed->initialize(C, std::move(product));
         if (valid)
           return;
         distributed.reset();

@@ -76,6 +76,16 @@ namespace mortise
   }
 
   void
+  NodeMatrix::drop_rows()
+  {
+    NodeRows none;
+    none.n_components = node_rows.n_components;
+    none.entries      = std::move(node_rows.entries);
+    node_rows         = std::move(none);
+    local_columns     = {};
+  }
+
+  void
   NodeMatrix::vmult(Epetra_Vector &y, const Epetra_Vector &x) const
   {
     const unsigned int n      = node_rows.n_components;

@@ -140,9 +140,11 @@ namespace mortise
   } // namespace
 
   bool
-  SchwarzInverse::initialize(std::shared_ptr<const NodeMatrix> node_matrix)
+  SchwarzInverse::initialize(std::shared_ptr<NodeMatrix> node_matrix,
+                             Product                     matrix_product)
   {
     matrix               = std::move(node_matrix);
+    product              = std::move(matrix_product);
     NodeRows overlapping = overlapping_rows(*matrix);
     local_map =
       std::make_unique<Epetra_Map>(static_cast<int>(overlapping.entries.size()),
@@ -153,8 +155,11 @@ namespace mortise
       *vector = std::make_unique<Epetra_Vector>(matrix->map());
     const bool positive =
       local.initialize(std::move(overlapping), MPI_COMM_SELF);
-    return Utilities::MPI::min(positive ? 1 : 0, matrix->communicator()) == 1 &&
-           count_solves();
+    if (Utilities::MPI::min(positive ? 1 : 0, matrix->communicator()) == 0 ||
+        !count_solves())
+      return false;
+    matrix->drop_rows();
+    return true;
   }
 
   bool
@@ -163,7 +168,7 @@ namespace mortise
     Epetra_Vector x(*r);
     for (int i = 0; i < x.MyLength(); ++i)
       x[i] = rough(x.Map().GID(i));
-    matrix->vmult(*r, x); // of the matrix's scale
+    product(*r, x); // of the matrix's scale
     double first = 0., norm = 0.;
     for (n_solves = 0; n_solves < max_solves; ++n_solves)
       {
@@ -176,7 +181,7 @@ namespace mortise
             n_solves = std::max(n_solves, 1U);
             return true;
           }
-        matrix->vmult(*q, *z);
+        product(*q, *z);
         r->Update(-1., *q, 1.);
       }
     return false;
@@ -202,7 +207,7 @@ namespace mortise
     solve_local(x, *r);
     for (unsigned int k = 1; k < n_solves; ++k)
       {
-        matrix->vmult(*q, k == 1 ? x : *z);
+        product(*q, k == 1 ? x : *z);
         r->Update(-1., *q, 1.);
         solve_local(*z, *r);
         x.Update(1., *z, 1.);

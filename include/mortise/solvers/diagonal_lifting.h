@@ -2,6 +2,7 @@
 // node by itself. It never looks at levels below the finest.
 #pragma once
 
+#include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/lifting.h>
 
 namespace mortise
@@ -13,8 +14,11 @@ namespace mortise
   class DiagonalLifting : public Lifting
   {
   public:
-    /// @p max_gathered: as in SolverOptions. Collective.
-    DiagonalLifting(const BlockSystem &system, std::size_t max_gathered);
+    /// @p product must stay alive. @p max_gathered: as in SolverOptions.
+    /// Collective.
+    DiagonalLifting(const BlockSystem            &system,
+                    const CouplingProduct<float> &product,
+                    std::size_t                   max_gathered);
 
     void
     vmult(Vector &dst, const Vector &src) const override;

@@ -43,10 +43,14 @@ namespace mortise
 
   protected:
     /// The rows of C, entries those of vectors on @p map; in single precision
-    /// where that is accurate enough. @p max_gathered: the largest number of
-    /// rows that all ranks may have, if they can do without. Collective.
+    /// where that is accurate enough. @p product: with C, likewise; it is kept.
+    /// @p max_gathered: the largest number of rows that all ranks may have, if
+    /// they can do without. Collective.
     void
-    factorise(NodeRows schur, const Epetra_Map &map, std::size_t max_gathered);
+    factorise(NodeRows                schur,
+              SchwarzInverse::Product product,
+              const Epetra_Map       &map,
+              std::size_t             max_gathered);
 
     /// C as a matrix, in double precision. Collective.
     void

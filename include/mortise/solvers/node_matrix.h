@@ -58,6 +58,10 @@ namespace mortise
     const NodeVector &
     at_nodes(const Epetra_Vector &x) const;
 
+    /// Leaves what at_nodes() needs.
+    void
+    drop_rows();
+
     /// y = matrix x. Collective.
     void
     vmult(Epetra_Vector &y, const Epetra_Vector &x) const;

@@ -10,6 +10,7 @@
 #include <mortise/solvers/node_matrix.h>
 #include <mortise/solvers/sparse_cholesky.h>
 
+#include <functional>
 #include <memory>
 
 namespace mortise
@@ -17,10 +18,15 @@ namespace mortise
   class SchwarzInverse
   {
   public:
+    /// y = matrix x.
+    using Product =
+      std::function<void(Epetra_Vector &y, const Epetra_Vector &x)>;
+
     /// False, on every rank, when the matrix is not positive definite or
-    /// corrections do not fall fast enough. Collective.
+    /// corrections do not fall fast enough; else its rows are dropped. @p
+    /// product: with it, faster than with rows; it is kept. Collective.
     bool
-    initialize(std::shared_ptr<const NodeMatrix> matrix);
+    initialize(std::shared_ptr<NodeMatrix> matrix, Product product);
 
     /// x = matrix^{-1} b to six digits: a fixed number of corrections, so that
     /// it is linear. Collective.
@@ -41,10 +47,11 @@ namespace mortise
     void
     solve_local(Epetra_Vector &to, const Epetra_Vector &from) const;
 
-    std::shared_ptr<const NodeMatrix> matrix;
-    SparseCholesky<float>             local; ///< owned nodes and neighbours
-    std::unique_ptr<Epetra_Map>       local_map;
-    std::unique_ptr<Epetra_Vector>    local_x, r, z, q;
-    unsigned int                      n_solves = 0;
+    std::shared_ptr<NodeMatrix>    matrix;
+    Product                        product;
+    SparseCholesky<float>          local; ///< owned nodes and neighbours
+    std::unique_ptr<Epetra_Map>    local_map;
+    std::unique_ptr<Epetra_Vector> local_x, r, z, q;
+    unsigned int                   n_solves = 0;
   };
 } // namespace mortise
