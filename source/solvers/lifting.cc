@@ -1,18 +1,10 @@
 // See lifting.h.
 #include <mortise/solvers/lifting.h>
-#include <mortise/solvers/relative_correction.h>
 
 namespace mortise
 {
   namespace
   {
-    /// The largest relative correction, in the norm of C, by which a solution
-    /// may be wrong. It is 4e-7 to 9e-6 (p = 2..8) where no side is much
-    /// stiffer, and 2e-5, 7e-5, 4e-4, 8e-3 with a slave 10, 100, 1e3, 1e6 times
-    /// stiffer than a coarser master: none, one, two, three or four iterations
-    /// more.
-    constexpr double accurate_enough = 1e-4;
-
     /// The number of rows that a last attempt may have on all ranks.
     constexpr std::size_t always_gathered = 100000;
   } // namespace
@@ -24,7 +16,6 @@ namespace mortise
                      const std::size_t       max_gathered)
   {
     const auto        C = std::make_shared<NodeMatrix>(std::move(schur), map);
-    const MPI_Comm    comm = C->communicator();
     const std::size_t size = map.NumGlobalElements();
     const bool together    = map.Comm().NumProc() == 1 || size <= max_gathered;
     if (!together)
@@ -37,20 +28,17 @@ namespace mortise
       }
     if (together || size <= always_gathered)
       {
-        const auto multiply = [&C](Epetra_Vector &y, const Epetra_Vector &x) {
-          C->vmult(y, x);
-        };
-        light = std::make_unique<SparseCholesky<float>>();
-        valid = light->initialize(C->rows(), comm) &&
-                relative_correction(*light, multiply, map) < accurate_enough;
+        gathered = std::make_unique<CholeskyInverse<double>>();
+        valid =
+          gathered->initialize([&C] { return C->rows(); },
+                               [&C](Epetra_Vector &y, const Epetra_Vector &x) {
+                                 C->vmult(y, x);
+                               },
+                               map,
+                               true);
         if (valid)
           return;
-        light.reset();
-        exact = std::make_unique<SparseCholesky<double>>();
-        valid = exact->initialize(C->rows(), comm);
-        if (valid)
-          return;
-        exact.reset();
+        gathered.reset();
       }
     const auto matrix = as_matrix(C->rows(), map.Comm());
     factorise(*matrix);
@@ -71,10 +59,8 @@ namespace mortise
   {
     if (distributed)
       distributed->solve(y, jump);
-    else if (light)
-      light->solve(y, jump);
-    else if (exact)
-      exact->solve(y, jump);
+    else if (gathered)
+      gathered->solve(y, jump);
     else if (heavy_entries.empty())
       heavy.solve(y, jump);
     else
@@ -91,9 +77,10 @@ namespace mortise
   std::string
   Lifting::description() const
   {
-    return distributed ? "multipliers by parts" :
-           light       ? "" :
-           exact       ? "multipliers in double precision" :
-                         "multipliers by MUMPS";
+    if (distributed)
+      return "multipliers by parts";
+    if (!gathered)
+      return "multipliers by MUMPS";
+    return gathered->is_single() ? "" : "multipliers in double precision";
   }
 } // namespace mortise

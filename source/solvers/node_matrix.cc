@@ -1,7 +1,7 @@
 // See node_matrix.h.
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_MpiComm.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/node_matrix.h>
 
 #include <algorithm>
@@ -16,15 +16,13 @@ namespace mortise
     , vector_map(map)
   {
     const auto counts =
-      Utilities::MPI::all_gather(communicator(),
+      Utilities::MPI::all_gather(communicator(map),
                                  static_cast<int>(node_rows.size()));
     rank_starts.resize(counts.size() + 1);
     std::partial_sum(counts.begin(), counts.end(), rank_starts.begin() + 1);
     first = rank_starts[map.Comm().MyPID()];
     end   = rank_starts[map.Comm().MyPID() + 1];
     find_ghosts();
-    for (const int node : node_rows.columns)
-      local_columns.push_back(local(node));
     const unsigned int n = node_rows.n_components;
     IndexSet owned(rank_starts.back() * n), relevant(rank_starts.back() * n);
     owned.add_range(first * n, end * n);
@@ -32,13 +30,7 @@ namespace mortise
       relevant.add_range(node * n, (node + 1) * n);
     owned.compress();
     relevant.compress();
-    nodal.reinit(owned, relevant, communicator());
-  }
-
-  MPI_Comm
-  NodeMatrix::communicator() const
-  {
-    return dynamic_cast<const Epetra_MpiComm &>(vector_map.Comm()).Comm();
+    nodal.reinit(owned, relevant, communicator(map));
   }
 
   void
@@ -82,7 +74,6 @@ namespace mortise
     none.n_components = node_rows.n_components;
     none.entries      = std::move(node_rows.entries);
     node_rows         = std::move(none);
-    local_columns     = {};
   }
 
   void
@@ -90,18 +81,22 @@ namespace mortise
   {
     const unsigned int n      = node_rows.n_components;
     const double      *from   = at_nodes(x).begin();
-    const int         *column = local_columns.data();
+    const int         *column = node_rows.columns.data();
     const double      *values = node_rows.values.data();
+    std::vector<int>   places; // of the columns of a row
     for (unsigned int i = 0; i < node_rows.size(); ++i)
       {
         const unsigned int length   = node_rows.lengths[i],
                            variants = node_rows.variants[i];
+        places.clear();
+        for (unsigned int k = 0; k < length; ++k)
+          places.push_back(local(column[k]) * static_cast<int>(n));
         for (unsigned int c = 0; c < n; ++c)
           {
             const double *variant = values + (variants == 1 ? 0 : c * length);
             double        sum     = 0.;
             for (unsigned int k = 0; k < length; ++k)
-              sum += variant[k] * from[column[k] * n + c];
+              sum += variant[k] * from[places[k] + c];
             if (const int entry = node_rows.entries[i * n + c]; entry >= 0)
               y[entry] = sum;
           }

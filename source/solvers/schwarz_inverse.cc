@@ -4,6 +4,7 @@
 #include <boost/serialization/utility.hpp>
 
 #include <Epetra_MpiComm.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/rough.h>
 #include <mortise/solvers/schwarz_inverse.h>
 
@@ -86,7 +87,7 @@ namespace mortise
     NodeRows
     overlapping_rows(const NodeMatrix &matrix)
     {
-      const MPI_Comm  comm   = matrix.communicator();
+      const MPI_Comm  comm   = communicator(matrix.map());
       const NodeRows &rows   = matrix.rows();
       const auto     &starts = matrix.starts();
       const int       n      = static_cast<int>(rows.size());
@@ -155,7 +156,8 @@ namespace mortise
       *vector = std::make_unique<Epetra_Vector>(matrix->map());
     const bool positive =
       local.initialize(std::move(overlapping), MPI_COMM_SELF);
-    if (Utilities::MPI::min(positive ? 1 : 0, matrix->communicator()) == 0 ||
+    if (Utilities::MPI::min(positive ? 1 : 0, communicator(matrix->map())) ==
+          0 ||
         !count_solves())
       return false;
     matrix->drop_rows();

@@ -48,8 +48,8 @@ namespace mortise
         local[supernode.first + i] = i;
       for (unsigned int i = 0; i < supernode.rows.size(); ++i)
         local[supernode.rows[i]] = supernode.width + i;
-      const std::size_t size =
-        padded<Number>(supernode.height()) * supernode.width;
+      const unsigned int  stride = padded<Number>(supernode.height());
+      const std::size_t   size   = std::size_t(stride) * supernode.width;
       AlignedVector<Work> panels(size * n_variants[s]);
       for (unsigned int variant = 0; variant < n_variants[s]; ++variant)
         {
@@ -58,7 +58,7 @@ namespace mortise
             continue;
           Front<Work> front(supernode,
                             panels.begin() + size * variant,
-                            padded<Number>(supernode.height()),
+                            static_cast<int>(stride),
                             update);
           add_matrix(front, supernode, variant);
           for (const unsigned int child : supernode.children)

@@ -1,4 +1,3 @@
-#include <Epetra_MpiComm.h>
 #include <dmumps_c.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/sparse_factorization.h>
@@ -26,7 +25,7 @@ namespace mortise
   struct SparseFactorization::Implementation
   {
     Implementation(const Epetra_CrsMatrix &matrix, const MatrixKind kind)
-      : comm(dynamic_cast<const Epetra_MpiComm &>(matrix.Comm()).Comm())
+      : comm(communicator(matrix.RowMap()))
       , symmetric(kind == MatrixKind::positive_definite)
     {
       mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm));

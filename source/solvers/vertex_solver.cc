@@ -2,10 +2,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <Epetra_IntVector.h>
-#include <Epetra_MpiComm.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
-#include <mortise/solvers/relative_correction.h>
 #include <mortise/solvers/vertex_solver.h>
 
 #include <cmath>
@@ -34,7 +32,19 @@ namespace mortise
     r_c = std::make_unique<Epetra_Vector>(*map);
     x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
-      return factorise(allow_single);
+      {
+        factorization = std::make_unique<CholeskyInverse<float>>();
+        const bool valid =
+          factorization->initialize([this] { return rows_as_nodes(*coarse); },
+                                    [this](Epetra_Vector       &y,
+                                           const Epetra_Vector &x) {
+                                      coarse->Multiply(false, x, y);
+                                    },
+                                    *map,
+                                    allow_single);
+        coarse.reset();
+        return valid;
+      }
     compute_rigid_modes(vertices);
     Teuchos::ParameterList parameters;
     ML_Epetra::SetDefaults("SA", parameters);
@@ -61,33 +71,6 @@ namespace mortise
                                                             parameters,
                                                             true);
     return multigrid->IsPreconditionerComputed();
-  }
-
-  bool
-  VertexSolver::factorise(const bool allow_single)
-  {
-    const MPI_Comm comm =
-      dynamic_cast<const Epetra_MpiComm &>(coarse->Comm()).Comm();
-    const auto multiply = [this](Epetra_Vector &y, const Epetra_Vector &x) {
-      coarse->Multiply(false, x, y);
-    };
-    // 2e-7 to 6e-7 with moduli that are 1e6 apart
-    constexpr double largest_correction = 1e-4;
-    if (allow_single)
-      {
-        light = std::make_unique<SparseCholesky<float, float>>();
-        if (!light->initialize(rows_as_nodes(*coarse), comm) ||
-            !(relative_correction(*light, multiply, *map) < largest_correction))
-          light.reset();
-      }
-    if (!light)
-      {
-        exact = std::make_unique<SparseCholesky<double>>();
-        if (!exact->initialize(rows_as_nodes(*coarse), comm))
-          return false;
-      }
-    coarse.reset();
-    return true;
   }
 
   void
@@ -188,10 +171,8 @@ namespace mortise
   {
     for (unsigned int i = 0; i < rows.size(); ++i)
       (*r_c)[i] = r[rows[i]];
-    if (light)
-      light->solve(*x_c, *r_c);
-    else if (exact)
-      exact->solve(*x_c, *r_c);
+    if (factorization)
+      factorization->solve(*x_c, *r_c);
     else
       multigrid->ApplyInverse(*r_c, *x_c);
     x.PutScalar(0.);
@@ -202,7 +183,7 @@ namespace mortise
   std::string
   VertexSolver::description() const
   {
-    return multigrid ? "vertices by smoothed aggregation (ML)" :
-                       "vertices factorised";
+    return factorization ? "vertices factorised" :
+                           "vertices by smoothed aggregation (ML)";
   }
 } // namespace mortise

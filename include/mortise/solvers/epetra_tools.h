@@ -4,6 +4,7 @@
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_IntVector.h>
+#include <Epetra_MpiComm.h>
 #include <mortise/operators/block_system.h>
 
 #include <algorithm>
@@ -12,6 +13,12 @@
 
 namespace mortise
 {
+  inline MPI_Comm
+  communicator(const Epetra_BlockMap &map)
+  {
+    return dynamic_cast<const Epetra_MpiComm &>(map.Comm()).Comm();
+  }
+
   /// A view of one owned row of a matrix, columns in the numbering of its
   /// column map.
   struct EpetraRow

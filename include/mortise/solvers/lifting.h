@@ -3,8 +3,8 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/cholesky_inverse.h>
 #include <mortise/solvers/schwarz_inverse.h>
-#include <mortise/solvers/sparse_cholesky.h>
 #include <mortise/solvers/sparse_factorization.h>
 
 #include <memory>
@@ -58,12 +58,11 @@ namespace mortise
 
   private:
     /// One of them; the last for what no other can.
-    std::unique_ptr<SchwarzInverse>         distributed;
-    std::unique_ptr<SparseCholesky<float>>  light;
-    std::unique_ptr<SparseCholesky<double>> exact;
-    SparseFactorization                     heavy;
-    std::vector<int>                        heavy_entries; ///< as in NodeRows
-    std::unique_ptr<Epetra_Vector>          heavy_x, heavy_b; ///< by these
-    bool                                    valid = false;
+    std::unique_ptr<SchwarzInverse>          distributed;
+    std::unique_ptr<CholeskyInverse<double>> gathered;
+    SparseFactorization                      heavy;
+    std::vector<int>                         heavy_entries; ///< as in NodeRows
+    std::unique_ptr<Epetra_Vector>           heavy_x, heavy_b; ///< by these
+    bool                                     valid = false;
   };
 } // namespace mortise

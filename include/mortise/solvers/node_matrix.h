@@ -32,9 +32,6 @@ namespace mortise
       return vector_map;
     }
 
-    MPI_Comm
-    communicator() const;
-
     /// First node by rank, and what is behind the last.
     const std::vector<int> &
     starts() const
@@ -80,7 +77,6 @@ namespace mortise
     Epetra_Map         vector_map;
     std::vector<int>   rank_starts, ghost_nodes;
     int                first = 0, end = 0; ///< owned nodes
-    std::vector<int>   local_columns;      ///< as NodeRows::columns
     mutable NodeVector nodal;
   };
 } // namespace mortise

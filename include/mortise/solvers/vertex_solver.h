@@ -8,7 +8,7 @@
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/sparse_cholesky.h>
+#include <mortise/solvers/cholesky_inverse.h>
 
 #include <memory>
 #include <string>
@@ -54,8 +54,6 @@ namespace mortise
     description() const;
 
   private:
-    bool
-    factorise(bool allow_single);
     void
     extract(const VertexFunctions &vertices, const Epetra_CrsMatrix &matrix);
     void
@@ -63,11 +61,9 @@ namespace mortise
 
     std::vector<int>            rows; ///< of the matrix given, in coarse order
     std::unique_ptr<Epetra_Map> map;
-    std::unique_ptr<Epetra_CrsMatrix> coarse;
-    std::vector<double>               rigid_modes;
-    /// Only one of the three.
-    std::unique_ptr<SparseCholesky<float, float>>        light;
-    std::unique_ptr<SparseCholesky<double>>              exact;
+    std::unique_ptr<Epetra_CrsMatrix>                    coarse;
+    std::vector<double>                                  rigid_modes;
+    std::unique_ptr<CholeskyInverse<float>>              factorization;
     std::unique_ptr<ML_Epetra::MultiLevelPreconditioner> multigrid;
     std::unique_ptr<Epetra_Vector>                       r_c, x_c;
   };
