@@ -32,10 +32,11 @@ STAGES = ("spaces", "interface_search", "interface_clipping", "coupling", "bulk"
 COUPLING = STAGES[1:4]
 MEDIANS = ("seconds", "process", "memory_mib")
 KEYS = ("program", "scene", "cells", "degree", "mesh", "cores")
-# Subdivisions inner : outer by degree; those of 1 : 2 cells across nest, as the peers' smallest do
+# Subdivisions inner : outer by degree, also inner : outer; those of 1 : 2 cells across nest, as the peers' smallest do
 TIED = {2: ("4,2:6,3", "7,4:8,4", "14,7:21,10"), 3: ("1,1:2,1", "2,2:1,1", "2,2:3,1"),
         4: ("1,1:2,1", "1,2:2,1", "2,2:3,1", "9,5:10,5", "11,6:13,6"), 5: ("2,1:3,1", "2,2:3,1"),
-        6: ("1,1:2,1", "1,2:2,1", "2,2:3,1"), 7: ("2,2:3,1",), 8: ("1,2:2,1", "2,2:3,1")}
+        6: ("1,1:2,1", "1,2:2,1", "2,2:3,1"), 7: ("2,2:3,1",), 8: ("1,2:2,1", "2,2:3,1"),
+        "4:3": ("1,1:2,1",), "6:4": ("1,1:2,1",), "6:5": ("1,1:2,1",), "8:7": ("1,1:2,1",)}
 TIED_TETRAHEDRA = {2: ("4,2:6,3",), 3: ("2,2:3,1",), 4: ("2,2:3,1",), 5: ("1,2:2,1",), 6: ("1,2:2,1",)}
 CONFORMING = {2: ("4,4", "8,8", "19,19"), 3: ("1,3",), 4: ("1,3", "2,3", "9,10"), 5: ("2,3",), 6: ("2,3",), 7: ("2,3",), 8: ("2,3",)}
 CONFORMING_TETRAHEDRA = {4: ("2,3",)}
@@ -69,8 +70,8 @@ def jobs_of_mortise(mortise, scene, cells, meshes, cores=(1, 2)):
     for degree, names in meshes.items():
         for mesh in names:
             settings = ["Output/Fields=", "Solver/Tolerance=1e-8"]
-            for body, subdivisions in zip(bodies, mesh.split(":")):
-                settings += [f"Body {body}/Degree={degree}", f"Body {body}/Mesh/Cells={cells}", f"Body {body}/Mesh/Subdivisions={subdivisions}"]
+            for body, p, subdivisions in zip(bodies, str(degree).split(":") * 2, mesh.split(":")):
+                settings += [f"Body {body}/Degree={p}", f"Body {body}/Mesh/Cells={cells}", f"Body {body}/Mesh/Subdivisions={subdivisions}"]
             command = [mortise, file] + [word for s in settings for word in ("--set", s)]
             for n in cores:
                 root = ["--allow-run-as-root"] if os.getuid() == 0 else []
@@ -178,11 +179,11 @@ def write_csv(rows, path):
         table = csv.DictWriter(file, columns)
         table.writeheader()
         table.writerows({k: f"{v:.5g}" if isinstance(v, float) else v for k, v in row.items()}
-                        for row in sorted(rows, key=lambda r: [r["program"] != "Mortise"] + [r[k] for k in KEYS[:4]] + [r["dofs"], r["mesh"], r["cores"]]))
+                        for row in sorted(rows, key=lambda r: [r["program"] != "Mortise"] + [str(r[k]) for k in KEYS[:4]] + [r["dofs"], r["mesh"], r["cores"]]))
 
 
 def read_csv(path):
-    convert = lambda key, text: text if key in (*KEYS[:3], "mesh") else float(text) if "." in text or "e" in text else int(text)
+    convert = lambda key, text: text if key in (*KEYS[:3], "mesh") or ":" in text else float(text) if "." in text or "e" in text else int(text)
     with open(path) as file:
         return [{k: convert(k, v) for k, v in row.items() if v != ""} for row in csv.DictReader(file)]
 
