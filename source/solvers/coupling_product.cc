@@ -52,19 +52,27 @@ namespace mortise
   CouplingProduct<Number>::make_layout(const Epetra_CrsMatrix &matrix,
                                        const BlockSystem      &system)
   {
-    const auto &columns = matrix.ColMap();
-    IndexSet    touched(system.owned_displacement.size());
+    const auto &columns = matrix.ColMap(); // on one rank all displacements
+    std::vector<bool> has_entries(columns.NumMyElements());
+    for (const RowGroup &group : group_rows(matrix))
+      {
+        const EpetraRow row(matrix, group.first);
+        for (int k = 0; k < row.length; ++k)
+          has_entries[row.columns[k]] = true;
+      }
+    IndexSet touched(system.owned_displacement.size());
     for (int k = 0; k < columns.NumMyElements(); ++k)
-      touched.add_index(columns.GID(k));
+      if (has_entries[k])
+        touched.add_index(columns.GID(k));
     touched.compress();
-    LevelVector<double> numbers(system.owned_displacement,
-                                touched,
-                                system.communicator);
+    LevelVector<double> number(system.owned_displacement,
+                               touched,
+                               system.communicator);
     for (const auto index : touched)
-      numbers(index) = 1.;
-    numbers.compress(VectorOperation::add);
-    for (unsigned int i = 0; i < numbers.locally_owned_size(); ++i)
-      if (numbers.local_element(i) > 0.)
+      number(index) = 1.;
+    number.compress(VectorOperation::add);
+    for (unsigned int i = 0; i < number.locally_owned_size(); ++i)
+      if (number.local_element(i) > 0.)
         moved.push_back(i);
 
     // number what is moved by itself; exact in double precision
@@ -80,20 +88,22 @@ namespace mortise
              system.communicator);
     first -= mine;
     for (unsigned int k = 0; k < moved.size(); ++k)
-      numbers.local_element(moved[k]) = first + k;
-    numbers.update_ghost_values();
+      number.local_element(moved[k]) = first + k;
+    number.update_ghost_values();
     IndexSet owned(size), relevant(size);
     owned.add_range(first, first + moved.size());
     for (const auto index : touched)
-      relevant.add_index(static_cast<Index>(numbers(index)));
+      relevant.add_index(static_cast<Index>(number(index)));
     layout =
       std::make_shared<const Utilities::MPI::Partitioner>(owned,
                                                           relevant,
                                                           system.communicator);
-    std::vector<unsigned int> entry;
+    std::vector<unsigned int> entry(columns.NumMyElements(),
+                                    numbers::invalid_unsigned_int);
     for (int k = 0; k < columns.NumMyElements(); ++k)
-      entry.push_back(
-        layout->global_to_local(static_cast<Index>(numbers(columns.GID(k)))));
+      if (has_entries[k])
+        entry[k] =
+          layout->global_to_local(static_cast<Index>(number(columns.GID(k))));
     return entry;
   }
 
