@@ -24,10 +24,14 @@ namespace mortise
     std::vector<dealii::types::global_dof_index> dofs(fe.n_dofs_per_cell());
     cell->get_dof_indices(dofs);
     std::array<std::vector<double>, dim> coefficients;
-    for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int i = 0; i < fe.n_dofs_per_cell() / dim; ++i)
-        coefficients[c].push_back(
-          displacement(dofs[fe.component_to_system_index(c, i)]));
+    for (auto &of_component : coefficients)
+      of_component.resize(fe.n_dofs_per_cell() / dim);
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      {
+        // the inverse, component_to_system_index(), searches
+        const auto [c, mode]  = fe.system_to_component_index(i);
+        coefficients[c][mode] = displacement(dofs[i]);
+      }
     return coefficients;
   }
 
