@@ -213,11 +213,16 @@ namespace mortise
                    const double              factor,
                    Vector                   &rhs)
     {
+      const double *constant = &trace.constant[c * trace.n_functions()];
+      if (std::all_of(constant, constant + local.n(), [](const double g) {
+            return g == 0.;
+          }))
+        return;
       for (unsigned int i = 0; i < local.m(); ++i)
         {
           double sum = 0.;
           for (unsigned int j = 0; j < local.n(); ++j)
-            sum += local(i, j) * trace.constant[c * trace.n_functions() + j];
+            sum += local(i, j) * constant[j];
           if (sum != 0.)
             for (unsigned int e = row.begin[row.offset + i];
                  e < row.begin[row.offset + i + 1];
