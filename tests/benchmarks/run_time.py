@@ -224,6 +224,8 @@ def draw(rows, path):
     for axis, key, title in ((axes[0], "seconds", "solve [s]"), (axes[1], "memory_mib", "memory of all processes [MiB]")):
         for program, scene, cells, color, style in kinds:
             part = pick(rows, program=program, scene=scene, cells=cells, cores=1 if program == "CalculiX" else 2)
+            if not part:
+                continue
             label = f"{program}, {scene}" + (", " + cells if cells != BOTH else "") + (", one core" if program == "CalculiX" else "")
             best = front(part, key)
             axis.loglog([r["energy"] for r in best], [r[key] for r in best], style, color=color, ms=5, label=label)
