@@ -44,17 +44,19 @@ namespace mortise
   CouplingProduct<Number>::CouplingProduct(const BlockSystem &system)
   {
     const auto &matrix = system.coupling.trilinos_matrix();
-    make_blocks(matrix, make_layout(matrix, system));
+    const auto  groups = group_rows(matrix);
+    make_blocks(matrix, groups, make_layout(matrix, groups, system));
   }
 
   template <typename Number>
   std::vector<unsigned int>
-  CouplingProduct<Number>::make_layout(const Epetra_CrsMatrix &matrix,
-                                       const BlockSystem      &system)
+  CouplingProduct<Number>::make_layout(const Epetra_CrsMatrix      &matrix,
+                                       const std::vector<RowGroup> &groups,
+                                       const BlockSystem           &system)
   {
     const auto &columns = matrix.ColMap(); // on one rank all displacements
     std::vector<bool> has_entries(columns.NumMyElements());
-    for (const RowGroup &group : group_rows(matrix))
+    for (const RowGroup &group : groups)
       {
         const EpetraRow row(matrix, group.first);
         for (int k = 0; k < row.length; ++k)
@@ -111,9 +113,9 @@ namespace mortise
   void
   CouplingProduct<Number>::make_blocks(
     const Epetra_CrsMatrix          &matrix,
+    const std::vector<RowGroup>     &groups,
     const std::vector<unsigned int> &entry_of_column)
   {
-    const auto  groups = group_rows(matrix);
     std::size_t size = 0, widest = 0;
     for (unsigned int g = 0; g < groups.size();)
       {

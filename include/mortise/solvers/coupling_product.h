@@ -7,6 +7,7 @@
 
 #include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/epetra_tools.h>
 
 #include <memory>
 #include <vector>
@@ -56,9 +57,12 @@ namespace mortise
 
     /// The entry of a trace for each local column of the matrix.
     std::vector<unsigned int>
-    make_layout(const Epetra_CrsMatrix &matrix, const BlockSystem &system);
+    make_layout(const Epetra_CrsMatrix      &matrix,
+                const std::vector<RowGroup> &groups,
+                const BlockSystem           &system);
     void
     make_blocks(const Epetra_CrsMatrix          &matrix,
+                const std::vector<RowGroup>     &groups,
                 const std::vector<unsigned int> &entry_of_column);
     template <unsigned int n_components>
     void
