@@ -43,6 +43,13 @@ namespace mortise
               cell.material_id = block.material({{i, j, k}});
               mesh.cells.push_back(cell);
             }
+      LatticeBlock lattice;
+      lattice.n = block.n;
+      for (unsigned int k = 0; k <= block.n[2]; ++k)
+        for (unsigned int j = 0; j <= block.n[1]; ++j)
+          for (unsigned int i = 0; i <= block.n[0]; ++i)
+            lattice.vertices.push_back(block.vertex({{i, j, k}}));
+      mesh.lattice.push_back(std::move(lattice));
     }
 
     void

@@ -246,8 +246,11 @@ namespace mortise
       mesh.triangulation =
         distribute_tetrahedra(std::move(coarse), balanced, comm);
     else
-      mesh.triangulation =
-        distribute_hexahedra(coarse, parameters, comm, where);
+      {
+        mesh.triangulation =
+          distribute_hexahedra(coarse, parameters, comm, where);
+        mesh.lattice = std::move(coarse.lattice);
+      }
     return mesh;
   }
 } // namespace mortise

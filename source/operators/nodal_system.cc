@@ -73,7 +73,9 @@ namespace mortise
                                               scene.constraints,
                                               scene.couplings,
                                               comm));
-        if (number > 0) // the finest level respects the constraint itself
+        // the finest level respects the constraint itself; the matrix of
+        // vertices is made of the last
+        if (number > 0 || spaces.size() == 1)
           all_levels.back().penalty =
             make_nodal_penalty(all_levels.back(), number, scene.couplings);
       }

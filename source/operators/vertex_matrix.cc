@@ -1,11 +1,13 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_system.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-
 #include <mortise/body/fe_simplex_legendre.h>
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/vertex_matrix.h>
+#include <mortise/operators/vertex_transfer.h>
+
+#include <algorithm>
+#include <map>
 
 namespace mortise
 {
@@ -15,74 +17,7 @@ namespace mortise
   {
     using Index = types::global_dof_index;
 
-    /// Calls visit(body, cell, indices by [vertex][component]).
-    template <typename Visit>
-    void
-    for_each_cell(const NodalLevel &level, const Visit &visit)
-    {
-      std::vector<Index> indices;
-      level.space->for_each_cell([&](const Body               &body,
-                                     const auto               &cell,
-                                     const std::vector<Index> &nodes) {
-        indices.clear();
-        for (const auto node : nodes)
-          for (unsigned int c = 0; c < dim; ++c)
-            indices.push_back(dim * node + c);
-        visit(body, cell, indices);
-      });
-    }
-
-    /// What the values of a cell follow from where some hang: value i is
-    /// sum_j weights(i, j) u(indices[j]).
-    struct Masters
-    {
-      std::vector<Index> indices;
-      FullMatrix<double> weights;
-    };
-
-    /// No indices where none hangs.
-    Masters
-    find_masters(const NodalLevel &level, const std::vector<Index> &all)
-    {
-      const auto        &hanging = level.space->hanging_nodes();
-      std::vector<Index> nodes;
-      bool               any = false;
-      for (unsigned int i = 0; i < all.size(); i += dim)
-        if (const auto *entries = hanging.get_constraint_entries(all[i] / dim))
-          {
-            any = true;
-            for (const auto &entry : *entries)
-              nodes.push_back(entry.first);
-          }
-        else
-          nodes.push_back(all[i] / dim);
-      Masters result;
-      if (!any)
-        return result;
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-      for (const Index node : nodes)
-        for (unsigned int c = 0; c < dim; ++c)
-          result.indices.push_back(dim * node + c);
-      result.weights.reinit(all.size(), result.indices.size());
-      for (unsigned int i = 0; i < all.size(); ++i)
-        {
-          const auto set = [&](const Index node, const double weight) {
-            const auto place =
-              std::lower_bound(nodes.begin(), nodes.end(), node) -
-              nodes.begin();
-            result.weights(i, dim * place + i % dim) = weight;
-          };
-          if (const auto *entries =
-                hanging.get_constraint_entries(all[i] / dim))
-            for (const auto &[node, weight] : *entries)
-              set(node, weight);
-          else
-            set(all[i] / dim, 1.);
-        }
-      return result;
-    }
-
+    /// Components in the order of the nodes.
     std::unique_ptr<FiniteElement<dim>>
     linear_element(const Body &body)
     {
@@ -91,130 +26,278 @@ namespace mortise
       return std::make_unique<FESystem<dim>>(FE_Q<dim>(1), dim);
     }
 
-    /// Drops what is held, in rows and columns.
-    class HeldIndices
+    /// The functions that a matrix is made for by what they are at the vertices
+    /// of the level: at those that do not hang, of the same mesh or of a
+    /// coarser one.
+    class Functions
     {
     public:
-      explicit HeldIndices(const NodalLevel &level)
-        : held(level.layout)
+      struct Entry
       {
+        Index        node; ///< of the matrix
+        double       weight;
+        unsigned int held; ///< bits of components for which it is none
+      };
+
+      /// What the values of a cell follow from: at vertex i from the entries
+      /// ends[i - 1], ..., of node nodes[place] each.
+      struct Masters
+      {
+        std::vector<Index>        nodes;
+        std::vector<Entry>        entries;
+        std::vector<unsigned int> places; ///< by entry
+        std::vector<unsigned int> ends;   ///< by vertex
+
+        /// The vertices are the nodes and nothing is held.
+        bool plain = true;
+      };
+
+      Functions(const NodalLevel &level, const VertexCoarsening *coarsening)
+        : level(level)
+        , held((level.layout->locally_owned_size() +
+                level.layout->n_ghost_indices()) /
+               dim)
+      {
+        LevelVector<double> is_held(level.layout);
         for (const unsigned int place : level.held)
-          held.local_element(place) = 1.;
-        held.update_ghost_values();
+          is_held.local_element(place) = 1.;
+        is_held.update_ghost_values();
+        for (unsigned int i = 0; i < dim * held.size(); ++i)
+          if (is_held.local_element(i) != 0.)
+            held[i / dim] |= 1U << i % dim;
+        if (coarsening == nullptr)
+          return;
+        rows  = interpolation_rows(*level.layout, *coarsening);
+        begin = {0};
+        for (const unsigned int length : rows.lengths)
+          begin.push_back(begin.back() + length);
       }
 
-      bool
-      operator()(const unsigned int place) const
+      /// Adds to @p entries the value at a local node that does not hang.
+      void
+      expand(const unsigned int  place,
+             const double        weight,
+             std::vector<Entry> &entries) const
       {
-        return held.local_element(place) != 0.;
+        if (begin.empty())
+          entries.push_back({level.layout->local_to_global(dim * place) / dim,
+                             weight,
+                             held[place]});
+        else
+          for (unsigned int e = begin[place]; e < begin[place + 1]; ++e)
+            entries.push_back(
+              {rows.nodes[e], weight * rows.weights[e], held[place]});
+      }
+
+      Masters
+      find_masters(const std::vector<Index> &vertices) const
+      {
+        Masters result;
+        auto   &entries = result.entries;
+        for (const Index vertex : vertices)
+          {
+            if (const auto *line =
+                  level.space->hanging_nodes().get_constraint_entries(vertex))
+              for (const auto &[node, weight] : *line)
+                expand(local(node), weight, entries);
+            else
+              expand(local(vertex), 1., entries);
+            result.ends.push_back(entries.size());
+            result.plain = result.plain && begin.empty() &&
+                           entries.size() == result.ends.size() &&
+                           entries.back().node == vertex &&
+                           entries.back().held == 0;
+          }
+        auto &nodes = result.nodes;
+        if (result.plain)
+          {
+            nodes = vertices;
+            return result;
+          }
+        for (const Entry &entry : entries)
+          nodes.push_back(entry.node);
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        for (const Entry &entry : entries)
+          result.places.push_back(
+            std::lower_bound(nodes.begin(), nodes.end(), entry.node) -
+            nodes.begin());
+        return result;
       }
 
     private:
-      LevelVector<double> held;
-    };
-  } // namespace
+      unsigned int
+      local(const Index node) const
+      {
+        return level.layout->global_to_local(dim * node) / dim;
+      }
 
-  void
-  assemble_vertex_matrix(const NodalLevel &level, VertexMatrix &result)
-  {
-    const auto &layout = *level.layout;
-    const auto &owned  = layout.locally_owned_range();
-    IndexSet    local  = owned;
-    local.add_indices(layout.ghost_indices());
-    const HeldIndices held(level);
-    const auto        is_held = [&](const Index index) {
-      return held(layout.global_to_local(index));
+      const NodalLevel         &level;
+      std::vector<unsigned int> held; ///< by local node, bits of components
+      InterpolationRows         rows; ///< of the coarser mesh
+      std::vector<unsigned int> begin;
     };
 
-    DynamicSparsityPattern sparsity(owned.size(), owned.size(), local);
-    const auto             keep_free = [&](std::vector<Index> &indices) {
-      indices.erase(std::remove_if(indices.begin(), indices.end(), is_held),
-                    indices.end());
-    };
-    for_each_cell(level,
-                  [&](const Body &, const auto &, std::vector<Index> &all) {
-                    for (const Index index : all)
-                      if (is_held(index))
-                        sparsity.add(index, index);
-                    if (const Masters masters = find_masters(level, all);
-                        !masters.indices.empty())
-                      all = masters.indices;
-                    keep_free(all);
-                    std::sort(all.begin(), all.end());
-                    for (const Index row : all)
-                      sparsity.add_entries(row, all.begin(), all.end(), true);
-                  });
-    const auto for_each_penalty = [&](const auto &visit) {
-      for (const auto &group : level.penalty.groups)
-        for (unsigned int r = 0; r < group.rows.size(); ++r)
-          for (unsigned int k = 0; k < group.columns.size(); ++k)
+    /// W^T A W with the weights of @p masters; @p half is workspace.
+    void
+    resolve(const Functions::Masters &masters,
+            const FullMatrix<double> &matrix,
+            FullMatrix<double>       &half,
+            FullMatrix<double>       &result)
+    {
+      const unsigned int n = matrix.n(), m = dim * masters.nodes.size();
+      half.reinit(m, n);
+      result.reinit(m, m);
+      const auto for_each = [&](const auto &visit) {
+        unsigned int e = 0;
+        for (unsigned int i = 0; i < masters.ends.size(); ++i)
+          for (; e < masters.ends[i]; ++e)
             for (unsigned int c = 0; c < dim; ++c)
-              if (!held(group.rows[r] + c) && !held(group.columns[k] + c))
-                visit(layout.local_to_global(group.rows[r] + c),
-                      layout.local_to_global(group.columns[k] + c),
-                      group.values[r * group.columns.size() + k]);
-    };
-    for_each_penalty([&](const Index row, const Index column, const double) {
-      sparsity.add(row, column);
-    });
+              if ((masters.entries[e].held >> c & 1U) == 0)
+                visit(dim * i + c,
+                      dim * masters.places[e] + c,
+                      masters.entries[e].weight);
+      };
+      for_each([&](const unsigned int i, const unsigned int j, const double w) {
+        const double *from = &matrix(i, 0);
+        double       *to   = &half(j, 0);
+        for (unsigned int k = 0; k < n; ++k)
+          to[k] += w * from[k];
+      });
+      for (unsigned int r = 0; r < m; ++r)
+        {
+          const double *from = &half(r, 0);
+          double       *to   = &result(r, 0);
+          for_each([&](const unsigned int i,
+                       const unsigned int j,
+                       const double       w) { to[j] += w * from[i]; });
+        }
+    }
 
-    result.matrix.reinit(
-      owned, owned, sparsity, layout.get_mpi_communicator(), true);
-    std::map<unsigned int, std::unique_ptr<CellKernel>> kernels;
-    FullMatrix<double>                                  local_matrix;
-    std::vector<Point<dim>> points(owned.n_elements() / dim);
-    std::vector<double>     values;
-    std::vector<Index>      columns;
-    const auto              add = [&](const std::vector<Index> &all,
-                         const FullMatrix<double> &local) {
-      for (unsigned int i = 0; i < all.size(); ++i)
-        if (!is_held(all[i]))
-          {
-            columns.clear();
-            values.clear();
-            for (unsigned int j = 0; j < all.size(); ++j)
-              if (!is_held(all[j]))
-                {
-                  columns.push_back(all[j]);
-                  values.push_back(local(i, j));
-                }
-            result.matrix.add(
-              all[i], columns.size(), columns.data(), values.data(), false);
-          }
-    };
-    for_each_cell(
-      level,
-      [&](const Body &body, const auto &cell, const std::vector<Index> &all) {
+    void
+    couple_all(const NodalLevel  &level,
+               const Functions   &functions,
+               const IndexSet    &owned,
+               NodeBlocksBuilder &builder)
+    {
+      for (const Index node : owned)
+        builder.couple({builder.place(node)});
+      std::vector<unsigned int> places;
+      level.space->for_each_cell(
+        [&](const Body &, const auto &, const std::vector<Index> &vertices) {
+          places.clear();
+          for (const Index node : functions.find_masters(vertices).nodes)
+            places.push_back(builder.place(node));
+          builder.couple(places);
+        });
+      const auto find = [&](const std::vector<unsigned int> &of_group) {
+        std::vector<Functions::Entry> entries;
+        for (const unsigned int place : of_group)
+          functions.expand(place / dim, 1., entries);
+        std::vector<unsigned int> result;
+        for (const auto &entry : entries)
+          result.push_back(builder.place(entry.node));
+        std::sort(result.begin(), result.end());
+        result.erase(std::unique(result.begin(), result.end()), result.end());
+        return result;
+      };
+      for (const auto &group : level.penalty.groups)
+        if (const auto rows = find(group.rows), columns = find(group.columns);
+            !rows.empty() && !columns.empty())
+          builder.couple(rows, columns);
+      builder.close();
+    }
+
+    void
+    add_cells(const NodalLevel        &level,
+              const Functions         &functions,
+              NodeBlocksBuilder       &builder,
+              std::vector<Point<dim>> &points)
+    {
+      std::map<unsigned int, std::unique_ptr<CellKernel>> kernels; // by body
+      FullMatrix<double>                                  local, half, resolved;
+      std::vector<unsigned int>                           places;
+      const auto &owned = level.space->owned_nodes();
+      level.space->for_each_cell([&](const Body               &body,
+                                     const auto               &cell,
+                                     const std::vector<Index> &vertices) {
         auto &kernel = kernels[body.index];
         if (!kernel)
           kernel = std::make_unique<CellKernel>(body, *linear_element(body));
-        local_matrix.reinit(all.size(), all.size());
-        kernel->compute(cell, local_matrix);
-        for (unsigned int i = 0; i < all.size(); ++i)
-          if (is_held(all[i]))
-            result.matrix.add(all[i], all[i], local_matrix(i, i));
-        if (const Masters masters = find_masters(level, all);
-            masters.indices.empty())
-          add(all, local_matrix);
-        else
-          {
-            FullMatrix<double> resolved(masters.indices.size());
-            resolved.triple_product(
-              local_matrix, masters.weights, masters.weights, true, false);
-            add(masters.indices, resolved);
-          }
+        local.reinit(dim * vertices.size(), dim * vertices.size());
+        kernel->compute(cell, local);
+        const auto masters = functions.find_masters(vertices);
+        if (!masters.plain)
+          resolve(masters, local, half, resolved);
+        const FullMatrix<double> &matrix = masters.plain ? local : resolved;
+        places.clear();
+        for (const Index node : masters.nodes)
+          places.push_back(builder.place(node));
+        for (unsigned int i = 0; i < places.size(); ++i)
+          for (unsigned int j = 0; j < places.size(); ++j)
+            {
+              double *block = builder.block(places[i], places[j]);
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int r = 0; r < dim; ++r)
+                  block[dim * c + r] += matrix(dim * i + r, dim * j + c);
+            }
         for (const unsigned int v : cell->vertex_indices())
-          if (layout.in_local_range(all[dim * v]))
-            points[layout.global_to_local(all[dim * v]) / dim] =
-              cell->vertex(v);
+          if (owned.is_element(vertices[v]))
+            points[owned.index_within_set(vertices[v])] = cell->vertex(v);
       });
-    for_each_penalty(
-      [&](const Index row, const Index column, const double value) {
-        result.matrix.add(row, column, value);
-      });
-    result.matrix.compress(VectorOperation::add);
-    result.points = std::move(points);
-    for (const auto index : owned)
-      result.rows.push_back(index);
+    }
+
+    void
+    add_penalty(const NodalLevel  &level,
+                const Functions   &functions,
+                NodeBlocksBuilder &builder)
+    {
+      std::vector<Functions::Entry> rows, columns;
+      for (const auto &group : level.penalty.groups)
+        for (unsigned int r = 0; r < group.rows.size(); ++r)
+          {
+            rows.clear();
+            functions.expand(group.rows[r] / dim, 1., rows);
+            for (unsigned int k = 0; k < group.columns.size(); ++k)
+              {
+                const double value = group.values[r * group.columns.size() + k];
+                columns.clear();
+                functions.expand(group.columns[k] / dim, value, columns);
+                for (const auto &row : rows)
+                  for (const auto &column : columns)
+                    {
+                      double *block = builder.block(builder.place(row.node),
+                                                    builder.place(column.node));
+                      for (unsigned int c = 0; c < dim; ++c)
+                        if (((row.held | column.held) >> c & 1U) == 0)
+                          block[(dim + 1) * c] += row.weight * column.weight;
+                    }
+              }
+          }
+    }
+  } // namespace
+
+  VertexMatrix
+  assemble_vertex_matrix(const NodalLevel       &level,
+                         const VertexCoarsening *coarsening)
+  {
+    const IndexSet &owned =
+      coarsening ? coarsening->owned : level.space->owned_nodes();
+    const Functions   functions(level, coarsening);
+    NodeBlocksBuilder builder(owned, level.layout->get_mpi_communicator());
+    couple_all(level, functions, owned, builder);
+    std::vector<Point<dim>> points(level.space->owned_nodes().n_elements());
+    add_cells(level, functions, builder, points);
+    add_penalty(level, functions, builder);
+    IndexSet needed(owned.size());
+    if (coarsening == nullptr)
+      return {builder.finish(needed), points};
+    needed.add_indices(coarsening->nodes.begin(), coarsening->nodes.end());
+    VertexMatrix result;
+    result.blocks = builder.finish(needed);
+    hold(level.held, *coarsening, result.blocks);
+    for (const unsigned int vertex : coarsening->kept)
+      result.points.push_back(points[vertex]);
+    return result;
   }
 } // namespace mortise

@@ -136,7 +136,7 @@ namespace mortise
     std::vector<const Body *> scene;
     for (const auto &body : bodies)
       scene.push_back(body.get());
-    const bool nodal = max_degree > 1 && NodalSpace::represents(scene);
+    const bool nodal = NodalSpace::represents(scene);
     method           = choose_solver(parameters.solver.method,
                                      {displacement_field.numbering.size(),
                                       max_degree,

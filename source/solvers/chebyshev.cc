@@ -12,15 +12,14 @@ namespace mortise
   using namespace dealii;
 
   template <typename Number>
-  Chebyshev<Number>::Chebyshev(const LevelOperator<Number>       &matrix,
+  Chebyshev<Number>::Chebyshev(const NodalOperator<Number>       &matrix,
                                const double                       smallest,
                                const double                       effort,
                                const InterfaceCorrection<Number> *correction)
     : matrix(matrix)
     , correction(correction)
   {
-    matrix.diagonal(inverse_diagonal);
-    matrix.average_components(inverse_diagonal);
+    matrix.node_diagonal(inverse_diagonal);
     for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
       inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
     matrix.initialize(r);

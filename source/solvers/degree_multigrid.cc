@@ -1,11 +1,10 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/operators/degree_transfer.h>
-#include <mortise/operators/vertex_matrix.h>
 #include <mortise/solvers/chebyshev.h>
 #include <mortise/solvers/degree_multigrid.h>
 #include <mortise/solvers/diagonal_lifting.h>
-#include <mortise/solvers/vertex_solver.h>
+#include <mortise/solvers/vertex_multigrid.h>
 
 #include <algorithm>
 
@@ -30,7 +29,7 @@ namespace mortise
     {
       SmoothedLevel(const NodalLevel                  &level,
                     const InterfaceCorrection<Number> *correction)
-        : matrix(level, true)
+        : matrix(level, correction == nullptr)
         , smoother(matrix, smallest_smoothed, smoother_effort, correction)
       {
         matrix.initialize(x);
@@ -49,7 +48,10 @@ namespace mortise
     Implementation(const BlockSystem &system, const std::size_t max_gathered)
     {
       const auto &all = system.nodal->levels();
-      initialize_vertices(all.back(), system.communicator);
+      // in front of all else: what algebraic multigrid needs for a while is the
+      // largest part of the memory
+      vertices = std::make_unique<VertexMultigrid>(all.back(), all.size() > 1);
+      valid    = vertices->is_valid();
       if (system.owned_multiplier.size() > 0)
         {
           product = std::make_unique<CouplingProduct<Number>>(system);
@@ -60,7 +62,10 @@ namespace mortise
             *product, *lifting, system.coupling.trilinos_matrix().RowMap());
           projector = std::make_unique<ConstraintProjector>(system, *lifting);
         }
-      for (unsigned int l = 0; l + 1 < all.size(); ++l)
+      // where degree one is the finest, its level is smoothed here and stands
+      // for the vertices below, too
+      const unsigned int n_smoothed = std::max<unsigned int>(1, all.size() - 1);
+      for (unsigned int l = 0; l < n_smoothed; ++l)
         {
           levels.push_back(std::make_unique<SmoothedLevel>(
             all[l], l == 0 ? correction.get() : nullptr));
@@ -69,27 +74,11 @@ namespace mortise
       coarse = std::make_unique<LevelOperator<Number>>(all.back(), false);
       coarse->initialize(coarse_x);
       coarse->initialize(coarse_b);
-      for (unsigned int l = 0; l < levels.size(); ++l)
+      for (unsigned int l = 0; l + 1 < all.size(); ++l)
         transfers.push_back(std::make_unique<DegreeTransfer<Number>>(
           levels[l]->matrix,
           l + 1 < levels.size() ? levels[l + 1]->matrix : *coarse));
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
-    }
-
-    /// In front of all else: what algebraic multigrid needs for a while is the
-    /// largest part of the memory.
-    void
-    initialize_vertices(const NodalLevel &level, const MPI_Comm communicator)
-    {
-      VertexMatrix vertices;
-      assemble_vertex_matrix(level, vertices);
-      const auto &matrix = vertices.matrix.trilinos_matrix();
-      valid =
-        vertex_solver.initialize({vertices.rows, vertices.points, communicator},
-                                 matrix,
-                                 true);
-      vertex_x = std::make_unique<Epetra_Vector>(matrix.RowMap());
-      vertex_r = std::make_unique<Epetra_Vector>(matrix.RowMap());
     }
 
     /// levels[l]->x = an approximate solution for levels[l]->b, on the finest
@@ -99,13 +88,7 @@ namespace mortise
     {
       if (l == levels.size())
         {
-          std::copy_n(coarse_b.begin(),
-                      coarse_b.locally_owned_size(),
-                      vertex_r->Values());
-          vertex_solver.vmult(*vertex_x, *vertex_r);
-          std::copy_n(vertex_x->Values(),
-                      coarse_x.locally_owned_size(),
-                      coarse_x.begin());
+          vertices->vmult(coarse_x, coarse_b);
           coarse->clear_held(coarse_x);
           return;
         }
@@ -119,9 +102,15 @@ namespace mortise
       const bool constrained = l == 0 && correction;
       if (constrained)
         correction->project_residual(level.r);
-      transfers[l]->restrict_to(next_b, level.r);
+      if (transfers.empty())
+        next_b = level.r;
+      else
+        transfers[l]->restrict_to(next_b, level.r);
       cycle(l + 1);
-      transfers[l]->prolongate_add(level.x, next_x);
+      if (transfers.empty())
+        level.x += next_x;
+      else
+        transfers[l]->prolongate_add(level.x, next_x);
       if (constrained)
         correction->project(level.x);
       level.smoother.smooth(level.x, level.b, false);
@@ -135,8 +124,7 @@ namespace mortise
     std::unique_ptr<LevelOperator<Number>>               coarse;
     std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
     LevelVector<Number>                                  coarse_x, coarse_b;
-    VertexSolver                                         vertex_solver;
-    std::unique_ptr<Epetra_Vector>                       vertex_x, vertex_r;
+    std::unique_ptr<VertexMultigrid>                     vertices;
     bool                                                 valid = true;
   };
 
@@ -186,7 +174,7 @@ namespace mortise
     const std::string multipliers =
       implementation->lifting ? implementation->lifting->description() : "";
     return "multigrid in the degree, " +
-           implementation->vertex_solver.description() +
+           implementation->vertices->description() +
            (multipliers.empty() ? "" : ", " + multipliers);
   }
 } // namespace mortise

@@ -163,7 +163,7 @@ namespace mortise
   std::string
   HierarchicalPreconditioner::description() const
   {
-    return (implementation->has_high_modes ? "vertex stars, " : "") +
-           implementation->coarse.description();
+    return std::string(implementation->has_high_modes ? "vertex stars, " : "") +
+           "vertices " + implementation->coarse.description();
   }
 } // namespace mortise

@@ -183,7 +183,6 @@ namespace mortise
   std::string
   VertexSolver::description() const
   {
-    return factorization ? "vertices factorised" :
-                           "vertices by smoothed aggregation (ML)";
+    return factorization ? "factorised" : "by smoothed aggregation (ML)";
   }
 } // namespace mortise

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Iterations of the iterative solvers to 1e-8: iterations.py MORTISE
 
-Over degree and mesh, ranks, contrast of moduli, ratio of sizes, Poisson's ratio, and on scenes whose
-meshes need a matrix. Writes doc/iterations.md."""
+Over degree and mesh, ranks, contrast of moduli, ratio of sizes, Poisson's ratio, refinement, and tetrahedra. Writes doc/iterations.md."""
 import json
 import os
 import subprocess
@@ -57,8 +56,7 @@ def report(mortise):
     count = lambda *arguments, **options: both(mortise, sphere(*arguments, **options))
     yield ("# Iterations to a relative residual of 1e-8\n\nRegenerate: `tests/benchmarks/iterations.py build/mortise`. Each "
            "entry: iterations of `saddle point` /\n`condensed`. Scene `prm/thick_sphere.prm`, subdivisions inner : outer, "
-           "unless something else is said.\nDegree 1 has an assembled matrix and patches around vertices, the others "
-           "multigrid in the degree\nwithout a matrix.")
+           "unless something else is said.\nMultigrid in the degree and, at vertices, on coarser meshes.")
     yield from table("Over degree and mesh:", ("p", "", "", ""),
                      ((p, *(f"{mesh} {count(p, mesh)}" for mesh in meshes)) for p, meshes in MESHES.items()))
     yield from table("Over ranks:", ("p, mesh", "1", "2", "3", "5"),
@@ -85,6 +83,12 @@ def report(mortise):
     yield from table("Over the sides of the interface that have hanging nodes, 2,2:3,2:", ("p", *near),
                      ((p, *(both(mortise, sphere(p, "2,2:3,2") + local(balls)) for balls in near.values()))
                       for p in (2, 3, 4, 5, 6)))
+    refined = lambda n: [f"Body {body}/Mesh/Refinements={n}" for body in ("inner", "outer")]
+    yield from table("Over `Refinements` of 2,1:3,1 (above, meshes are not refined, and lattices of the generator are coarsened), the last\n"
+                     "with hanging nodes on both sides:", ("p", "1", "2", "3", "4", "2, hanging"),
+                     ((p, *(both(mortise, sphere(p, "2,1:3,1") + refined(n)) if n <= most else "" for n in (1, 2, 3, 4)),
+                       both(mortise, sphere(p, "2,1:3,1") + refined(2) + local(near["both, twice"])))
+                      for p, most in ((1, 4), (2, 4), (3, 3), (4, 2), (6, 1))))
     regions = lambda degrees: [f"Body {body}/Degree by region={degrees}" for body in ("inner", "outer")]
     yield from table("Degrees mixed within both bodies (a third of the octant each), over ranks, 4,2:6,3; the last with hanging nodes on\n"
                      "both sides:", ("degrees", "1", "2", "3"),

@@ -11,6 +11,7 @@
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/degree_transfer.h>
 #include <mortise/operators/nodal_system.h>
+#include <mortise/operators/node_block_operator.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/operators/vertex_matrix.h>
 
@@ -294,21 +295,22 @@ namespace mortise::testing
   void
   check_vertices(const std::string &name, const Scene &scene)
   {
-    const NodalLevel           &level = scene.levels().back();
-    const LevelOperator<double> K(level, false);
-    VertexMatrix                vertices;
-    assemble_vertex_matrix(level, vertices);
+    const NodalLevel               &level = scene.levels().back();
+    const LevelOperator<double>     K(level, false);
+    const NodeBlockOperator<double> vertices(
+      assemble_vertex_matrix(level).blocks);
     const auto          u = random_values(level, 1);
-    LevelVector<double> expected(level.layout);
+    LevelVector<double> expected(level.layout), from, to;
     K.vmult(expected, u);
-    mortise::Vector from(level.layout->locally_owned_range(), MPI_COMM_WORLD),
-      to(from);
+    vertices.initialize(from);
+    vertices.initialize(to);
     std::copy_n(u.begin(), u.locally_owned_size(), from.begin());
-    vertices.matrix.vmult(to, from);
+    vertices.vmult(to, from);
     double worst = 0.;
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
       worst =
-        std::max(worst, std::fabs(expected.local_element(i) - to.begin()[i]));
+        std::max(worst,
+                 std::fabs(expected.local_element(i) - to.local_element(i)));
     verdict(name + ", vertices",
             Utilities::MPI::max(worst, MPI_COMM_WORLD) / expected.linfty_norm(),
             1e-12);

@@ -7,6 +7,7 @@
 #include <deal.II/grid/tria_description.h>
 
 #include <mortise/body/coarse_geometry.h>
+#include <mortise/body/lattice_coarsening.h>
 #include <mortise/body/mesh_source.h>
 #include <mortise/body/surfaces.h>
 
@@ -23,6 +24,7 @@ namespace mortise
     std::vector<dealii::CellData<3>> cells;
     dealii::SubCellData              faces; ///< boundary faces with their ids
     MeshNames                        names;
+    std::vector<LatticeBlock> lattice; ///< that has all vertices, or none
 
     /// Geometry of all entities, moved like the vertices; none: flat.
     std::unique_ptr<dealii::Manifold<3>> manifold;

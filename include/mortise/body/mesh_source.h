@@ -8,6 +8,7 @@
 #include <mortise/base/rigid_motion.h>
 #include <mortise/base/types.h>
 #include <mortise/body/coarse_geometry.h>
+#include <mortise/body/lattice_coarsening.h>
 
 #include <array>
 #include <map>
@@ -130,6 +131,9 @@ namespace mortise
 
     /// Of second-order files: what the mapping takes its points from.
     std::shared_ptr<const CoarseGeometry> geometry;
+
+    /// Of hexahedra from generators: the vertices of the coarse mesh.
+    std::vector<LatticeBlock> lattice;
   };
 
   /// Make the mesh: coarse mesh, manifolds on all entities, motion, global and

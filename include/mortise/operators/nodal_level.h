@@ -5,20 +5,16 @@
 
 #include <deal.II/base/partitioner.h>
 
-#include <deal.II/lac/la_parallel_vector.h>
-
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/hanging_nodes.h>
 #include <mortise/operators/matrix_free_elasticity.h>
+#include <mortise/operators/nodal_operator.h>
 
 #include <memory>
 #include <vector>
 
 namespace mortise
 {
-  template <typename Number>
-  using LevelVector = dealii::LinearAlgebra::distributed::Vector<Number>;
-
   /// The jump penalty sum over interfaces of gamma int [[u]].[[v]], see
   /// BlockSystem, between the nodes that this rank's slave faces and their
   /// partners have; the same for each component.
@@ -64,7 +60,7 @@ namespace mortise
   /// K of one level, or K + J. Vectors are zero where components are held, and
   /// stay so.
   template <typename Number>
-  class LevelOperator
+  class LevelOperator : public NodalOperator<Number>
   {
   public:
     /// @p level is kept by reference; @p pressures as for MatrixFreeElasticity.
@@ -75,7 +71,8 @@ namespace mortise
 
     /// dst = A src. Collective.
     void
-    vmult(LevelVector<Number> &dst, const LevelVector<Number> &src) const;
+    vmult(LevelVector<Number>       &dst,
+          const LevelVector<Number> &src) const override;
 
     /// As vmult(), without regard to what is held.
     void
@@ -90,9 +87,15 @@ namespace mortise
     void
     average_components(LevelVector<Number> &diagonal) const;
 
-    /// Zero at held components.
     void
-    clear_held(LevelVector<Number> &v) const;
+    node_diagonal(LevelVector<Number> &result) const override
+    {
+      diagonal(result);
+      average_components(result);
+    }
+
+    void
+    clear_held(LevelVector<Number> &v) const override;
 
     /// Ghost values and those of hanging nodes of the function that @p v holds.
     /// Collective.
@@ -122,7 +125,7 @@ namespace mortise
     }
 
     void
-    initialize(LevelVector<Number> &v) const
+    initialize(LevelVector<Number> &v) const override
     {
       v.reinit(level.layout);
     }

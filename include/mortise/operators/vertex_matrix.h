@@ -1,20 +1,25 @@
-// The matrix of the coarsest level, degree one, for algebraic multigrid. It
-// never solves.
+// The matrix of the coarsest level, degree one, for a factorisation or
+// multigrid on coarser meshes. It never solves.
 #pragma once
 
+#include <mortise/body/vertex_coarsening.h>
 #include <mortise/operators/nodal_level.h>
+#include <mortise/operators/node_blocks.h>
+
+#include <vector>
 
 namespace mortise
 {
   struct VertexMatrix
   {
-    /// K + J on degree one; a held row has nothing but its diagonal.
-    SparseMatrix                                 matrix;
-    std::vector<dealii::types::global_dof_index> rows;   ///< owned
-    std::vector<dealii::Point<dim>>              points; ///< of each three rows
+    NodeBlocks                      blocks; ///< K + J on degree one
+    std::vector<dealii::Point<dim>> points; ///< of owned nodes
   };
 
-  /// @p level: of degree one in all bodies. Collective.
-  void
-  assemble_vertex_matrix(const NodalLevel &level, VertexMatrix &result);
+  /// @p level: of degree one in all bodies. With @p coarsening the matrix is
+  /// that of the functions on the coarser mesh, P^T (K + J) P, and needs none
+  /// on the finer one. Collective.
+  VertexMatrix
+  assemble_vertex_matrix(const NodalLevel       &level,
+                         const VertexCoarsening *coarsening = nullptr);
 } // namespace mortise

@@ -2,7 +2,7 @@
 // diagonal, one value for a node. It never coarsens.
 #pragma once
 
-#include <mortise/operators/nodal_level.h>
+#include <mortise/operators/nodal_operator.h>
 #include <mortise/solvers/interface_correction.h>
 
 namespace mortise
@@ -17,7 +17,7 @@ namespace mortise
     /// which makes D^{-1} respect a constraint, among what satisfies it.
     /// @p matrix and @p correction must stay alive. Collective. Not valid when
     /// A is not positive definite.
-    Chebyshev(const LevelOperator<Number>       &matrix,
+    Chebyshev(const NodalOperator<Number>       &matrix,
               double                             smallest,
               double                             effort,
               const InterfaceCorrection<Number> *correction = nullptr);
@@ -38,7 +38,7 @@ namespace mortise
     double
     estimate_largest() const;
 
-    const LevelOperator<Number>       &matrix;
+    const NodalOperator<Number>       &matrix;
     const InterfaceCorrection<Number> *correction;
     LevelVector<Number>                inverse_diagonal;
     mutable LevelVector<Number>        r, d;

@@ -1,0 +1,84 @@
+// Nodes at the corners of cells that were refined, however far the cells on
+// which the rank has them are. It never numbers nodes.
+#pragma once
+
+#include <deal.II/base/index_set.h>
+
+#include <mortise/body/nodal_space.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace mortise
+{
+  class RefinedCorners
+  {
+  public:
+    using Index        = NodalSpace::Index;
+    using Entries      = std::vector<std::pair<Index, double>>;
+    using CellIterator = dealii::Triangulation<dim>::cell_iterator;
+
+    /// @p vertices: of degree one in all bodies; kept by reference. Collective.
+    RefinedCorners(const NodalSpace &vertices, MPI_Comm comm);
+
+    /// Has this rank a part of the cell?
+    bool
+    is_local(const Body &body, const CellIterator &cell) const
+    {
+      return parts[body.index][cell->level()][cell->index()] != none;
+    }
+
+    /// At corner @p v of a cell; numbers::invalid_dof_index where the rank has
+    /// not the part at the corner, unless it has another part of a refined
+    /// cell.
+    Index
+    node(const Body &body, const CellIterator &cell, unsigned int v) const;
+
+    /// entries += weight u(node), by nodes that do not hang.
+    void
+    add(Index node, double weight, Entries &entries) const;
+
+    /// All that add() may name for corners of refined cells of which the rank
+    /// has a part.
+    const dealii::IndexSet &
+    nodes() const
+    {
+      return used;
+    }
+
+  private:
+    enum Part : char
+    {
+      none,
+      some,
+      all
+    };
+
+    /// A corner of a refined cell that several ranks have parts of.
+    struct Corner
+    {
+      std::array<unsigned int, 6> key; ///< the same on all ranks
+      unsigned int                body, level, index, vertex;
+    };
+
+    void
+    find_parts(const Body &body);
+    Index
+    own_node(const Body &body, const CellIterator &cell, unsigned int v) const;
+    void
+    exchange(MPI_Comm comm);
+    void
+    collect_nodes();
+
+    const NodalSpace &vertices;
+    /// By body, level and number of the cell.
+    std::vector<std::vector<std::vector<Part>>> parts;
+    /// By body and active cell, of owned cells.
+    std::vector<std::vector<std::array<Index, 8>>> cell_nodes;
+    /// Of other ranks, by body, level, number and vertex.
+    std::map<std::array<unsigned int, 4>, Index> foreign;
+    std::map<Index, Entries>                     foreign_lines; ///< that hang
+    dealii::IndexSet                             used;
+  };
+} // namespace mortise

@@ -1,0 +1,72 @@
+// Between the vertices of a mesh and those of a coarser one: functions, and the
+// matrix P^T A P. It never solves.
+#pragma once
+
+#include <mortise/body/vertex_coarsening.h>
+#include <mortise/operators/nodal_operator.h>
+#include <mortise/operators/node_blocks.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// Rows of P, one behind the other.
+  struct InterpolationRows
+  {
+    using Index = VertexCoarsening::Index;
+
+    std::vector<unsigned int> lengths;
+    std::vector<Index>        nodes; ///< coarse ones
+    std::vector<double>       weights;
+
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive &lengths &nodes &weights;
+    }
+  };
+
+  /// Those of all local nodes of @p layout, three indices for a node, whose
+  /// owned ones are the fine ones of @p coarsening. Collective.
+  InterpolationRows
+  interpolation_rows(const dealii::Utilities::MPI::Partitioner &layout,
+                     const VertexCoarsening                    &coarsening);
+
+  /// Drops from @p coarse the components that are held at the vertices that
+  /// stay; @p held: places of owned fine ones. Collective.
+  void
+  hold(const std::vector<unsigned int> &held,
+       const VertexCoarsening          &coarsening,
+       NodeBlocks                      &coarse);
+
+  /// P^T A P, held where the vertices that stay are; vectors get what P needs.
+  /// Collective.
+  NodeBlocks
+  coarsen(const NodeBlocks &fine, const VertexCoarsening &coarsening);
+
+  /// P is the same for all components.
+  template <typename Number>
+  class VertexTransfer
+  {
+  public:
+    /// @p coarse: what coarsen() made.
+    VertexTransfer(const VertexCoarsening &coarsening,
+                   const NodeBlocks       &coarse);
+
+    /// fine += P coarse, held components included. Collective.
+    void
+    prolongate_add(LevelVector<Number>       &fine,
+                   const LevelVector<Number> &coarse) const;
+
+    /// coarse = P^T fine, held components included. Collective.
+    void
+    restrict_to(LevelVector<Number>       &coarse,
+                const LevelVector<Number> &fine) const;
+
+  private:
+    std::vector<unsigned int> begin;  ///< by owned fine node
+    std::vector<unsigned int> places; ///< of coarse nodes' first components
+    std::vector<Number>       weights;
+  };
+} // namespace mortise
