@@ -1,8 +1,5 @@
 // See lattice_nodes.h.
-#include <deal.II/base/mpi.h>
-
-#include <boost/serialization/utility.hpp>
-
+#include <mortise/base/look_up.h>
 #include <mortise/body/lattice_nodes.h>
 
 #include <algorithm>
@@ -12,23 +9,6 @@
 namespace mortise
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// To the rank that brings together those who know and those who ask.
-    struct VertexMessage
-    {
-      std::vector<unsigned int>                                 asked;
-      std::vector<std::pair<unsigned int, LatticeNodes::Index>> known;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        archive &asked &known;
-      }
-    };
-  } // namespace
 
   LatticeNodes::LatticeNodes(const NodalSpace        &vertices,
                              const Body              &body,
@@ -59,7 +39,8 @@ namespace mortise
       return nodes[vertex] != numbers::invalid_dof_index &&
              owned.is_element(nodes[vertex]);
     };
-    std::set<unsigned int> asked, offered;
+    std::set<unsigned int>        asked;
+    std::map<unsigned int, Index> known; // that others may ask for
     for (unsigned int step = 0; step < lattice.n_steps(); ++step)
       lattice.for_each(step,
                        [&](const unsigned int vertex, const auto &entries) {
@@ -69,28 +50,15 @@ namespace mortise
                                nodes[entry.first] == numbers::invalid_dof_index)
                              asked.insert(entry.first);
                            else if (!mine && is_owned(entry.first))
-                             offered.insert(entry.first);
+                             known.emplace(entry.first, nodes[entry.first]);
                        });
-    const auto meeting_rank = [&](const std::size_t vertex) {
-      return static_cast<unsigned int>(vertex * n_ranks / n_vertices);
-    };
-    std::map<unsigned int, VertexMessage> messages;
-    for (const unsigned int vertex : asked)
-      messages[meeting_rank(vertex)].asked.push_back(vertex);
-    for (const unsigned int vertex : offered)
-      messages[meeting_rank(vertex)].known.emplace_back(vertex, nodes[vertex]);
-    const auto received = Utilities::MPI::some_to_some(comm, messages);
-    std::map<unsigned int, Index> all_known;
-    for (const auto &message : received)
-      all_known.insert(message.second.known.begin(),
-                       message.second.known.end());
-    std::map<unsigned int, std::vector<Index>> answers;
-    for (const auto &[rank, message] : received)
-      for (const unsigned int vertex : message.asked)
-        answers[rank].push_back(all_known.at(vertex));
-    for (const auto &[rank, answer] :
-         Utilities::MPI::some_to_some(comm, answers))
-      for (unsigned int i = 0; i < answer.size(); ++i)
-        nodes[messages[rank].asked[i]] = answer[i];
+    for (const auto &[vertex, node] : look_up(
+           asked,
+           known,
+           [&](const std::size_t key) {
+             return static_cast<unsigned int>(key * n_ranks / n_vertices);
+           },
+           comm))
+      nodes[vertex] = node;
   }
 } // namespace mortise

@@ -3,11 +3,7 @@
 
 #include <deal.II/grid/cell_id.h>
 
-#include <boost/serialization/array.hpp>
-#include <boost/serialization/map.hpp>
-#include <boost/serialization/utility.hpp>
-#include <boost/serialization/vector.hpp>
-
+#include <mortise/base/look_up.h>
 #include <mortise/body/refined_corners.h>
 
 #include <algorithm>
@@ -33,20 +29,6 @@ namespace mortise
       serialize(Archive &archive, const unsigned int /*version*/)
       {
         archive &node &entries;
-      }
-    };
-
-    /// To the rank that brings together those who know and those who ask.
-    struct CornerMessage
-    {
-      std::vector<Key>           asked;
-      std::map<Key, KnownCorner> known;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int /*version*/)
-      {
-        archive &asked &known;
       }
     };
 
@@ -131,6 +113,17 @@ namespace mortise
              numbers::invalid_dof_index;
   }
 
+  RefinedCorners::Corner
+  RefinedCorners::corner(const Body         &body,
+                         const CellIterator &cell,
+                         const unsigned int  v)
+  {
+    return {{body.index,
+             static_cast<unsigned int>(cell->level()),
+             static_cast<unsigned int>(cell->index()),
+             v}};
+  }
+
   RefinedCorners::Index
   RefinedCorners::node(const Body         &body,
                        const CellIterator &cell,
@@ -139,20 +132,18 @@ namespace mortise
     const Index own = own_node(body, cell, v);
     if (own != numbers::invalid_dof_index)
       return own;
-    const auto found = foreign.find({{body.index,
-                                      static_cast<unsigned int>(cell->level()),
-                                      static_cast<unsigned int>(cell->index()),
-                                      v}});
+    const auto found = foreign.find(corner(body, cell, v));
     return found == foreign.end() ? numbers::invalid_dof_index : found->second;
   }
 
   void
   RefinedCorners::exchange(const MPI_Comm comm)
   {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const auto        &hanging = vertices.hanging_nodes();
-    std::map<unsigned int, CornerMessage>       messages;
-    std::map<unsigned int, std::vector<Corner>> wanted; // as in the messages
+    const unsigned int         n_ranks = Utilities::MPI::n_mpi_processes(comm);
+    const auto                &hanging = vertices.hanging_nodes();
+    std::map<Key, KnownCorner> known;
+    std::map<Key, Corner>      wanted;
+    std::set<Key>              asked;
     for (const Body *body : vertices.bodies())
       for (const auto &cell : body->triangulation().cell_iterators())
         if (parts[body->index][cell->level()][cell->index()] == some)
@@ -161,48 +152,30 @@ namespace mortise
               Key        key;
               const auto id = cell->id().template to_binary<dim>();
               std::copy(id.begin(), id.end(), key.begin());
-              key[4]              = body->index;
-              key[5]              = v;
-              const auto  rank    = meeting_rank(key, n_ranks);
-              auto       &message = messages[rank];
-              const Index own     = own_node(*body, cell, v);
+              key[4]          = body->index;
+              key[5]          = v;
+              const Index own = own_node(*body, cell, v);
               if (own == numbers::invalid_dof_index)
                 {
-                  message.asked.push_back(key);
-                  wanted[rank].push_back(
-                    {key,
-                     body->index,
-                     static_cast<unsigned int>(cell->level()),
-                     static_cast<unsigned int>(cell->index()),
-                     v});
+                  asked.insert(key);
+                  wanted[key] = corner(*body, cell, v);
                   continue;
                 }
-              KnownCorner &known = message.known[key];
-              known.node         = own;
+              KnownCorner &mine = known[key];
+              mine.node         = own;
               if (const auto *entries = hanging.get_constraint_entries(own))
-                known.entries = *entries;
+                mine.entries = *entries;
             }
-
-    const auto received = Utilities::MPI::some_to_some(comm, messages);
-    std::map<Key, KnownCorner> all_known;
-    for (const auto &message : received)
-      all_known.insert(message.second.known.begin(),
-                       message.second.known.end());
-    std::map<unsigned int, std::vector<KnownCorner>> answers;
-    for (const auto &[rank, message] : received)
-      for (const Key &key : message.asked)
-        answers[rank].push_back(all_known.at(key));
-
-    for (const auto &[rank, answer] :
-         Utilities::MPI::some_to_some(comm, answers))
-      for (unsigned int i = 0; i < answer.size(); ++i)
-        {
-          const Corner &corner = wanted.at(rank)[i];
-          foreign[{{corner.body, corner.level, corner.index, corner.vertex}}] =
-            answer[i].node;
-          if (!answer[i].entries.empty())
-            foreign_lines[answer[i].node] = answer[i].entries;
-        }
+    for (const auto &[key, found] : look_up(
+           asked,
+           known,
+           [&](const Key &any) { return meeting_rank(any, n_ranks); },
+           comm))
+      {
+        foreign[wanted.at(key)] = found.node;
+        if (!found.entries.empty())
+          foreign_lines[found.node] = found.entries;
+      }
   }
 
   void

@@ -55,13 +55,11 @@ namespace mortise
       all
     };
 
-    /// A corner of a refined cell that several ranks have parts of.
-    struct Corner
-    {
-      std::array<unsigned int, 6> key; ///< the same on all ranks
-      unsigned int                body, level, index, vertex;
-    };
+    /// Body, level and number of a cell here, and vertex.
+    using Corner = std::array<unsigned int, 4>;
 
+    static Corner
+    corner(const Body &body, const CellIterator &cell, unsigned int v);
     void
     find_parts(const Body &body);
     Index
@@ -76,9 +74,8 @@ namespace mortise
     std::vector<std::vector<std::vector<Part>>> parts;
     /// By body and active cell, of owned cells.
     std::vector<std::vector<std::array<Index, 8>>> cell_nodes;
-    /// Of other ranks, by body, level, number and vertex.
-    std::map<std::array<unsigned int, 4>, Index> foreign;
-    std::map<Index, Entries>                     foreign_lines; ///< that hang
-    dealii::IndexSet                             used;
+    std::map<Corner, Index>                        foreign; ///< of other ranks
+    std::map<Index, Entries> foreign_lines; ///< of those that hang
+    dealii::IndexSet         used;
   };
 } // namespace mortise
