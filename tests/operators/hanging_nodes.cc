@@ -10,14 +10,12 @@
 #include <mortise/body/fe_legendre.h>
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/degree_transfer.h>
-#include <mortise/operators/nodal_system.h>
 #include <mortise/operators/node_block_operator.h>
-#include <mortise/operators/scene_system.h>
 #include <mortise/operators/vertex_matrix.h>
 
 #include <cmath>
 
-#include "../scenes/scene.h"
+#include "nodal_scene.h"
 
 namespace mortise::testing
 {
@@ -45,62 +43,39 @@ namespace mortise::testing
     return result;
   }
 
-  struct Scene
+  /// @p degrees: of each body; those of its cells are drawn from them, the same
+  /// on every number of ranks.
+  NodalScene
+  make_scene(const std::vector<std::string>               &kinds,
+             const std::vector<std::vector<unsigned int>> &degrees)
   {
-    /// @p degrees: of each body; those of its cells are drawn from them.
-    Scene(const std::vector<std::string>               &kinds,
-          const std::vector<std::vector<unsigned int>> &degrees)
-    {
-      std::vector<const DoFHandler<dim> *>   handlers;
-      std::vector<const Body *>              pointers;
-      std::vector<AffineConstraints<double>> conformity;
-      for (unsigned int b = 0; b < kinds.size(); ++b)
-        {
-          bodies.push_back(std::make_unique<Body>(
-            "body", b, LinearElastic{1. + b, 0.3 - 0.1 * b}));
-          bodies[b]->create_mesh(mesh(kinds[b]), MPI_COMM_WORLD, "");
-          std::map<types::material_id, unsigned int> by_region;
-          for (unsigned int i = 0; i < degrees[b].size(); ++i)
+    std::vector<MeshParameters> meshes;
+    for (const std::string &kind : kinds)
+      meshes.push_back(mesh(kind));
+    return NodalScene(
+      meshes,
+      [&](Body &body) {
+        const auto                                &drawn = degrees[body.index];
+        std::map<types::material_id, unsigned int> by_region;
+        for (unsigned int i = 0; i < drawn.size(); ++i)
+          {
+            by_region[i]                 = drawn[i];
+            body.mesh.names.materials[i] = std::to_string(i);
+          }
+        for (const auto &cell :
+             body.mesh.triangulation->active_cell_iterators())
+          if (cell->is_locally_owned())
             {
-              by_region[i]                       = degrees[b][i];
-              bodies[b]->mesh.names.materials[i] = std::to_string(i);
+              double x = 0.;
+              for (unsigned int d = 0; d < dim; ++d)
+                x = 17. * x + cell->center()[d];
+              cell->set_material_id(static_cast<unsigned int>(97. * x) %
+                                    drawn.size());
             }
-          // the same on every number of ranks
-          for (const auto &cell :
-               bodies[b]->mesh.triangulation->active_cell_iterators())
-            if (cell->is_locally_owned())
-              {
-                double x = 0.;
-                for (unsigned int d = 0; d < dim; ++d)
-                  x = 17. * x + cell->center()[d];
-                cell->set_material_id(static_cast<unsigned int>(97. * x) %
-                                      degrees[b].size());
-              }
-          bodies[b]->create_space(degrees[b][0], by_region, "");
-          handlers.push_back(&bodies[b]->dof_handler);
-          pointers.push_back(bodies[b].get());
-          conformity.emplace_back();
-          conformity[b].copy_from(bodies[b]->conformity);
-        }
-      field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
-      field.constraints = scene_constraints(field.numbering, conformity);
-      system            = std::make_unique<NodalSystem>(
-        make_nodal_spaces(pointers, MPI_COMM_WORLD),
-        nullptr,
-        NodalSystem::Scene{field.numbering, field.constraints, {}},
-        MPI_COMM_WORLD);
-    }
-
-    const std::vector<NodalLevel> &
-    levels() const
-    {
-      return system->levels();
-    }
-
-    Bodies                       bodies;
-    SceneField                   field;
-    std::unique_ptr<NodalSystem> system;
-  };
+        body.create_space(drawn[0], by_region, "");
+      },
+      [](const Body &, AffineConstraints<double> &) {});
+  }
 
   double
   random_number(const unsigned int seed, const types::global_dof_index i)
@@ -111,7 +86,7 @@ namespace mortise::testing
 
   /// A function of the hierarchical space, by body.
   std::vector<BodyVector>
-  make_function(const Scene &scene, const unsigned int seed)
+  make_function(const NodalScene &scene, const unsigned int seed)
   {
     mortise::Vector u(scene.field.numbering.owned(), MPI_COMM_WORLD);
     for (const auto i : scene.field.numbering.owned())
@@ -156,7 +131,7 @@ namespace mortise::testing
 
   /// Values at the nodes of the finest level that do not hang.
   LevelVector<double>
-  to_nodes(const Scene &scene, const std::vector<BodyVector> &u)
+  to_nodes(const NodalScene &scene, const std::vector<BodyVector> &u)
   {
     const NodalLevel   &level = scene.levels().front();
     LevelVector<double> result(level.layout);
@@ -178,7 +153,7 @@ namespace mortise::testing
 
   /// w.Ku by the matrices of cells in the hierarchical basis.
   double
-  by_matrices(const Scene                   &scene,
+  by_matrices(const NodalScene              &scene,
               const std::vector<BodyVector> &w,
               const std::vector<BodyVector> &u)
   {
@@ -223,7 +198,7 @@ namespace mortise::testing
   }
 
   void
-  check_space(const std::string &name, const Scene &scene)
+  check_space(const std::string &name, const NodalScene &scene)
   {
     const auto   u = make_function(scene, 1), w = make_function(scene, 2);
     const auto   u_nodes = to_nodes(scene, u), w_nodes = to_nodes(scene, w);
@@ -266,7 +241,9 @@ namespace mortise::testing
   }
 
   void
-  check_transfer(const std::string &name, const Scene &scene, const bool affine)
+  check_transfer(const std::string &name,
+                 const NodalScene  &scene,
+                 const bool         affine)
   {
     for (unsigned int l = 0; l + 1 < scene.levels().size(); ++l)
       {
@@ -293,7 +270,7 @@ namespace mortise::testing
   }
 
   void
-  check_vertices(const std::string &name, const Scene &scene)
+  check_vertices(const std::string &name, const NodalScene &scene)
   {
     const NodalLevel               &level = scene.levels().back();
     const LevelOperator<double>     K(level, false);
@@ -321,8 +298,8 @@ namespace mortise::testing
         const std::vector<std::string>               &kinds,
         const std::vector<std::vector<unsigned int>> &degrees)
   {
-    const Scene scene(kinds, degrees);
-    const bool  affine =
+    const NodalScene scene = make_scene(kinds, degrees);
+    const bool       affine =
       std::find(kinds.begin(), kinds.end(), "curved") == kinds.end();
     check_space(name, scene);
     check_transfer(name, scene, affine);

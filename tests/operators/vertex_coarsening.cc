@@ -16,7 +16,7 @@
 
 #include <cmath>
 
-#include "../scenes/scene.h"
+#include "nodal_scene.h"
 
 namespace mortise::testing
 {
@@ -49,51 +49,26 @@ namespace mortise::testing
 
   /// The face with number 0 of each body is held, of that with number 2 the
   /// second component.
-  struct Scene
+  NodalScene
+  make_scene(const std::vector<std::string> &kinds)
   {
-    explicit Scene(const std::vector<std::string> &kinds)
-    {
-      std::vector<const DoFHandler<dim> *>   handlers;
-      std::vector<const Body *>              pointers;
-      std::vector<AffineConstraints<double>> constraints(kinds.size());
-      for (unsigned int b = 0; b < kinds.size(); ++b)
-        {
-          bodies.push_back(std::make_unique<Body>(
-            "body", b, LinearElastic{1. + b, 0.3 - 0.1 * b}));
-          bodies[b]->create_mesh(mesh(kinds[b]), MPI_COMM_WORLD, "");
-          bodies[b]->create_space(1, {}, "");
-          handlers.push_back(&bodies[b]->dof_handler);
-          pointers.push_back(bodies[b].get());
-          constraints[b].copy_from(bodies[b]->conformity);
-          DoFTools::make_zero_boundary_constraints(*handlers[b],
-                                                   0,
-                                                   constraints[b]);
-          DoFTools::make_zero_boundary_constraints(*handlers[b],
-                                                   2,
-                                                   constraints[b],
-                                                   ComponentMask(
-                                                     {false, true, false}));
-          constraints[b].close();
-        }
-      field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
-      field.constraints = scene_constraints(field.numbering, constraints);
-      system            = std::make_unique<NodalSystem>(
-        make_nodal_spaces(pointers, MPI_COMM_WORLD),
-        nullptr,
-        NodalSystem::Scene{field.numbering, field.constraints, {}},
-        MPI_COMM_WORLD);
-    }
-
-    const NodalLevel &
-    level() const
-    {
-      return system->levels().back();
-    }
-
-    Bodies                       bodies;
-    SceneField                   field;
-    std::unique_ptr<NodalSystem> system;
-  };
+    std::vector<MeshParameters> meshes;
+    for (const std::string &kind : kinds)
+      meshes.push_back(mesh(kind));
+    return NodalScene(
+      meshes,
+      [](Body &body) { body.create_space(1, {}, ""); },
+      [](const Body &body, AffineConstraints<double> &constraints) {
+        DoFTools::make_zero_boundary_constraints(body.dof_handler,
+                                                 0,
+                                                 constraints);
+        DoFTools::make_zero_boundary_constraints(body.dof_handler,
+                                                 2,
+                                                 constraints,
+                                                 ComponentMask(
+                                                   {false, true, false}));
+      });
+  }
 
   /// The same on every number of ranks as far as norms go.
   template <typename Number>
@@ -120,16 +95,16 @@ namespace mortise::testing
   /// constant.
   void
   check_steps(const std::string &name,
-              const Scene       &scene,
+              const NodalScene  &scene,
               const bool         exact,
               const unsigned int n_corners)
   {
-    VertexMatrix matrix = assemble_vertex_matrix(scene.level());
+    VertexMatrix matrix = assemble_vertex_matrix(scene.levels().back());
     NodeBlocks   fine   = std::move(matrix.blocks);
     auto         points = std::move(matrix.points);
     double       values = 0., transposes = 0., products = 0.;
     for (const VertexCoarsening &coarsening :
-         make_vertex_coarsenings(*scene.level().space, MPI_COMM_WORLD))
+         make_vertex_coarsenings(*scene.levels().back().space, MPI_COMM_WORLD))
       {
         NodeBlocks                   coarse = coarsen(fine, coarsening);
         const VertexTransfer<double> transfer(coarsening, coarse);
@@ -188,9 +163,9 @@ namespace mortise::testing
   }
 
   void
-  check_multigrid(const std::string &name, const Scene &scene)
+  check_multigrid(const std::string &name, const NodalScene &scene)
   {
-    const NodalLevel               &level = scene.level();
+    const NodalLevel               &level = scene.levels().back();
     const NodeBlockOperator<double> A(assemble_vertex_matrix(level).blocks);
     const VertexMultigrid           multigrid(level, true);
     verdict(name + ", not by one factorisation",
@@ -224,7 +199,7 @@ namespace mortise::testing
         const bool                      exact,
         const unsigned int              n_corners)
   {
-    const Scene scene(kinds);
+    const NodalScene scene = make_scene(kinds);
     check_steps(name, scene, exact, n_corners);
     check_multigrid(name, scene);
   }

@@ -1,0 +1,58 @@
+// Bodies in a nodal basis, without an interface, for tests of what stands on
+// it.
+#pragma once
+
+#include <mortise/operators/nodal_system.h>
+#include <mortise/operators/scene_system.h>
+
+#include <functional>
+
+#include "../scenes/scene.h"
+
+namespace mortise::testing
+{
+  class NodalScene
+  {
+  public:
+    /// @p create_space: of one body; @p constrain: adds to its constraints.
+    NodalScene(
+      const std::vector<MeshParameters> &meshes,
+      const std::function<void(Body &)> &create_space,
+      const std::function<void(const Body &,
+                               dealii::AffineConstraints<double> &)> &constrain)
+    {
+      std::vector<const dealii::DoFHandler<dim> *>   handlers;
+      std::vector<const Body *>                      pointers;
+      std::vector<dealii::AffineConstraints<double>> constraints(meshes.size());
+      for (unsigned int b = 0; b < meshes.size(); ++b)
+        {
+          bodies.push_back(std::make_unique<Body>(
+            "body", b, LinearElastic{1. + b, 0.3 - 0.1 * b}));
+          bodies[b]->create_mesh(meshes[b], MPI_COMM_WORLD, "");
+          create_space(*bodies[b]);
+          handlers.push_back(&bodies[b]->dof_handler);
+          pointers.push_back(bodies[b].get());
+          constraints[b].copy_from(bodies[b]->conformity);
+          constrain(*bodies[b], constraints[b]);
+          constraints[b].close();
+        }
+      field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
+      field.constraints = scene_constraints(field.numbering, constraints);
+      system            = std::make_unique<NodalSystem>(
+        make_nodal_spaces(pointers, MPI_COMM_WORLD),
+        nullptr,
+        NodalSystem::Scene{field.numbering, field.constraints, {}},
+        MPI_COMM_WORLD);
+    }
+
+    const std::vector<NodalLevel> &
+    levels() const
+    {
+      return system->levels();
+    }
+
+    Bodies                       bodies;
+    SceneField                   field;
+    std::unique_ptr<NodalSystem> system;
+  };
+} // namespace mortise::testing
