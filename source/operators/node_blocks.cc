@@ -279,7 +279,6 @@ namespace mortise
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     IndexSet relevant(ghosts);
-    relevant.set_size(owned.size());
     relevant.add_indices(used.begin(), used.end());
     result.layout = std::make_shared<const Utilities::MPI::Partitioner>(
       displacement_indices(owned), displacement_indices(relevant), comm);
