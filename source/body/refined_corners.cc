@@ -45,7 +45,6 @@ namespace mortise
   RefinedCorners::RefinedCorners(const NodalSpace &vertices,
                                  const MPI_Comm    comm)
     : vertices(vertices)
-    , used(vertices.owned_nodes().size())
   {
     for (const Body *body : vertices.bodies())
       {
@@ -66,7 +65,6 @@ namespace mortise
                       of_body[cell->active_cell_index()].begin());
       });
     exchange(comm);
-    collect_nodes();
   }
 
   void
@@ -176,26 +174,6 @@ namespace mortise
         if (!found.entries.empty())
           foreign_lines[found.node] = found.entries;
       }
-  }
-
-  void
-  RefinedCorners::collect_nodes()
-  {
-    Entries            entries;
-    std::vector<Index> indices;
-    for (const Body *body : vertices.bodies())
-      for (const auto &cell : body->triangulation().cell_iterators())
-        if (cell->has_children() && is_local(*body, cell))
-          for (unsigned int v = 0; v < 8; ++v)
-            {
-              entries.clear();
-              add(node(*body, cell, v), 1., entries);
-              for (const auto &entry : entries)
-                indices.push_back(entry.first);
-            }
-    std::sort(indices.begin(), indices.end());
-    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-    used.add_indices(indices.begin(), indices.end());
   }
 
   void

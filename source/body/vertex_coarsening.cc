@@ -1,8 +1,6 @@
 // See vertex_coarsening.h.
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/grid/cell_id.h>
-
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/body/lattice_nodes.h>
@@ -10,6 +8,7 @@
 #include <mortise/body/vertex_coarsening.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace mortise
 {
@@ -56,24 +55,6 @@ namespace mortise
         return n_refined + coarsening.n_steps();
       }
 
-      /// The nodes that owned ones follow from.
-      void
-      collect(const IndexSet &owned, IndexSet &ghosts) const
-      {
-        std::vector<Index> from;
-        for (unsigned int step = 0; step < coarsening.n_steps(); ++step)
-          coarsening.for_each(
-            step, [&](const unsigned int vertex, const auto &entries) {
-              if (const Index node = nodes[vertex];
-                  node != numbers::invalid_dof_index && owned.is_element(node))
-                for (const auto &entry : entries)
-                  if (!owned.is_element(nodes[entry.first]))
-                    from.push_back(nodes[entry.first]);
-            });
-        std::sort(from.begin(), from.end());
-        ghosts.add_indices(from.begin(), from.end());
-      }
-
       const Body             &body;
       const unsigned int      n_refined;
       const LatticeCoarsening coarsening;
@@ -91,19 +72,14 @@ namespace mortise
         , owned(vertices.owned_nodes())
         , rows(owned.n_elements())
       {
-        IndexSet ghosts = corners.nodes();
         for (const Body *body : vertices.bodies())
           {
             lattices.push_back(
               std::make_unique<Lattice>(vertices, *body, comm));
-            lattices.back()->collect(owned, ghosts);
             n_steps = std::max(n_steps, lattices.back()->n_steps());
           }
         fine_nodes.resize(owned.n_elements());
-        for (unsigned int i = 0; i < fine_nodes.size(); ++i)
-          fine_nodes[i] = i;
-        ghosts.subtract_set(owned);
-        number.reinit(owned, ghosts, comm);
+        std::iota(fine_nodes.begin(), fine_nodes.end(), 0);
       }
 
       std::vector<VertexCoarsening>
@@ -166,6 +142,22 @@ namespace mortise
           });
       }
 
+      /// That owned ones follow from.
+      IndexSet
+      nodes_of_others() const
+      {
+        std::vector<Index> nodes;
+        for (const unsigned int node : fine_nodes)
+          for (const auto &entry : rows[node])
+            if (!owned.is_element(entry.first))
+              nodes.push_back(entry.first);
+        std::sort(nodes.begin(), nodes.end());
+        IndexSet result(owned.size());
+        result.add_indices(nodes.begin(),
+                           std::unique(nodes.begin(), nodes.end()));
+        return result;
+      }
+
       VertexCoarsening
       coarsen()
       {
@@ -187,6 +179,10 @@ namespace mortise
           first = 0; // is left undefined there
         result.owned = IndexSet(Utilities::MPI::sum(mine, comm));
         result.owned.add_range(first, first + mine);
+        // on the coarser mesh, of nodes of the finest one
+        LinearAlgebra::distributed::Vector<double> number(owned,
+                                                          nodes_of_others(),
+                                                          comm);
         for (unsigned int k = 0; k < coarse_nodes.size(); ++k)
           number.local_element(coarse_nodes[k]) = first + k;
         number.update_ghost_values();
@@ -207,7 +203,6 @@ namespace mortise
             rows[node] = Entries();
           }
         result.begin.push_back(result.nodes.size());
-        number.zero_out_ghost_values();
         fine_nodes = std::move(coarse_nodes);
         return result;
       }
@@ -220,8 +215,6 @@ namespace mortise
       unsigned int                          n_steps = 0;
       std::vector<Entries>                  rows; ///< by owned node
       std::vector<unsigned int> fine_nodes; ///< owned ones of the finer mesh
-      /// On the coarser mesh, of nodes of the finest one.
-      LinearAlgebra::distributed::Vector<double> number;
     };
   } // namespace
 

@@ -336,15 +336,7 @@ namespace mortise
                                const LevelVector<Number> &src) const
   {
     vmult_free(dst, src);
-    clear_held(dst);
-  }
-
-  template <typename Number>
-  void
-  LevelOperator<Number>::clear_held(LevelVector<Number> &v) const
-  {
-    for (const unsigned int place : level.held)
-      v.local_element(place) = 0;
+    this->clear_held(dst);
   }
 
   template <typename Number>
@@ -367,24 +359,6 @@ namespace mortise
             values += padded<Number>(group.columns.size());
           }
     diagonal.compress(VectorOperation::add);
-    for (const unsigned int place : level.held)
-      diagonal.local_element(place) = 1;
-  }
-
-  template <typename Number>
-  void
-  LevelOperator<Number>::average_components(LevelVector<Number> &diagonal) const
-  {
-    for (const unsigned int place : level.held)
-      diagonal.local_element(place) = 0;
-    for (unsigned int k = 0; k < diagonal.locally_owned_size(); k += dim)
-      {
-        Number *node = &diagonal.local_element(k);
-        if (const auto n = dim - std::count(node, node + dim, Number()); n > 0)
-          std::fill_n(node,
-                      dim,
-                      std::accumulate(node, node + dim, Number()) / n);
-      }
     for (const unsigned int place : level.held)
       diagonal.local_element(place) = 1;
   }

@@ -10,7 +10,7 @@ namespace mortise
 
   template <typename Number>
   NodeBlockOperator<Number>::NodeBlockOperator(NodeBlocks blocks)
-    : held(held_components(blocks))
+    : held_places(held_components(blocks))
     , layout(blocks.layout)
     , begin(std::move(blocks.begin))
     , columns(std::move(blocks.columns))
@@ -53,35 +53,17 @@ namespace mortise
 
   template <typename Number>
   void
-  NodeBlockOperator<Number>::node_diagonal(LevelVector<Number> &diagonal) const
+  NodeBlockOperator<Number>::diagonal(LevelVector<Number> &diagonal) const
   {
     initialize(diagonal);
     for (unsigned int i = 0; i + 1 < begin.size(); ++i)
       for (std::size_t k = begin[i]; k < begin[i + 1]; ++k)
         if (columns[k] == i)
-          {
-            Number       sum    = 0;
-            unsigned int n_free = 0;
-            for (unsigned int c = 0; c < dim; ++c)
-              if (const Number value = values[dim * dim * k + (dim + 1) * c];
-                  value != 0)
-                {
-                  sum += value;
-                  ++n_free;
-                }
-            for (unsigned int c = 0; c < dim; ++c)
-              diagonal.local_element(dim * i + c) = n_free ? sum / n_free : 1;
-          }
-    for (const unsigned int place : held)
+          for (unsigned int c = 0; c < dim; ++c)
+            diagonal.local_element(dim * i + c) =
+              values[dim * dim * k + (dim + 1) * c];
+    for (const unsigned int place : held_places)
       diagonal.local_element(place) = 1;
-  }
-
-  template <typename Number>
-  void
-  NodeBlockOperator<Number>::clear_held(LevelVector<Number> &v) const
-  {
-    for (const unsigned int place : held)
-      v.local_element(place) = 0;
   }
 
   template class NodeBlockOperator<float>;

@@ -1,8 +1,6 @@
 // See node_blocks.h.
 #include <deal.II/base/mpi.h>
 
-#include <boost/serialization/utility.hpp>
-
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
 #include <mortise/body/nodal_space.h>
@@ -32,6 +30,7 @@ namespace mortise
         archive &rows &columns &lengths;
       }
     };
+
     /// visit(owned component, entry of the diagonal); not of nodes without a
     /// block.
     template <typename Visit>

@@ -19,7 +19,8 @@ namespace mortise
     : matrix(matrix)
     , correction(correction)
   {
-    matrix.node_diagonal(inverse_diagonal);
+    matrix.diagonal(inverse_diagonal);
+    matrix.average_components(inverse_diagonal);
     for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
       inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
     matrix.initialize(r);

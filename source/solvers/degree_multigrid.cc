@@ -71,9 +71,10 @@ namespace mortise
             all[l], l == 0 ? correction.get() : nullptr));
           valid = valid && levels.back()->smoother.is_valid();
         }
-      coarse = std::make_unique<LevelOperator<Number>>(all.back(), false);
-      coarse->initialize(coarse_x);
-      coarse->initialize(coarse_b);
+      coarse_x.reinit(all.back().layout);
+      coarse_b.reinit(all.back().layout);
+      if (all.size() > 1)
+        coarse = std::make_unique<LevelOperator<Number>>(all.back(), false);
       for (unsigned int l = 0; l + 1 < all.size(); ++l)
         transfers.push_back(std::make_unique<DegreeTransfer<Number>>(
           levels[l]->matrix,
@@ -89,7 +90,6 @@ namespace mortise
       if (l == levels.size())
         {
           vertices->vmult(coarse_x, coarse_b);
-          coarse->clear_held(coarse_x);
           return;
         }
       SmoothedLevel &level  = *levels[l];
@@ -116,12 +116,12 @@ namespace mortise
       level.smoother.smooth(level.x, level.b, false);
     }
 
-    std::unique_ptr<CouplingProduct<Number>>             product;
-    std::unique_ptr<DiagonalLifting>                     lifting;
-    std::unique_ptr<ConstraintProjector>                 projector;
-    std::unique_ptr<InterfaceCorrection<Number>>         correction;
-    std::vector<std::unique_ptr<SmoothedLevel>>          levels;
-    std::unique_ptr<LevelOperator<Number>>               coarse;
+    std::unique_ptr<CouplingProduct<Number>>     product;
+    std::unique_ptr<DiagonalLifting>             lifting;
+    std::unique_ptr<ConstraintProjector>         projector;
+    std::unique_ptr<InterfaceCorrection<Number>> correction;
+    std::vector<std::unique_ptr<SmoothedLevel>>  levels;
+    std::unique_ptr<LevelOperator<Number>> coarse; ///< for the last transfer
     std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
     LevelVector<Number>                                  coarse_x, coarse_b;
     std::unique_ptr<VertexMultigrid>                     vertices;

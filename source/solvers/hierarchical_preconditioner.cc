@@ -60,17 +60,14 @@ namespace mortise
       , r(x)
       , y(x)
       , multiplier(system.owned_multiplier, system.communicator)
-      , has_high_modes(system.max_degree > 1)
     {
       valid = coarse.initialize({system.vertex_dofs,
                                  system.vertex_points,
                                  system.communicator},
                                 *bulk,
                                 false);
-      if (has_high_modes || system.owned_multiplier.size() > 0)
-        valid =
-          smoother.initialize(*bulk, EntityGraph(system).patches(system)) &&
-          valid;
+      valid = smoother.initialize(*bulk, EntityGraph(system).patches(system)) &&
+              valid;
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
       if (valid && system.owned_multiplier.size() > 0)
         {
@@ -118,7 +115,6 @@ namespace mortise
     Vector                               x, r, y, multiplier;
     std::unique_ptr<InterfaceLifting>    lifting;
     std::unique_ptr<ConstraintProjector> projector;
-    bool                                 has_high_modes;
     bool                                 valid = true;
   };
 
@@ -136,14 +132,8 @@ namespace mortise
   HierarchicalPreconditioner::vmult(Vector &dst, const Vector &src) const
   {
     auto &data = *implementation;
-    if (!data.has_high_modes)
-      {
-        Epetra_Vector target = epetra_view(dst);
-        data.coarse.vmult(target, *src.trilinos_vector()(0));
-        return;
-      }
-    data.x = 0.;
-    data.r = src;
+    data.x     = 0.;
+    data.r     = src;
     data.smooth(BlockSmoother::Sweep::forward);
     data.compute_residual(src);
     data.correct([&](Epetra_Vector &to, const Epetra_Vector &from) {
@@ -163,7 +153,6 @@ namespace mortise
   std::string
   HierarchicalPreconditioner::description() const
   {
-    return std::string(implementation->has_high_modes ? "vertex stars, " : "") +
-           "vertices " + implementation->coarse.description();
+    return "vertex stars, vertices " + implementation->coarse.description();
   }
 } // namespace mortise

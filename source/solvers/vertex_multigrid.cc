@@ -59,6 +59,7 @@ namespace mortise
   struct VertexMultigrid::Implementation
   {
     Implementation(const NodalLevel &level, const bool smooth_finest)
+      : level(level)
     {
       const MPI_Comm comm        = level.layout->get_mpi_communicator();
       const auto     coarsenings = level.layout->size() > max_factorised ?
@@ -152,6 +153,7 @@ namespace mortise
       return l == levels.size() ? coarse_b : levels[l]->b;
     }
 
+    const NodalLevel                          &level;
     std::vector<std::unique_ptr<RefinedLevel>> levels;
     LevelVector<Number>                        coarse_x, coarse_b;
     std::vector<unsigned int>                  held; ///< on the coarsest level
@@ -189,6 +191,8 @@ namespace mortise
       {
         x = 0;
         data.to_first->prolongate_add(x, data.x(0));
+        for (const unsigned int place : data.level.held)
+          x.local_element(place) = 0;
       }
     else
       copy_owned(x, data.x(0));

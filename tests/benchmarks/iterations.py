@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Iterations of the iterative solvers to 1e-8: iterations.py MORTISE
 
-Over degree and mesh, ranks, contrast of moduli, ratio of sizes, Poisson's ratio, refinement, and tetrahedra. Writes doc/iterations.md."""
+Over degree and mesh, ranks, contrast of moduli, ratio of sizes, Poisson's ratio, refinement, and
+tetrahedra. Writes doc/iterations.md."""
 import json
 import os
 import subprocess

@@ -2,8 +2,6 @@
 // which the rank has them are. It never numbers nodes.
 #pragma once
 
-#include <deal.II/base/index_set.h>
-
 #include <mortise/body/nodal_space.h>
 
 #include <array>
@@ -39,14 +37,6 @@ namespace mortise
     void
     add(Index node, double weight, Entries &entries) const;
 
-    /// All that add() may name for corners of refined cells of which the rank
-    /// has a part.
-    const dealii::IndexSet &
-    nodes() const
-    {
-      return used;
-    }
-
   private:
     enum Part : char
     {
@@ -66,8 +56,6 @@ namespace mortise
     own_node(const Body &body, const CellIterator &cell, unsigned int v) const;
     void
     exchange(MPI_Comm comm);
-    void
-    collect_nodes();
 
     const NodalSpace &vertices;
     /// By body, level and number of the cell.
@@ -76,6 +64,5 @@ namespace mortise
     std::vector<std::vector<std::array<Index, 8>>> cell_nodes;
     std::map<Corner, Index>                        foreign; ///< of other ranks
     std::map<Index, Entries> foreign_lines; ///< of those that hang
-    dealii::IndexSet         used;
   };
 } // namespace mortise

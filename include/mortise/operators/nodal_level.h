@@ -78,24 +78,14 @@ namespace mortise
     void
     vmult_free(LevelVector<Number> &dst, const LevelVector<Number> &src) const;
 
-    /// 1 at held components. Collective.
     void
-    diagonal(LevelVector<Number> &diagonal) const;
+    diagonal(LevelVector<Number> &diagonal) const override;
 
-    /// Each value of diagonal() by the mean over the components of its node
-    /// that are not held; 1 at those that are.
-    void
-    average_components(LevelVector<Number> &diagonal) const;
-
-    void
-    node_diagonal(LevelVector<Number> &result) const override
+    const std::vector<unsigned int> &
+    held() const override
     {
-      diagonal(result);
-      average_components(result);
+      return level.held;
     }
-
-    void
-    clear_held(LevelVector<Number> &v) const override;
 
     /// Ghost values and those of hanging nodes of the function that @p v holds.
     /// Collective.

@@ -4,6 +4,8 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <vector>
+
 namespace mortise
 {
   template <typename Number>
@@ -24,14 +26,21 @@ namespace mortise
     virtual void
     vmult(LevelVector<Number> &dst, const LevelVector<Number> &src) const = 0;
 
-    /// Each entry of the diagonal by the mean over the components of its node
-    /// that are not held; 1 at those that are. @p diagonal is initialised.
-    /// Collective.
+    /// 1 at held components; initialised here. Collective.
     virtual void
-    node_diagonal(LevelVector<Number> &diagonal) const = 0;
+    diagonal(LevelVector<Number> &diagonal) const = 0;
+
+    /// Places of owned components.
+    virtual const std::vector<unsigned int> &
+    held() const = 0;
+
+    /// Each value of diagonal() by the mean over the components of its node
+    /// that are not held; 1 at those that are.
+    void
+    average_components(LevelVector<Number> &diagonal) const;
 
     /// Zero at held components.
-    virtual void
-    clear_held(LevelVector<Number> &v) const = 0;
+    void
+    clear_held(LevelVector<Number> &v) const;
   };
 } // namespace mortise

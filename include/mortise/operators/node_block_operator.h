@@ -27,13 +27,16 @@ namespace mortise
           const LevelVector<Number> &src) const override;
 
     void
-    node_diagonal(LevelVector<Number> &diagonal) const override;
+    diagonal(LevelVector<Number> &diagonal) const override;
 
-    void
-    clear_held(LevelVector<Number> &v) const override;
+    const std::vector<unsigned int> &
+    held() const override
+    {
+      return held_places;
+    }
 
   private:
-    std::vector<unsigned int> held; ///< owned components
+    std::vector<unsigned int>                                  held_places;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<std::size_t>                                   begin;
     std::vector<unsigned int>                                  columns;

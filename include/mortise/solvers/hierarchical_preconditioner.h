@@ -1,7 +1,7 @@
 // An approximate inverse of the elasticity block A = K + J that uses the
 // hierarchy of the element: algebraic multigrid on the vertex functions, block
-// smoothers on the higher modes, right for degrees 1 to 8. All corrections stay
-// among what satisfies the constraint.
+// smoothers on the higher modes, for scenes with degrees above one. All
+// corrections stay among what satisfies the constraint.
 #pragma once
 
 #include <mortise/solvers/bulk_preconditioner.h>

@@ -19,8 +19,8 @@ namespace mortise
   {
     dealii::types::global_dof_index n_displacements;
     unsigned int                    max_degree;
-    bool nodal; ///< has a NodalSpace and more than degree one
-    bool mixed; ///< has pressures
+    bool                            nodal; ///< has a NodalSpace
+    bool                            mixed; ///< has pressures
   };
 
   /// The method for a scene: what was asked for, else the one that measurements

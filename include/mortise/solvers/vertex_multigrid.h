@@ -15,7 +15,7 @@ namespace mortise
   public:
     using Number = float;
 
-    /// @p level: of degree one in all bodies. @p smooth_finest: false where the
+    /// @p level: of degree one in all bodies, kept by reference. @p smooth_finest: false where the
     /// caller smooths what is on the finest mesh. Collective.
     VertexMultigrid(const NodalLevel &level, bool smooth_finest);
     ~VertexMultigrid();

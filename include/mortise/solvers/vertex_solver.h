@@ -37,8 +37,9 @@ namespace mortise
     ~VertexSolver();
 
     /// @p matrix: its rows include those of @p vertices under their own numbers.
-    /// @p allow_single: for what is itself in single precision. Alone it would
-    /// cost saddle_point() at degree 1 17 iterations instead of 14. Collective.
+    /// @p allow_single: for what is itself in single precision. Where
+    /// vertices were all that there was, saddle_point() took 17 iterations
+    /// instead of 14. Collective.
     /// False when the factorisation broke down.
     bool
     initialize(const VertexFunctions  &vertices,
