@@ -200,7 +200,7 @@ namespace mortise
   {
     if (tetrahedra && degree > 4)
       return degree - 2;
-    return std::max(1U, degree / 2);
+    return degree > 4 ? (degree + 1) / 2 : std::max(1U, degree / 2);
   }
 
   NodalSpaces

@@ -297,11 +297,11 @@ namespace mortise
         case 4:
           return std::make_unique<KernelOfSizes<5, 3>>();
         case 5:
-          return std::make_unique<KernelOfSizes<6, 3>>();
+          return std::make_unique<KernelOfSizes<6, 4>>();
         case 6:
           return std::make_unique<KernelOfSizes<7, 4>>();
         case 7:
-          return std::make_unique<KernelOfSizes<8, 4>>();
+          return std::make_unique<KernelOfSizes<8, 5>>();
         default:
           AssertThrow(fine_degree == 8, ExcInternalError());
           return std::make_unique<KernelOfSizes<9, 5>>();

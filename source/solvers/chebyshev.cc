@@ -11,10 +11,15 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Where this was measured: see smallest_smoothed.cc.
+    constexpr double degree_by_root = 0.88;
+  } // namespace
+
   template <typename Number>
   Chebyshev<Number>::Chebyshev(const NodalOperator<Number>       &matrix,
                                const double                       smallest,
-                               const double                       effort,
                                const InterfaceCorrection<Number> *correction)
     : matrix(matrix)
     , correction(correction)
@@ -28,7 +33,7 @@ namespace mortise
     largest = 1.1 * estimate_largest();
     range   = std::max(2., largest / smallest);
     degree  = static_cast<unsigned int>(
-      std::max(1., std::round(effort * std::sqrt(range))));
+      std::max(1., std::round(degree_by_root * std::sqrt(range))));
   }
 
   template <typename Number>

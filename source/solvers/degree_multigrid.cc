@@ -4,6 +4,7 @@
 #include <mortise/solvers/chebyshev.h>
 #include <mortise/solvers/degree_multigrid.h>
 #include <mortise/solvers/diagonal_lifting.h>
+#include <mortise/solvers/smallest_smoothed.h>
 #include <mortise/solvers/vertex_multigrid.h>
 
 #include <algorithm>
@@ -16,21 +17,13 @@ namespace mortise
   {
     using Number = float;
 
-    /// What the smoother leaves to the next level, and its effort: polynomials
-    /// of degree 4 or 5 on hexahedra, whose largest eigenvalues are 3.3 to 4.7,
-    /// of degree 5 to 11 on tetrahedra (3.8 to 22). Iterations for p = 2..8 on
-    /// the thick sphere of hexahedra: 0.22, 0.9: 10, 12, 11, 15, 15, 18, 17;
-    /// 0.13, 0.88: 8, 10, 9, 12, 12, 14, 13; of tetrahedra: 11, 19, 16, 18, 20,
-    /// 26, 31; 10, 14, 13, 15, 16, 21, 25. The times are the same.
-    constexpr double smallest_smoothed = 0.13;
-    constexpr double smoother_effort   = 0.88;
-
     struct SmoothedLevel
     {
       SmoothedLevel(const NodalLevel                  &level,
+                    const bool                         finest,
                     const InterfaceCorrection<Number> *correction)
         : matrix(level, correction == nullptr)
-        , smoother(matrix, smallest_smoothed, smoother_effort, correction)
+        , smoother(matrix, smallest_smoothed(*level.space, finest), correction)
       {
         matrix.initialize(x);
         matrix.initialize(b);
@@ -68,7 +61,7 @@ namespace mortise
       for (unsigned int l = 0; l < n_smoothed; ++l)
         {
           levels.push_back(std::make_unique<SmoothedLevel>(
-            all[l], l == 0 ? correction.get() : nullptr));
+            all[l], l == 0, l == 0 ? correction.get() : nullptr));
           valid = valid && levels.back()->smoother.is_valid();
         }
       coarse_x.reinit(all.back().layout);

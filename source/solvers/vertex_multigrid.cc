@@ -3,6 +3,7 @@
 #include <mortise/operators/vertex_matrix.h>
 #include <mortise/operators/vertex_transfer.h>
 #include <mortise/solvers/chebyshev.h>
+#include <mortise/solvers/smallest_smoothed.h>
 #include <mortise/solvers/vertex_multigrid.h>
 #include <mortise/solvers/vertex_solver.h>
 
@@ -17,13 +18,6 @@ namespace mortise
   {
     using Number = VertexMultigrid::Number;
 
-    /// As on levels of higher degree: with 0.2, 0.88 or 0.2, 0.7 the thick
-    /// sphere (p = 2, 12, 8 : 16, 8) takes 9 instead of 8 iterations, one of
-    /// layers 0.02 thick (24, 2 : 32, 2) 38, 41 instead of 35; the times are no
-    /// less.
-    constexpr double smallest_smoothed = 0.13;
-    constexpr double smoother_effort   = 0.88;
-
     /// Up to this many dofs a factorisation takes no longer (thick sphere, p =
     /// 2, one core: the same at 2,000; 0.34 instead of 0.25 s at 5,800).
     constexpr unsigned int max_factorised = 1500;
@@ -32,10 +26,11 @@ namespace mortise
     struct RefinedLevel
     {
       RefinedLevel(NodeBlocks              blocks,
+                   const double            smallest,
                    const VertexCoarsening &coarsening,
                    const NodeBlocks       &coarse)
         : matrix(std::move(blocks))
-        , smoother(matrix, smallest_smoothed, smoother_effort)
+        , smoother(matrix, smallest)
         , transfer(coarsening, coarse)
       {
         matrix.initialize(x);
@@ -72,13 +67,14 @@ namespace mortise
       NodeBlocks &blocks = matrix.blocks;
       if (skip_finest)
         to_first = std::make_unique<VertexTransfer<Number>>(*next++, blocks);
+      const double smallest = smallest_smoothed(*level.space, false);
       for (;
            next != coarsenings.end() && blocks.layout->size() > max_factorised;
            ++next)
         {
           NodeBlocks coarse = coarsen(blocks, *next);
-          levels.push_back(
-            std::make_unique<RefinedLevel>(std::move(blocks), *next, coarse));
+          levels.push_back(std::make_unique<RefinedLevel>(
+            std::move(blocks), smallest, *next, coarse));
           valid  = valid && levels.back()->smoother.is_valid();
           blocks = std::move(coarse);
           std::vector<Point<dim>> points;

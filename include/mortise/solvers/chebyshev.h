@@ -12,14 +12,13 @@ namespace mortise
   {
   public:
     /// Smooths what belongs to eigenvalues of D^{-1} A between @p smallest and the
-    /// largest, which is estimated, by a polynomial of a degree of @p effort
-    /// times the root of their ratio: as well whatever the elements are; with @p correction,
+    /// largest, which is estimated, by a polynomial whose degree goes with the
+    /// root of their ratio: as well whatever the elements are; with @p correction,
     /// which makes D^{-1} respect a constraint, among what satisfies it.
     /// @p matrix and @p correction must stay alive. Collective. Not valid when
     /// A is not positive definite.
     Chebyshev(const NodalOperator<Number>       &matrix,
               double                             smallest,
-              double                             effort,
               const InterfaceCorrection<Number> *correction = nullptr);
 
     bool
