@@ -1,7 +1,7 @@
 // Multigrid in the degree for a bulk without a matrix: Chebyshev smoothers on
-// the degree, its half, and so on, the vertex functions by a factorisation or
-// algebraic multigrid. On the finest level smoothers stay among what satisfies
-// the constraint; the others see the tie by the jump penalty J of BlockSystem.
+// the degree and those of lower_degree(), the vertex functions by
+// VertexMultigrid. On the finest level smoothers stay among what satisfies the
+// constraint; the others see the tie by the jump penalty J of BlockSystem.
 #pragma once
 
 #include <mortise/solvers/bulk_preconditioner.h>
