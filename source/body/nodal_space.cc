@@ -195,14 +195,6 @@ namespace mortise
     return result;
   }
 
-  unsigned int
-  lower_degree(const bool tetrahedra, const unsigned int degree)
-  {
-    if (tetrahedra && degree > 4)
-      return degree - 2;
-    return degree > 4 ? (degree + 1) / 2 : std::max(1U, degree / 2);
-  }
-
   NodalSpaces
   make_nodal_spaces(const std::vector<const Body *> &bodies,
                     const MPI_Comm                   comm)

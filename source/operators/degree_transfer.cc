@@ -24,18 +24,21 @@ namespace mortise
                 Number                    *coarse) const = 0;
   };
 
+  /// Between cells of hexahedra.
   template <typename Number>
-  template <int n, int m>
-  class DegreeTransfer<Number>::KernelOfSizes
+  template <unsigned int fine_degree>
+  class DegreeTransfer<Number>::KernelOfDegree
     : public DegreeTransfer<Number>::Kernel
   {
   public:
     using V                    = typename Batch<Number>::Vector;
     static constexpr int width = Batch<Number>::size;
+    static constexpr int n     = fine_degree + 1;
+    static constexpr int m     = lower_degree(false, fine_degree) + 1;
     static constexpr int N     = n * n * n;
     static constexpr int M     = m * m * m;
 
-    KernelOfSizes()
+    KernelOfDegree()
     {
       const FullMatrix<double> values =
         lagrange_values(QGaussLobatto<1>(m), QGaussLobatto<1>(n));
@@ -289,22 +292,22 @@ namespace mortise
     switch (fine_degree)
       {
         case 1: // degree one on these cells, more on others
-          return std::make_unique<KernelOfSizes<2, 2>>();
+          return std::make_unique<KernelOfDegree<1>>();
         case 2:
-          return std::make_unique<KernelOfSizes<3, 2>>();
+          return std::make_unique<KernelOfDegree<2>>();
         case 3:
-          return std::make_unique<KernelOfSizes<4, 2>>();
+          return std::make_unique<KernelOfDegree<3>>();
         case 4:
-          return std::make_unique<KernelOfSizes<5, 3>>();
+          return std::make_unique<KernelOfDegree<4>>();
         case 5:
-          return std::make_unique<KernelOfSizes<6, 4>>();
+          return std::make_unique<KernelOfDegree<5>>();
         case 6:
-          return std::make_unique<KernelOfSizes<7, 4>>();
+          return std::make_unique<KernelOfDegree<6>>();
         case 7:
-          return std::make_unique<KernelOfSizes<8, 5>>();
+          return std::make_unique<KernelOfDegree<7>>();
         default:
           AssertThrow(fine_degree == 8, ExcInternalError());
-          return std::make_unique<KernelOfSizes<9, 5>>();
+          return std::make_unique<KernelOfDegree<8>>();
       }
   }
 

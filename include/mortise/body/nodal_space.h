@@ -16,6 +16,7 @@
 #include <mortise/body/body.h>
 #include <mortise/body/numbering.h>
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -170,8 +171,13 @@ namespace mortise
   /// p = 3 by way of 2 takes 8 instead of 10, but longer). On tetrahedra, whose
   /// nodes are less regular, by steps of two above four: the iterations for
   /// degrees 5, 6 on an unstructured mesh are 17, 21 instead of 22, 27.
-  unsigned int
-  lower_degree(bool tetrahedra, unsigned int degree);
+  constexpr unsigned int
+  lower_degree(const bool tetrahedra, const unsigned int degree)
+  {
+    if (tetrahedra && degree > 4)
+      return degree - 2;
+    return degree > 4 ? (degree + 1) / 2 : std::max(1U, degree / 2);
+  }
 
   /// The degrees of all cells and those of lower_degree(), down to one.
   /// Collective.

@@ -29,8 +29,8 @@ namespace mortise
 
   private:
     class Kernel; ///< between two degrees
-    template <int n_fine, int n_coarse>
-    class KernelOfSizes;
+    template <unsigned int fine_degree>
+    class KernelOfDegree; ///< to lower_degree()
     class SimplexKernel;
 
     static std::unique_ptr<Kernel>
