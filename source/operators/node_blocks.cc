@@ -66,22 +66,27 @@ namespace mortise
     const Epetra_MpiComm comm(layout.get_mpi_communicator());
     const int            n = static_cast<int>(dim * blocks.size());
     const Epetra_Map     map(-1, n, 0, comm);
-    double               mean = 0.; // of the diagonal
+    std::vector<int>     columns;
+    for (unsigned int k = 0; k < n + layout.n_ghost_indices(); ++k)
+      columns.push_back(static_cast<int>(layout.local_to_global(k)));
+    const Epetra_Map column_map(
+      -1, static_cast<int>(columns.size()), columns.data(), 0, comm);
+    double mean = 0.; // of the diagonal
     for_each_diagonal(blocks, [&](const unsigned int, const double value) {
       mean += value / layout.size();
     });
     mean = Utilities::MPI::sum(mean, layout.get_mpi_communicator());
     if (mean == 0.) // all are held
       mean = 1.;
-    std::vector<int>    lengths, columns;
+    std::vector<int>    lengths;
     std::vector<double> values;
     for (unsigned int i = 0; i < blocks.size(); ++i)
       lengths.insert(lengths.end(),
                      dim,
                      static_cast<int>(dim *
                                       (blocks.begin[i + 1] - blocks.begin[i])));
-    auto matrix =
-      std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
+    auto matrix = std::make_unique<Epetra_CrsMatrix>(
+      Copy, map, column_map, lengths.data(), true);
     for (unsigned int i = 0; i < blocks.size(); ++i)
       for (unsigned int r = 0; r < dim; ++r)
         {
@@ -94,14 +99,14 @@ namespace mortise
                 double     value = blocks.values[block_size * k + dim * c + r];
                 if (diagonal && value == 0.)
                   value = mean;
-                columns.push_back(static_cast<int>(
-                  layout.local_to_global(dim * blocks.columns[k] + c)));
+                columns.push_back(
+                  static_cast<int>(dim * blocks.columns[k] + c));
                 values.push_back(value);
               }
-          matrix->InsertGlobalValues(map.GID(static_cast<int>(dim * i + r)),
-                                     static_cast<int>(values.size()),
-                                     values.data(),
-                                     columns.data());
+          matrix->InsertMyValues(static_cast<int>(dim * i + r),
+                                 static_cast<int>(values.size()),
+                                 values.data(),
+                                 columns.data());
         }
     matrix->FillComplete();
     return matrix;

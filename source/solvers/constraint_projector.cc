@@ -6,10 +6,11 @@
 
 namespace mortise
 {
-  ConstraintProjector::ConstraintProjector(const BlockSystem &system,
-                                           const Lifting     &lifting)
+  ConstraintProjector::ConstraintProjector(const BlockSystem  &system,
+                                           const CouplingRows &rows,
+                                           const Lifting      &lifting)
     : lifting(lifting)
-    , product(system)
+    , product(system, rows)
     , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
     , force(system.owned_displacement, system.communicator)

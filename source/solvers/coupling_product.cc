@@ -2,10 +2,12 @@
 
 #include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/coupling_product.h>
+#include <mortise/solvers/coupling_rows.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/register_blocks.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace mortise
 {
@@ -13,59 +15,77 @@ namespace mortise
 
   namespace
   {
-    /// Do the groups hold the same entries, in columns that are those of
-    /// components 0, 1 and 2 of the same nodes?
-    bool
-    same_but_for_component(const Epetra_CrsMatrix &matrix,
-                           const RowGroup         &a,
-                           const RowGroup         &b,
-                           const unsigned int      component)
+    /// A product with a block takes as long as one with so many more entries
+    /// for each column, which is gathered or scattered.
+    constexpr double entries_per_column = 16.;
+
+    /// Neighbouring rows that are one block, since they move nearly the same
+    /// nodes.
+    struct Cluster
     {
-      if (a.n_rows != b.n_rows)
-        return false;
-      for (int i = 0; i < a.n_rows; ++i)
-        {
-          const EpetraRow p(matrix, a.first + i), q(matrix, b.first + i);
-          if (p.length != q.length ||
-              !std::equal(p.values, p.values + p.length, q.values))
-            return false;
-          if (i > 0)
-            continue;
-          for (int k = 0; k < p.length; ++k)
-            if (matrix.GCID(q.columns[k]) !=
-                matrix.GCID(p.columns[k]) + static_cast<int>(component))
-              return false;
-        }
-      return true;
+      std::size_t               begin = 0, end = 0; ///< of shared rows
+      int                       n_rows = 0;
+      std::vector<unsigned int> nodes; ///< ascending
+
+      static double
+      work(const double n_rows, const double n_columns)
+      {
+        return (n_rows + entries_per_column) * n_columns;
+      }
+
+      /// Unless that takes longer than apart.
+      bool
+      add(const SharedRows &rows)
+      {
+        std::vector<unsigned int> united;
+        std::set_union(nodes.begin(),
+                       nodes.end(),
+                       rows.nodes.begin(),
+                       rows.nodes.end(),
+                       std::back_inserter(united));
+        if (end > begin &&
+            work(n_rows + rows.n_rows, united.size()) >
+              work(n_rows, nodes.size()) + work(rows.n_rows, rows.nodes.size()))
+          return false;
+        nodes = std::move(united);
+        n_rows += rows.n_rows;
+        ++end;
+        return true;
+      }
+    };
+
+    std::vector<Cluster>
+    make_clusters(const std::vector<const SharedRows *> &all)
+    {
+      std::vector<Cluster> result;
+      for (std::size_t s = 0; s < all.size(); ++s)
+        if (result.empty() || !result.back().add(*all[s]))
+          {
+            result.push_back({s, s, 0, {}});
+            result.back().add(*all[s]);
+          }
+      return result;
     }
   } // namespace
 
   template <typename Number>
-  CouplingProduct<Number>::CouplingProduct(const BlockSystem &system)
+  CouplingProduct<Number>::CouplingProduct(const BlockSystem  &system,
+                                           const CouplingRows &rows)
+    : n_components(rows.moved.n_components)
   {
-    const auto &matrix = system.coupling.trilinos_matrix();
-    const auto  groups = group_rows(matrix);
-    make_blocks(matrix, groups, make_layout(matrix, groups, system));
+    make_layout(system, rows);
+    make_blocks(rows);
   }
 
   template <typename Number>
-  std::vector<unsigned int>
-  CouplingProduct<Number>::make_layout(const Epetra_CrsMatrix      &matrix,
-                                       const std::vector<RowGroup> &groups,
-                                       const BlockSystem           &system)
+  void
+  CouplingProduct<Number>::make_layout(const BlockSystem  &system,
+                                       const CouplingRows &rows)
   {
-    const auto &columns = matrix.ColMap(); // on one rank all displacements
-    std::vector<bool> has_entries(columns.NumMyElements());
-    for (const RowGroup &group : groups)
-      {
-        const EpetraRow row(matrix, group.first);
-        for (int k = 0; k < row.length; ++k)
-          has_entries[row.columns[k]] = true;
-      }
     IndexSet touched(system.owned_displacement.size());
-    for (int k = 0; k < columns.NumMyElements(); ++k)
-      if (has_entries[k])
-        touched.add_index(columns.GID(k));
+    for (const int column : rows.moved.column_of_value)
+      if (column >= 0)
+        touched.add_index(rows.matrix.GCID(column));
     touched.compress();
     LevelVector<double> number(system.owned_displacement,
                                touched,
@@ -75,11 +95,11 @@ namespace mortise
     number.compress(VectorOperation::add);
     for (unsigned int i = 0; i < number.locally_owned_size(); ++i)
       if (number.local_element(i) > 0.)
-        moved.push_back(i);
+        moved_places.push_back(i);
 
     // number what is moved by itself; exact in double precision
     using Index      = types::global_dof_index;
-    const Index mine = moved.size(),
+    const Index mine = moved_places.size(),
                 size = Utilities::MPI::sum(mine, system.communicator);
     Index first      = 0;
     MPI_Scan(&mine,
@@ -89,69 +109,69 @@ namespace mortise
              MPI_SUM,
              system.communicator);
     first -= mine;
-    for (unsigned int k = 0; k < moved.size(); ++k)
-      number.local_element(moved[k]) = first + k;
+    for (unsigned int k = 0; k < moved_places.size(); ++k)
+      number.local_element(moved_places[k]) = first + k;
     number.update_ghost_values();
     IndexSet owned(size), relevant(size);
-    owned.add_range(first, first + moved.size());
+    owned.add_range(first, first + moved_places.size());
     for (const auto index : touched)
       relevant.add_index(static_cast<Index>(number(index)));
     layout =
       std::make_shared<const Utilities::MPI::Partitioner>(owned,
                                                           relevant,
                                                           system.communicator);
-    std::vector<unsigned int> entry(columns.NumMyElements(),
-                                    numbers::invalid_unsigned_int);
-    for (int k = 0; k < columns.NumMyElements(); ++k)
-      if (has_entries[k])
-        entry[k] =
-          layout->global_to_local(static_cast<Index>(number(columns.GID(k))));
-    return entry;
+    values.resize(rows.moved.column_of_value.size());
+    for (const int column : rows.moved.column_of_value)
+      entry_of_value.push_back(
+        column < 0 ? -1 :
+                     static_cast<int>(layout->global_to_local(
+                       static_cast<Index>(number(rows.matrix.GCID(column))))));
   }
 
   template <typename Number>
   void
-  CouplingProduct<Number>::make_blocks(
-    const Epetra_CrsMatrix          &matrix,
-    const std::vector<RowGroup>     &groups,
-    const std::vector<unsigned int> &entry_of_column)
+  CouplingProduct<Number>::make_blocks(const CouplingRows &rows)
   {
+    std::vector<const SharedRows *> all;
+    for (const auto &of_entity : rows.rows)
+      for (const SharedRows &shared : of_entity)
+        all.push_back(&shared);
+    const auto  clusters = make_clusters(all);
     std::size_t size = 0, widest = 0;
-    for (unsigned int g = 0; g < groups.size();)
+    for (const Cluster &cluster : clusters)
       {
-        unsigned int n_components = 1;
-        while (n_components < dim && g + n_components < groups.size() &&
-               same_but_for_component(
-                 matrix, groups[g], groups[g + n_components], n_components))
-          ++n_components;
-        if (n_components < dim)
-          n_components = 1;
-        Block block;
-        block.n_rows = groups[g].n_rows;
-        for (unsigned int c = 0; c < n_components; ++c)
-          {
-            const EpetraRow row(matrix, groups[g + c].first);
-            block.first_row.push_back(groups[g + c].first);
-            block.columns.emplace_back();
-            for (int k = 0; k < row.length; ++k)
-              block.columns.back().push_back(entry_of_column[row.columns[k]]);
-          }
-        const std::size_t width = padded<Number>(block.columns[0].size());
-        size += block.n_rows * width;
+        Block &block = blocks.emplace_back();
+        block.nodes  = cluster.nodes;
+        for (auto s = cluster.begin; s < cluster.end; ++s)
+          for (int r = 0; r < all[s]->n_rows; ++r)
+            for (unsigned int c = 0; c < n_components; ++c)
+              if (const int first = all[s]->first_row[c]; first < 0)
+                block.rows.push_back(-1);
+              else
+                block.rows.push_back(first + r);
+        const std::size_t width = padded<Number>(block.nodes.size());
+        size += block.rows.size() / n_components * width;
         widest = std::max(widest, width);
-        blocks.push_back(std::move(block));
-        g += n_components;
       }
     entries.resize(size);
-    workspace.resize(dim * widest);
-    Number *entry = entries.data();
-    for (const Block &block : blocks)
-      for (int i = 0; i < block.n_rows; ++i)
+    workspace.resize(n_components * widest);
+    Number *to = entries.data();
+    for (const Cluster &cluster : clusters)
+      for (auto s = cluster.begin; s < cluster.end; ++s)
         {
-          const EpetraRow row(matrix, block.first_row[0] + i);
-          for (int k = 0; k < row.length; ++k)
-            entry[k] = static_cast<Number>(row.values[k]);
-          entry += padded<Number>(row.length);
+          std::vector<unsigned int> places;
+          for (const unsigned int node : all[s]->nodes)
+            places.push_back(std::lower_bound(cluster.nodes.begin(),
+                                              cluster.nodes.end(),
+                                              node) -
+                             cluster.nodes.begin());
+          auto from = all[s]->values.begin();
+          for (int r = 0; r < all[s]->n_rows; ++r)
+            {
+              for (const unsigned int place : places)
+                to[place] = static_cast<Number>(*from++);
+              to += padded<Number>(cluster.nodes.size());
+            }
         }
   }
 
@@ -160,23 +180,22 @@ namespace mortise
   void
   CouplingProduct<Number>::multiply_block(const Block   &block,
                                           const Number  *block_entries,
-                                          const Number  *trace,
                                           Epetra_Vector &jump) const
   {
     using V                  = typename Batch<Number>::Vector;
     constexpr unsigned int w = Batch<Number>::size;
-    const unsigned int n = block.columns[0].size(), m = padded<Number>(n) / w;
-    const V           *row      = reinterpret_cast<const V *>(block_entries);
-    V                 *gathered = reinterpret_cast<V *>(workspace.data());
+    const unsigned int     n = block.nodes.size(), m = padded<Number>(n) / w;
+    const V               *row = reinterpret_cast<const V *>(block_entries);
+    V                     *gathered = reinterpret_cast<V *>(workspace.data());
+    Number                *to       = workspace.data();
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int c = 0; c < n_components; ++c)
+        to[c * m * w + k] = values[n_components * block.nodes[k] + c];
     for (unsigned int c = 0; c < n_components; ++c)
-      {
-        Number *to = workspace.data() + c * m * w;
-        for (unsigned int k = 0; k < n; ++k)
-          to[k] = trace[block.columns[c][k]];
-        std::fill(to + n, to + m * w, Number());
-      }
+      std::fill(to + c * m * w + n, to + (c + 1) * m * w, Number());
     for_each_register_block<n_register_rows>(
-      block.n_rows, [&](const unsigned int i, const auto n_rows) {
+      block.rows.size() / n_components,
+      [&](const unsigned int i, const auto n_rows) {
         const V *const from = row + std::size_t(i) * m;
         V              sums[n_rows][n_components];
         for (unsigned int r = 0; r < n_rows; ++r)
@@ -188,12 +207,13 @@ namespace mortise
               sums[r][c] += from[r * m + k] * gathered[c * m + k];
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int c = 0; c < n_components; ++c)
-            {
-              Number sum = 0;
-              for (unsigned int l = 0; l < w; ++l)
-                sum += sums[r][c][l];
-              jump[block.first_row[c] + i + r] = sum;
-            }
+            if (const int j = block.rows[n_components * (i + r) + c]; j >= 0)
+              {
+                Number sum = 0;
+                for (unsigned int l = 0; l < w; ++l)
+                  sum += sums[r][c][l];
+                jump[j] = sum;
+              }
       });
   }
 
@@ -203,22 +223,25 @@ namespace mortise
   CouplingProduct<Number>::multiply_block_transposed(
     const Block         &block,
     const Number        *block_entries,
-    Number              *trace,
     const Epetra_Vector &y) const
   {
     using V                  = typename Batch<Number>::Vector;
     constexpr unsigned int w = Batch<Number>::size;
-    const unsigned int n = block.columns[0].size(), m = padded<Number>(n) / w;
-    const V           *row  = reinterpret_cast<const V *>(block_entries);
-    V                 *sums = reinterpret_cast<V *>(workspace.data());
+    const unsigned int     n = block.nodes.size(), m = padded<Number>(n) / w;
+    const V               *row  = reinterpret_cast<const V *>(block_entries);
+    V                     *sums = reinterpret_cast<V *>(workspace.data());
     std::fill(sums, sums + n_components * m, V{});
     for_each_register_block<n_register_rows>(
-      block.n_rows, [&](const unsigned int i, const auto n_rows) {
+      block.rows.size() / n_components,
+      [&](const unsigned int i, const auto n_rows) {
         const V *const from = row + std::size_t(i) * m;
         Number         factor[n_rows][n_components];
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int c = 0; c < n_components; ++c)
-            factor[r][c] = static_cast<Number>(y[block.first_row[c] + i + r]);
+            {
+              const int j  = block.rows[n_components * (i + r) + c];
+              factor[r][c] = j < 0 ? Number() : static_cast<Number>(y[j]);
+            }
         for (unsigned int k = 0; k < m; ++k)
           for (unsigned int c = 0; c < n_components; ++c)
             {
@@ -228,11 +251,30 @@ namespace mortise
               sums[c * m + k] = sum;
             }
       });
-    for (unsigned int c = 0; c < n_components; ++c)
+    const Number *from = workspace.data();
+    for (unsigned int k = 0; k < n; ++k)
+      for (unsigned int c = 0; c < n_components; ++c)
+        values[n_components * block.nodes[k] + c] += from[c * m * w + k];
+  }
+
+  template <typename Number>
+  template <typename Visit>
+  void
+  CouplingProduct<Number>::for_each_block(const Visit &visit) const
+  {
+    const Number *block_entries = entries.data();
+    for (const Block &block : blocks)
       {
-        const Number *from = workspace.data() + c * m * w;
-        for (unsigned int k = 0; k < n; ++k)
-          trace[block.columns[c][k]] += from[k];
+        if (n_components == dim)
+          visit(block,
+                block_entries,
+                std::integral_constant<unsigned int, dim>());
+        else
+          visit(block,
+                block_entries,
+                std::integral_constant<unsigned int, 1>());
+        block_entries +=
+          block.rows.size() / n_components * padded<Number>(block.nodes.size());
       }
   }
 
@@ -242,16 +284,14 @@ namespace mortise
                                     const LevelVector<Number> &trace) const
   {
     trace.update_ghost_values();
-    const Number *block_entries = entries.data();
-    for (const Block &block : blocks)
-      {
-        if (block.columns.size() == dim)
-          multiply_block<dim>(block, block_entries, trace.begin(), jump);
-        else
-          multiply_block<1>(block, block_entries, trace.begin(), jump);
-        block_entries += block.n_rows * padded<Number>(block.columns[0].size());
-      }
+    for (unsigned int v = 0; v < values.size(); ++v)
+      values[v] = entry_of_value[v] < 0 ?
+                    Number() :
+                    trace.local_element(entry_of_value[v]);
     trace.zero_out_ghost_values();
+    for_each_block([&](const Block &block, const Number *from, const auto n) {
+      multiply_block<n()>(block, from, jump);
+    });
   }
 
   template <typename Number>
@@ -259,19 +299,14 @@ namespace mortise
   CouplingProduct<Number>::multiply_transposed(LevelVector<Number> &trace,
                                                const Epetra_Vector &y) const
   {
-    trace                       = 0;
-    const Number *block_entries = entries.data();
-    for (const Block &block : blocks)
-      {
-        if (block.columns.size() == dim)
-          multiply_block_transposed<dim>(block,
-                                         block_entries,
-                                         trace.begin(),
-                                         y);
-        else
-          multiply_block_transposed<1>(block, block_entries, trace.begin(), y);
-        block_entries += block.n_rows * padded<Number>(block.columns[0].size());
-      }
+    std::fill(values.begin(), values.end(), Number());
+    for_each_block([&](const Block &block, const Number *from, const auto n) {
+      multiply_block_transposed<n()>(block, from, y);
+    });
+    trace = 0;
+    for (unsigned int v = 0; v < values.size(); ++v)
+      if (entry_of_value[v] >= 0)
+        trace.local_element(entry_of_value[v]) = values[v];
     trace.compress(VectorOperation::add);
   }
 

@@ -47,13 +47,20 @@ namespace mortise
       valid    = vertices->is_valid();
       if (system.owned_multiplier.size() > 0)
         {
-          product = std::make_unique<CouplingProduct<Number>>(system);
-          lifting =
-            std::make_unique<DiagonalLifting>(system, *product, max_gathered);
-          valid      = lifting->is_valid() && valid;
-          correction = std::make_unique<InterfaceCorrection<Number>>(
-            *product, *lifting, system.coupling.trilinos_matrix().RowMap());
-          projector = std::make_unique<ConstraintProjector>(system, *lifting);
+          const auto        &coupling = system.coupling.trilinos_matrix();
+          const CouplingRows rows(coupling, true);
+          product = std::make_unique<CouplingProduct<Number>>(system, rows);
+          lifting = std::make_unique<DiagonalLifting>(system,
+                                                      rows,
+                                                      *product,
+                                                      max_gathered);
+          valid   = lifting->is_valid() && valid;
+          correction =
+            std::make_unique<InterfaceCorrection<Number>>(*product,
+                                                          *lifting,
+                                                          coupling.RowMap());
+          projector =
+            std::make_unique<ConstraintProjector>(system, rows, *lifting);
         }
       // where degree one is the finest, its level is smoothed here and stands
       // for the vertices below, too

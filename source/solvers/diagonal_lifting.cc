@@ -4,6 +4,7 @@
 namespace mortise
 {
   DiagonalLifting::DiagonalLifting(const BlockSystem            &system,
+                                   const CouplingRows           &rows,
                                    const CouplingProduct<float> &product,
                                    const std::size_t             max_gathered)
     : weights(system.nodal->node_diagonal())
@@ -21,10 +22,9 @@ namespace mortise
           trace.local_element(k) *= weights.local_element(places[k]);
         product.multiply(to, trace);
       };
-    const auto &coupling = system.coupling.trilinos_matrix();
-    factorise(weighted_square(coupling, weights),
+    factorise(weighted_square(rows, weights),
               multiply,
-              coupling.RowMap(),
+              rows.matrix.RowMap(),
               max_gathered);
   }
 

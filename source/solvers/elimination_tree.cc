@@ -76,6 +76,10 @@ namespace mortise
       std::vector<idx_t> begin, neighbours, weights;
     };
 
+    /// Up to this many rows one dense block takes no longer than an order and
+    /// its blocks.
+    constexpr unsigned int max_dense = 192;
+
     /// New place by vertex.
     Indices
     dissect(Quotient &graph)
@@ -272,6 +276,13 @@ namespace mortise
   {
     if (matrix.size() == 0)
       return;
+    if (matrix.size() <= max_dense)
+      {
+        std::iota(place.begin(), place.end(), 0);
+        supernodes.emplace_back();
+        supernodes.back().width = matrix.size();
+        return;
+      }
     Quotient quotient(matrix);
     Indices  vertex_place = dissect(quotient);
     {

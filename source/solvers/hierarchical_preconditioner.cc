@@ -61,9 +61,7 @@ namespace mortise
       , y(x)
       , multiplier(system.owned_multiplier, system.communicator)
     {
-      valid = coarse.initialize({system.vertex_dofs,
-                                 system.vertex_points,
-                                 system.communicator},
+      valid = coarse.initialize({system.vertex_dofs, system.vertex_points},
                                 *bulk,
                                 false);
       valid = smoother.initialize(*bulk, EntityGraph(system).patches(system)) &&
@@ -73,7 +71,10 @@ namespace mortise
         {
           lifting   = std::make_unique<InterfaceLifting>(system, smoother);
           valid     = lifting->is_valid();
-          projector = std::make_unique<ConstraintProjector>(system, *lifting);
+          projector = std::make_unique<ConstraintProjector>(
+            system,
+            CouplingRows(system.coupling.trilinos_matrix(), false),
+            *lifting);
         }
     }
 

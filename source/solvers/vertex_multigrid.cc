@@ -8,7 +8,6 @@
 #include <mortise/solvers/vertex_solver.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace mortise
 {
@@ -84,18 +83,13 @@ namespace mortise
         }
       coarse_x.reinit(blocks.layout);
       coarse_b.reinit(blocks.layout);
-      held              = held_components(blocks);
-      const auto epetra = as_epetra(blocks);
-      blocks            = NodeBlocks();
-      std::vector<types::global_dof_index> rows(epetra->NumMyRows());
-      std::iota(rows.begin(),
-                rows.end(),
-                static_cast<types::global_dof_index>(
-                  epetra->RowMap().MinMyGID()));
+      held        = held_components(blocks);
+      auto epetra = as_epetra(blocks);
+      blocks      = NodeBlocks();
+      vertex_x    = std::make_unique<Epetra_Vector>(epetra->RowMap());
+      vertex_r    = std::make_unique<Epetra_Vector>(epetra->RowMap());
       valid =
-        solver.initialize({rows, matrix.points, comm}, *epetra, true) && valid;
-      vertex_x = std::make_unique<Epetra_Vector>(epetra->RowMap());
-      vertex_r = std::make_unique<Epetra_Vector>(epetra->RowMap());
+        solver.initialize(std::move(epetra), matrix.points, true) && valid;
     }
 
     /// The solution for what b() of level @p l holds, approximately, to x().

@@ -4,9 +4,11 @@
 #include <Epetra_IntVector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
+#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/vertex_solver.h>
 
 #include <cmath>
+#include <numeric>
 
 namespace mortise
 {
@@ -29,6 +31,25 @@ namespace mortise
                            const bool              allow_single)
   {
     extract(vertices, matrix);
+    return make_inverse(vertices.points, allow_single);
+  }
+
+  bool
+  VertexSolver::initialize(std::unique_ptr<Epetra_CrsMatrix> matrix,
+                           const std::vector<Point<dim>>    &points,
+                           const bool                        allow_single)
+  {
+    coarse = std::move(matrix);
+    map    = std::make_unique<Epetra_Map>(coarse->RowMap());
+    rows.resize(map->NumMyElements());
+    std::iota(rows.begin(), rows.end(), 0);
+    return make_inverse(points, allow_single);
+  }
+
+  bool
+  VertexSolver::make_inverse(const std::vector<Point<dim>> &points,
+                             const bool                     allow_single)
+  {
     r_c = std::make_unique<Epetra_Vector>(*map);
     x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
@@ -45,7 +66,7 @@ namespace mortise
         coarse.reset();
         return valid;
       }
-    compute_rigid_modes(vertices);
+    compute_rigid_modes(points);
     Teuchos::ParameterList parameters;
     ML_Epetra::SetDefaults("SA", parameters);
     parameters.set("ML output", 0);
@@ -120,27 +141,26 @@ namespace mortise
   }
 
   void
-  VertexSolver::compute_rigid_modes(const VertexFunctions &vertices)
+  VertexSolver::compute_rigid_modes(const std::vector<Point<dim>> &points)
   {
-    Point<dim> center;
-    for (const auto &x : vertices.points)
+    const MPI_Comm comm = communicator(*map);
+    Point<dim>     center;
+    for (const auto &x : points)
       center += x;
     const unsigned int n_points =
-      Utilities::MPI::sum<unsigned int>(vertices.points.size(),
-                                        vertices.communicator);
+      Utilities::MPI::sum<unsigned int>(points.size(), comm);
     for (unsigned int d = 0; d < dim; ++d)
-      center[d] =
-        Utilities::MPI::sum(center[d], vertices.communicator) / n_points;
+      center[d] = Utilities::MPI::sum(center[d], comm) / n_points;
     double radius = 0.;
-    for (const auto &x : vertices.points)
+    for (const auto &x : points)
       radius = std::max(radius, x.distance(center));
-    radius = Utilities::MPI::max(radius, vertices.communicator);
+    radius = Utilities::MPI::max(radius, comm);
 
     const unsigned int n = rows.size();
     rigid_modes.assign(std::max(1U, 6 * n), 0.);
     for (unsigned int v = 0; v < n / 3; ++v)
       {
-        const Tensor<1, dim> x = (vertices.points[v] - center) / radius;
+        const Tensor<1, dim> x = (points[v] - center) / radius;
         for (unsigned int d = 0; d < dim; ++d)
           {
             rigid_modes[d * n + 3 * v + d] = 1.;

@@ -2,11 +2,10 @@
 #include <Epetra_Import.h>
 #include <Teuchos_BLAS.hpp>
 #include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/multiplier_nodes.h>
+#include <mortise/solvers/node_transpose.h>
 #include <mortise/solvers/weighted_square.h>
 
 #include <algorithm>
-#include <array>
 
 namespace mortise
 {
@@ -14,92 +13,16 @@ namespace mortise
 
   namespace
   {
-    /// T B^T by node, a row for each column of B: the rows of one component
-    /// behind those of another, their columns ascending, owned ones first.
-    struct NodeTranspose
-    {
-      NodeTranspose(const Epetra_CrsMatrix &matrix,
-                    const Epetra_Map       &columns,
-                    const NodeNumbers      &numbers)
-        : row_of(columns.NumMyElements())
-        , begin{0}
-      {
-        std::vector<std::pair<int, double>> row;
-        for (unsigned int c = 0; c < dim; ++c)
-          for (int i = 0; i < columns.NumMyElements(); ++i)
-            if (const int id = columns.GID(i);
-                id % static_cast<int>(dim) == static_cast<int>(c))
-              {
-                const EpetraRow entries(matrix, matrix.LRID(id));
-                row.clear();
-                for (int k = 0; k < entries.length; ++k)
-                  row.emplace_back(numbers.of_column[entries.columns[k]],
-                                   entries.values[k]);
-                std::sort(row.begin(), row.end());
-                row_of[i] = begin.size() - 1;
-                for (const auto &[node, value] : row)
-                  {
-                    nodes.push_back(node);
-                    values.push_back(value);
-                  }
-                begin.push_back(nodes.size());
-              }
-        for (unsigned int r = 0; r < size(); ++r)
-          group_of.push_back(r > 0 && same_nodes(r - 1, r) ? group_of.back() :
-                                                             r);
-        same.resize(size(), {-1, -1, -1});
-        for (int i = 0; i < columns.NumMyElements(); ++i)
-          if (const int id = columns.GID(i); id % static_cast<int>(dim) == 0)
-            for (unsigned int c = 0; c < dim; ++c)
-              if (const int other = columns.LID(id + static_cast<int>(c));
-                  other >= 0 && same_rows(row_of[i], row_of[other]))
-                same[row_of[i]][c] = row_of[other];
-      }
-
-      unsigned int
-      size() const
-      {
-        return begin.size() - 1;
-      }
-
-      bool
-      same_nodes(const unsigned int r, const unsigned int s) const
-      {
-        return std::equal(nodes.begin() + begin[r],
-                          nodes.begin() + begin[r + 1],
-                          nodes.begin() + begin[s],
-                          nodes.begin() + begin[s + 1]);
-      }
-
-      bool
-      same_rows(const unsigned int r, const unsigned int s) const
-      {
-        return same_nodes(r, s) && std::equal(values.begin() + begin[r],
-                                              values.begin() + begin[r + 1],
-                                              values.begin() + begin[s]);
-      }
-
-      std::vector<int>          row_of; ///< by column of B
-      std::vector<unsigned int> begin;
-      std::vector<int>          nodes;
-      std::vector<double>       values;
-      std::vector<unsigned int> group_of; ///< neighbours with the same nodes
-      /// By row of the first component: that of another component if it is the
-      /// same, else -1.
-      std::vector<std::array<int, dim>> same;
-    };
-
     /// Computes the rows of entities one after the other.
     class Square
     {
     public:
-      Square(const Epetra_CrsMatrix         &B,
-             const NodeTranspose            &transposed,
-             const NodeNumbers              &numbers,
-             const std::vector<EntityNodes> &entities)
-        : B(B)
-        , transposed(transposed)
-        , entities(entities)
+      Square(const CouplingRows  &B,
+             const NodeTranspose &transposed,
+             const NodeNumbers   &numbers)
+        : transposed(transposed)
+        , entities(B.entities)
+        , rows(B.rows)
         , place(numbers.global.size())
         , mark(numbers.global.size(), -1)
       {
@@ -107,8 +30,8 @@ namespace mortise
         std::size_t n_values = 0, n_columns = 0;
         for (unsigned int e = 0; e < entities.size(); ++e)
           {
-            alike.push_back(is_alike(entities[e]));
             patterns.push_back(pattern(e));
+            alike.push_back(is_alike(e));
             begin.push_back(n_values);
             n_columns += patterns[e].size() * entities[e].n_nodes;
             n_values += stride(e) * entities[e].n_nodes;
@@ -126,61 +49,52 @@ namespace mortise
     private:
       /// Have all components the same rows?
       bool
-      is_alike(const EntityNodes &entity) const
+      is_alike(const unsigned int e) const
       {
-        if (entity.groups.size() != dim)
+        if (rows[e].size() != 1)
           return false;
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            const NodeGroup &group = entity.groups[c];
-            if (group.component != c ||
-                group.rows.n_rows != entity.groups[0].rows.n_rows)
-              return false;
-            for (int i = 0; i < group.rows.n_rows; ++i)
-              {
-                const EpetraRow p(B, entity.groups[0].rows.first + i),
-                  q(B, group.rows.first + i);
-                if (!std::equal(p.values,
-                                p.values + p.length,
-                                q.values,
-                                q.values + q.length))
-                  return false;
-                for (int k = 0; k < p.length && i == 0; ++k)
-                  if (transposed.same[transposed.row_of[p.columns[k]]][c] !=
-                      transposed.row_of[q.columns[k]])
-                    return false;
-              }
-          }
-        return true;
+        const SharedRows &all = rows[e].front();
+        return std::all_of(all.first_row.begin(),
+                           all.first_row.end(),
+                           [](const int first) { return first >= 0; }) &&
+               std::all_of(all.nodes.begin(),
+                           all.nodes.end(),
+                           [&](const unsigned int node) {
+                             return transposed.is_common[node];
+                           }) &&
+               std::all_of(patterns[e].begin(),
+                           patterns[e].end(),
+                           [&](const int node) {
+                             return transposed.has_all_multipliers(node);
+                           });
       }
 
       std::vector<int>
       pattern(const unsigned int e)
       {
         std::vector<int> result;
-        for (const NodeGroup &group : entities[e].groups)
-          {
-            const EpetraRow row(B, group.rows.first);
-            unsigned int    last = transposed.size();
-            for (int k = 0; k < row.length; ++k)
-              {
-                const unsigned int r = transposed.row_of[row.columns[k]];
-                if (transposed.group_of[r] == last)
-                  continue;
-                last = transposed.group_of[r];
-                for (unsigned int l = transposed.begin[r];
-                     l < transposed.begin[r + 1];
-                     ++l)
-                  if (int &m = mark[transposed.nodes[l]];
-                      m != static_cast<int>(e))
-                    {
-                      m = e;
-                      result.push_back(transposed.nodes[l]);
-                    }
-              }
-            if (alike[e])
-              break;
-          }
+        for (const SharedRows &shared : rows[e])
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              int last = -1;
+              for (const unsigned int node : shared.nodes)
+                {
+                  const int r = transposed.row_of[dim * node + c];
+                  if (r < 0 || (c > 0 && transposed.is_common[node]) ||
+                      transposed.group_of[r] == last)
+                    continue;
+                  last = transposed.group_of[r];
+                  for (unsigned int l = transposed.begin[r];
+                       l < transposed.begin[r + 1];
+                       ++l)
+                    if (int &m = mark[transposed.nodes[l]];
+                        m != static_cast<int>(e))
+                      {
+                        m = e;
+                        result.push_back(transposed.nodes[l]);
+                      }
+                }
+            }
         std::sort(result.begin(), result.end());
         return result;
       }
@@ -208,15 +122,15 @@ namespace mortise
         const std::vector<int> &columns = patterns[e];
         for (unsigned int l = 0; l < columns.size(); ++l)
           place[columns[l]] = l;
-        for (const NodeGroup &group : entity.groups)
+        for (const SharedRows &shared : rows[e])
           {
-            for (int i = 0; i < group.rows.n_rows; ++i)
-              result.entries[(group.node + i) * dim + group.component] =
-                group.rows.first + i;
-            if (alike[e] && group.component > 0)
-              continue;
-            multiply(e, group);
-            mirror(e, group);
+            for (int i = 0; i < shared.n_rows; ++i)
+              for (unsigned int c = 0; c < dim; ++c)
+                if (shared.first_row[c] >= 0)
+                  result.entries[(shared.first_node + i) * dim + c] =
+                    shared.first_row[c] + i;
+            multiply(e, shared);
+            mirror(e, shared);
           }
         for (int i = entity.first; i < entity.first + entity.n_nodes; ++i)
           {
@@ -241,21 +155,59 @@ namespace mortise
 
       /// Columns from the entity's own nodes on.
       void
-      multiply(const unsigned int e, const NodeGroup &group)
+      multiply(const unsigned int e, const SharedRows &shared)
       {
-        const EpetraRow row(B, group.rows.first);
-        const int       n = group.rows.n_rows;
-        for (int k = 0; k < row.length;)
+        const auto         first = std::find_if(shared.first_row.begin(),
+                                        shared.first_row.end(),
+                                        [](const int row) { return row >= 0; });
+        const unsigned int c0    = first - shared.first_row.begin();
+        const auto        &nodes = patterns[e];
+        const unsigned int own =
+          std::lower_bound(nodes.begin(), nodes.end(), entities[e].first) -
+          nodes.begin();
+        multiply(e, shared, c0, true);
+        if (alike[e])
+          return;
+        for (unsigned int c = dim; c-- > c0;)
+          if (shared.first_row[c] >= 0)
+            for (int i = 0; i < shared.n_rows; ++i)
+              {
+                const double *from = values(e, shared.first_node + i, c0);
+                double       *to   = values(e, shared.first_node + i, c);
+                for (unsigned int l = own; l < nodes.size(); ++l)
+                  to[l] = transposed.has_multiplier(nodes[l], c) ? from[l] : 0.;
+              }
+        for (unsigned int c = c0; c < dim; ++c)
+          if (shared.first_row[c] >= 0)
+            multiply(e, shared, c, false);
+      }
+
+      /// Adds what comes from the nodes that are common to all components, or
+      /// from the others.
+      void
+      multiply(const unsigned int e,
+               const SharedRows  &shared,
+               const unsigned int component,
+               const bool         common)
+      {
+        const int  n = shared.n_rows, width = shared.nodes.size();
+        const auto row_of = [&](const int k) {
+          const unsigned int node = shared.nodes[k];
+          return transposed.is_common[node] == common ?
+                   transposed.row_of[dim * node + component] :
+                   -1;
+        };
+        for (int k = 0; k < width;)
           {
             // rows of a group have the same nodes and stand one behind the
             // other
-            const int          first = k;
-            const unsigned int r     = transposed.row_of[row.columns[k]];
-            while (++k < row.length &&
-                   transposed.row_of[row.columns[k]] ==
-                     static_cast<int>(r) + k - first &&
+            const int first = k, r = row_of(k);
+            ++k;
+            if (r < 0)
+              continue;
+            while (k < width && row_of(k) == r + k - first &&
                    transposed.group_of[r + k - first] == transposed.group_of[r])
-              ;
+              ++k;
             const int *nodes   = &transposed.nodes[transposed.begin[r]];
             const int  n_nodes = transposed.begin[r + 1] - transposed.begin[r];
             const int  skipped =
@@ -273,15 +225,15 @@ namespace mortise
                       1.,
                       &transposed.values[transposed.begin[r]] + skipped,
                       n_nodes,
-                      row.values + first,
-                      row.length,
+                      shared.values.data() + first,
+                      width,
                       0.,
                       product.data(),
                       length);
             const double *from = product.data();
             for (int i = 0; i < n; ++i, from += length)
               {
-                double *to = values(e, group.node + i, group.component);
+                double *to = values(e, shared.first_node + i, component);
                 for (int l = 0; l < length; ++l)
                   to[place[nodes[skipped + l]]] += from[l];
               }
@@ -290,31 +242,35 @@ namespace mortise
 
       /// Columns in front of the entity's own nodes: owned, computed before.
       void
-      mirror(const unsigned int e, const NodeGroup &group)
+      mirror(const unsigned int e, const SharedRows &shared)
       {
-        for (unsigned int l = 0;
-             l < patterns[e].size() && patterns[e][l] < entities[e].first;
-             ++l)
-          {
-            const int          j     = patterns[e][l];
-            const unsigned int other = entity_of[j];
-            const double      *from  = values(other, j, group.component);
-            const auto        &nodes = patterns[other];
-            auto at = std::lower_bound(nodes.begin(), nodes.end(), group.node);
-            for (int i = 0; i < group.rows.n_rows && at != nodes.end(); ++i)
-              if (*at == group.node + i)
-                values(e, group.node + i, group.component)[l] =
-                  from[at++ - nodes.begin()];
-          }
+        for (unsigned int c = 0; c < (alike[e] ? 1 : dim); ++c)
+          if (shared.first_row[c] >= 0)
+            for (unsigned int l = 0;
+                 l < patterns[e].size() && patterns[e][l] < entities[e].first;
+                 ++l)
+              {
+                const int          j     = patterns[e][l];
+                const unsigned int other = entity_of[j];
+                const double      *from  = values(other, j, c);
+                const auto        &nodes = patterns[other];
+                auto               at    = std::lower_bound(nodes.begin(),
+                                           nodes.end(),
+                                           shared.first_node);
+                for (int i = 0; i < shared.n_rows && at != nodes.end(); ++i)
+                  if (*at == shared.first_node + i)
+                    values(e, shared.first_node + i, c)[l] =
+                      from[at++ - nodes.begin()];
+              }
       }
 
-      const Epetra_CrsMatrix          &B;
-      const NodeTranspose             &transposed;
-      const std::vector<EntityNodes>  &entities;
-      std::vector<int>                 place, mark; ///< by node
-      std::vector<char>                alike;       ///< by entity
-      std::vector<std::vector<int>>    patterns;    ///< nodes, by entity
-      std::vector<std::size_t>         begin;       ///< of values, by entity
+      const NodeTranspose                        &transposed;
+      const std::vector<EntityNodes>             &entities;
+      const std::vector<std::vector<SharedRows>> &rows;        ///< by entity
+      std::vector<int>                            place, mark; ///< by node
+      std::vector<char>                           alike;       ///< by entity
+      std::vector<std::vector<int>>    patterns; ///< nodes, by entity
+      std::vector<std::size_t>         begin;    ///< of values, by entity
       std::vector<unsigned int>        entity_of;
       const Teuchos::BLAS<int, double> blas;
       std::vector<double>              product;
@@ -341,14 +297,14 @@ namespace mortise
   } // namespace
 
   NodeRows
-  weighted_square(const Epetra_CrsMatrix    &coupling,
+  weighted_square(const CouplingRows        &coupling,
                   const LevelVector<double> &weights)
   {
-    const auto        transposed = scaled_transpose(coupling, weights);
-    const auto        entities   = group_by_entity(coupling);
-    const NodeNumbers numbers =
-      number_nodes(entities, coupling.RowMap(), transposed->ColMap());
-    const NodeTranspose by_node(*transposed, coupling.ColMap(), numbers);
-    return Square(coupling, by_node, numbers, entities).result;
+    const auto          transposed = scaled_transpose(coupling.matrix, weights);
+    const NodeNumbers   numbers    = number_nodes(coupling.entities,
+                                             coupling.matrix.RowMap(),
+                                             transposed->ColMap());
+    const NodeTranspose by_node(*transposed, coupling, numbers);
+    return Square(coupling, by_node, numbers).result;
   }
 } // namespace mortise

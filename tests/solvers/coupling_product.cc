@@ -1,11 +1,14 @@
-// Proves that products with B and B^T are those of the matrix and touch the
-// displacements that multipliers move alone, on every number of ranks.
+// Proves that products with B and B^T are those of the matrix, where components
+// have the same entries, where they have others and where some lack them, and
+// touch the displacements that multipliers move alone, on every number of
+// ranks.
 #include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <verdict.h>
 
 #include <cmath>
 
+#include "coupling_line.h"
 #include "spring_system.h"
 
 using namespace mortise;
@@ -15,22 +18,21 @@ namespace
 {
   template <typename Number>
   void
-  check(const BlockSystem      &system,
-        const springs::Options &options,
-        const std::string      &precision,
-        const double            allowed)
+  check(const std::string  &name,
+        const BlockSystem  &system,
+        const CouplingRows &rows,
+        const double        n_moved,
+        const double        allowed)
   {
     const auto say =
       [&](const std::string &what, const double got, const double limit) {
         if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-          verdict(precision + ": " + what, got, limit);
+          verdict(name + ": " + what, got, limit);
       };
-    const CouplingProduct<Number> product(system);
+    const CouplingProduct<Number> product(system, rows);
     const auto                   &places = product.places();
-    // two layers of points, three displacements each
-    const double n_moved = 6. * options.size * options.size,
-                 n_places =
-                   Utilities::MPI::sum<double>(places.size(), MPI_COMM_WORLD);
+    const double                  n_places =
+      Utilities::MPI::sum<double>(places.size(), MPI_COMM_WORLD);
     say("places beside those that are moved", std::abs(n_places - n_moved), 0);
 
     const auto         &B = system.coupling.trilinos_matrix();
@@ -57,6 +59,37 @@ namespace
     u.NormInf(&error);
     say("B^T y, zero elsewhere", error / norm, allowed);
   }
+
+  void
+  check_all(const std::string &name,
+            const BlockSystem &system,
+            const double       n_moved)
+  {
+    for (const bool by_node : {true, false})
+      {
+        const CouplingRows rows(system.coupling.trilinos_matrix(), by_node);
+        const std::string  what = name + (by_node ? "" : ", one by one");
+        check<double>(what, system, rows, n_moved, 1e-15);
+        check<float>(what + ", single", system, rows, n_moved, 1e-6);
+      }
+  }
+
+  /// Multipliers in a line, some components without rows or columns.
+  void
+  check_line(const int n_entities)
+  {
+    const CouplingLine     line{n_entities};
+    const Epetra_CrsMatrix B = line.matrix();
+    BlockSystem            system;
+    system.communicator = MPI_COMM_WORLD;
+    system.coupling.reinit(B);
+    system.owned_displacement =
+      IndexSet(static_cast<unsigned int>(3 * line.n_nodes()));
+    if (B.DomainMap().NumMyElements() > 0)
+      system.owned_displacement.add_range(B.DomainMap().MinMyGID(),
+                                          B.DomainMap().MaxMyGID() + 1);
+    check_all(std::to_string(n_entities) + " entities", system, line.n_moved());
+  }
 } // namespace
 
 int
@@ -65,6 +98,9 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const springs::Options           options;
   const BlockSystem system = springs::Builder(options, MPI_COMM_WORLD).build();
-  check<double>(system, options, "double", 1e-15);
-  check<float>(system, options, "float", 1e-6);
+  // two layers of points, three displacements each
+  const double n_moved = 6. * options.size * options.size;
+  check_all("springs", system, n_moved);
+  for (const int n_entities : {5, 12, 200})
+    check_line(n_entities);
 }

@@ -12,94 +12,17 @@
 
 #include <cmath>
 
+#include "coupling_line.h"
+
 using namespace mortise;
 using namespace dealii;
 
 namespace
 {
-  /// Rows of @p n_entities entities in a line, up to three for each component;
-  /// those of an entity move the nodes beside it. At both ends one component
-  /// lacks rows or columns, so that diagonals differ.
-  struct Line
-  {
-    int n_entities;
-
-    int
-    n_nodes() const
-    {
-      return 3 * n_entities + 6;
-    }
-
-    bool
-    is_row(const int entity, const int i, const int component) const
-    {
-      if (entity == 0 && component == 1)
-        return false;
-      if (entity == n_entities - 1 && component == 2)
-        return i > 0;
-      return i <= entity % 3;
-    }
-
-    bool
-    is_column(const int node, const int component) const
-    {
-      return !((node < 3 || node == 5) && component == 1);
-    }
-
-    double
-    value(const int entity, const int i, const int node) const
-    {
-      return std::cos(3. * entity + i + 0.7 * node) +
-             (node == 3 * entity + i ? 9. : 0.);
-    }
-
-    int
-    n_rows(const int entity) const
-    {
-      int n = 0;
-      for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < 3; ++i)
-          n += is_row(entity, i, c);
-      return n;
-    }
-
-    /// Entities are dealt out in their order.
-    Epetra_CrsMatrix
-    matrix() const
-    {
-      const Epetra_MpiComm comm(MPI_COMM_WORLD);
-      const Epetra_Map     entities(n_entities, 0, comm);
-      int                  n = 0;
-      for (int e = 0; e < entities.NumMyElements(); ++e)
-        n += n_rows(entities.GID(e));
-      const Epetra_Map rows(-1, n, 0, comm), nodes(n_nodes(), 0, comm),
-        columns(-1, 3 * nodes.NumMyElements(), 0, comm);
-      Epetra_CrsMatrix result(Copy, rows, 0);
-      int              row = rows.MinMyGID();
-      for (int k = 0; k < entities.NumMyElements(); ++k)
-        for (int c = 0; c < 3; ++c)
-          for (int e = entities.GID(k), i = 0; i < 3; ++i)
-            if (is_row(e, i, c))
-              {
-                for (int node = 3 * e; node < 3 * e + 8; ++node)
-                  if (is_column(node, c))
-                    {
-                      const double entry  = value(e, i, node);
-                      const int    column = 3 * node + c;
-                      result.InsertGlobalValues(row, 1, &entry, &column);
-                    }
-                ++row;
-              }
-      result.FillComplete(columns, rows);
-      return result;
-    }
-  };
-
   void
   check(const int n_entities)
   {
-    const Line             line{n_entities};
-    const Epetra_CrsMatrix B       = line.matrix();
+    const Epetra_CrsMatrix B       = CouplingLine{n_entities}.matrix();
     const auto             largest = [](const Epetra_Vector &x) {
       double norm = 0.;
       x.NormInf(&norm);
@@ -119,11 +42,11 @@ namespace
     for (const auto i : owned)
       weights(i) = 1. + i / 3 % 5;
 
-    const NodeRows C     = weighted_square(B, weights);
+    const NodeRows C     = weighted_square(CouplingRows(B, true), weights);
     const auto     alike = std::count(C.variants.begin(), C.variants.end(), 1U);
     const int      n_alike = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
               n_nodes      = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);
-    say("nodes whose components differ", n_nodes - n_alike, 20);
+    say("nodes whose components differ", n_nodes - n_alike, 60);
     say("without such", n_nodes - n_alike > 0 ? 0 : 1, 0);
 
     Epetra_Vector y(B.RowMap()), expected(y), got(y), u(B.DomainMap());

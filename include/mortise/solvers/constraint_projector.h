@@ -11,8 +11,10 @@ namespace mortise
   class ConstraintProjector
   {
   public:
-    /// Both must stay alive. Collective.
-    ConstraintProjector(const BlockSystem &system, const Lifting &lifting);
+    /// @p lifting must stay alive. @p rows: of system.coupling. Collective.
+    ConstraintProjector(const BlockSystem  &system,
+                        const CouplingRows &rows,
+                        const Lifting      &lifting);
 
     /// r := P^T r = r - B^T y; lambda += y. Collective.
     void

@@ -1,12 +1,15 @@
-// Products with B and B^T by dense blocks: a block is the rows of one entity of
-// the slave's mesh, and stands once for all components where they have the same
-// entries. It never looks at other matrices.
+// Products with B and B^T by dense blocks: a block is the rows of neighbouring
+// entities of the slave's mesh, and stands once for the components that have
+// the same entries, also where one of them lacks rows or columns, since
+// displacements are prescribed. It never looks at other matrices.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
 
 #include <Epetra_Vector.h>
+#include <mortise/base/types.h>
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/coupling_rows.h>
 #include <mortise/solvers/epetra_tools.h>
 
 #include <memory>
@@ -18,14 +21,14 @@ namespace mortise
   class CouplingProduct
   {
   public:
-    /// Collective.
-    explicit CouplingProduct(const BlockSystem &system);
+    /// @p rows: of system.coupling. Collective.
+    CouplingProduct(const BlockSystem &system, const CouplingRows &rows);
 
     /// The owned displacements that multipliers of any rank move.
     const std::vector<unsigned int> &
     places() const
     {
-      return moved;
+      return moved_places;
     }
 
     /// A vector with one entry for each of places(), in their order.
@@ -46,41 +49,43 @@ namespace mortise
                         const Epetra_Vector &y) const;
 
   private:
-    /// Rows with the same columns, or three times as many: those of one
-    /// component after the other.
+    /// Rows of multipliers by node, for all components, and the nodes of the
+    /// displacements that they move.
     struct Block
     {
-      int                                    n_rows = 0;
-      std::vector<int>                       first_row; ///< by component
-      std::vector<std::vector<unsigned int>> columns;   ///< of traces, likewise
+      std::vector<int>          rows;  ///< by node and component; -1: none
+      std::vector<unsigned int> nodes; ///< among those of values
     };
 
-    /// The entry of a trace for each local column of the matrix.
-    std::vector<unsigned int>
-    make_layout(const Epetra_CrsMatrix      &matrix,
-                const std::vector<RowGroup> &groups,
-                const BlockSystem           &system);
+    /// Numbers the entries of traces.
     void
-    make_blocks(const Epetra_CrsMatrix          &matrix,
-                const std::vector<RowGroup>     &groups,
-                const std::vector<unsigned int> &entry_of_column);
+    make_layout(const BlockSystem &system, const CouplingRows &rows);
+    void
+    make_blocks(const CouplingRows &rows);
+    /// visit(block, entries, number of components).
+    template <typename Visit>
+    void
+    for_each_block(const Visit &visit) const;
     template <unsigned int n_components>
     void
     multiply_block(const Block   &block,
                    const Number  *entries,
-                   const Number  *trace,
                    Epetra_Vector &jump) const;
     template <unsigned int n_components>
     void
     multiply_block_transposed(const Block         &block,
                               const Number        *entries,
-                              Number              *trace,
                               const Epetra_Vector &y) const;
 
+    const unsigned int                                         n_components;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
-    std::vector<unsigned int>                                  moved;
+    std::vector<unsigned int>                                  moved_places;
     std::vector<Block>                                         blocks;
-    dealii::AlignedVector<Number>         entries; ///< by block, rows padded
-    mutable dealii::AlignedVector<Number> workspace;
+    dealii::AlignedVector<Number> entries; ///< by block, rows padded
+    /// Of a trace; -1: none.
+    std::vector<int> entry_of_value;
+    /// Displacements by node and component, 0 where they are prescribed.
+    mutable std::vector<Number>           values;
+    mutable dealii::AlignedVector<Number> workspace; ///< of one block
   };
 } // namespace mortise

@@ -17,6 +17,7 @@ namespace mortise
     /// @p product must stay alive. @p max_gathered: as in SolverOptions.
     /// Collective.
     DiagonalLifting(const BlockSystem            &system,
+                    const CouplingRows           &rows,
                     const CouplingProduct<float> &product,
                     std::size_t                   max_gathered);
 

@@ -27,7 +27,6 @@ namespace mortise
     /// Three rows per vertex, x, y, z consecutive, prescribed ones included.
     const std::vector<dealii::types::global_dof_index> &rows;
     const std::vector<dealii::Point<dim>>              &points; ///< vertices
-    MPI_Comm                                            communicator;
   };
 
   class VertexSolver
@@ -46,6 +45,12 @@ namespace mortise
                const Epetra_CrsMatrix &matrix,
                bool                    allow_single);
 
+    /// The same for a matrix whose rows are the vertices', numbered 0, 1, ...
+    bool
+    initialize(std::unique_ptr<Epetra_CrsMatrix>      matrix,
+               const std::vector<dealii::Point<dim>> &points,
+               bool                                   allow_single);
+
     /// x = P A_c^{-1} P^T r, both on the rows of the matrix given; x is
     /// overwritten. Collective.
     void
@@ -57,8 +62,11 @@ namespace mortise
   private:
     void
     extract(const VertexFunctions &vertices, const Epetra_CrsMatrix &matrix);
+    bool
+    make_inverse(const std::vector<dealii::Point<dim>> &points,
+                 bool                                   allow_single);
     void
-    compute_rigid_modes(const VertexFunctions &vertices);
+    compute_rigid_modes(const std::vector<dealii::Point<dim>> &points);
 
     std::vector<int>            rows; ///< of the matrix given, in coarse order
     std::unique_ptr<Epetra_Map> map;
