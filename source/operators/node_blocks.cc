@@ -66,11 +66,11 @@ namespace mortise
     const Epetra_MpiComm comm(layout.get_mpi_communicator());
     const int            n = static_cast<int>(dim * blocks.size());
     const Epetra_Map     map(-1, n, 0, comm);
-    std::vector<int>     columns;
+    std::vector<int>     relevant;
     for (unsigned int k = 0; k < n + layout.n_ghost_indices(); ++k)
-      columns.push_back(static_cast<int>(layout.local_to_global(k)));
+      relevant.push_back(static_cast<int>(layout.local_to_global(k)));
     const Epetra_Map column_map(
-      -1, static_cast<int>(columns.size()), columns.data(), 0, comm);
+      -1, static_cast<int>(relevant.size()), relevant.data(), 0, comm);
     double mean = 0.; // of the diagonal
     for_each_diagonal(blocks, [&](const unsigned int, const double value) {
       mean += value / layout.size();
@@ -78,7 +78,7 @@ namespace mortise
     mean = Utilities::MPI::sum(mean, layout.get_mpi_communicator());
     if (mean == 0.) // all are held
       mean = 1.;
-    std::vector<int>    lengths;
+    std::vector<int>    lengths, columns;
     std::vector<double> values;
     for (unsigned int i = 0; i < blocks.size(); ++i)
       lengths.insert(lengths.end(),

@@ -2,8 +2,6 @@
 
 #include <mortise/operators/tensor_kernel.h>
 #include <mortise/solvers/coupling_product.h>
-#include <mortise/solvers/coupling_rows.h>
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/register_blocks.h>
 
 #include <algorithm>

@@ -46,27 +46,12 @@ namespace mortise
       {
         if (group.node != rows.first_node || group.rows.n_rows != rows.n_rows)
           return false;
-        const EpetraRow row(matrix, group.rows.first);
-        const Columns   columns = columns_by_node(row, moved);
+        const Columns columns =
+          columns_by_node(EpetraRow(matrix, group.rows.first), moved);
         if (!unite(columns, group.component) || !compare(columns, group))
           return false;
-        const std::size_t n = rows.nodes.size(), m = united.size();
-        if (m > n)
-          {
-            std::vector<double> values(rows.n_rows * m);
-            for (int r = 0; r < rows.n_rows; ++r)
-              {
-                double *const to = values.data() + r * m;
-                for (std::size_t l = 0; l < m; ++l)
-                  if (before[l] >= 0)
-                    to[l] = rows.values[r * n + before[l]];
-                const EpetraRow row(matrix, group.rows.first + r);
-                for (std::size_t k = 0; k < columns.size(); ++k)
-                  to[places[k]] = row.values[columns[k].second];
-              }
-            rows.nodes.swap(united);
-            rows.values = std::move(values);
-          }
+        if (united.size() > rows.nodes.size())
+          widen(columns, group);
         rows.first_row[group.component] = group.rows.first;
         return true;
       }
@@ -131,6 +116,26 @@ namespace mortise
                 return false;
           }
         return true;
+      }
+
+      /// Takes in the nodes that are new.
+      void
+      widen(const Columns &columns, const NodeGroup &group)
+      {
+        const std::size_t   n = rows.nodes.size(), m = united.size();
+        std::vector<double> values(rows.n_rows * m);
+        for (int r = 0; r < rows.n_rows; ++r)
+          {
+            double *const to = values.data() + r * m;
+            for (std::size_t l = 0; l < m; ++l)
+              if (before[l] >= 0)
+                to[l] = rows.values[r * n + before[l]];
+            const EpetraRow row(matrix, group.rows.first + r);
+            for (std::size_t k = 0; k < columns.size(); ++k)
+              to[places[k]] = row.values[columns[k].second];
+          }
+        rows.nodes.swap(united);
+        rows.values.swap(values);
       }
 
       const Epetra_CrsMatrix   &matrix;

@@ -165,7 +165,7 @@ namespace mortise
         const unsigned int own =
           std::lower_bound(nodes.begin(), nodes.end(), entities[e].first) -
           nodes.begin();
-        multiply(e, shared, c0, true);
+        add_products(e, shared, c0, true);
         if (alike[e])
           return;
         for (unsigned int c = dim; c-- > c0;)
@@ -179,16 +179,16 @@ namespace mortise
               }
         for (unsigned int c = c0; c < dim; ++c)
           if (shared.first_row[c] >= 0)
-            multiply(e, shared, c, false);
+            add_products(e, shared, c, false);
       }
 
       /// Adds what comes from the nodes that are common to all components, or
       /// from the others.
       void
-      multiply(const unsigned int e,
-               const SharedRows  &shared,
-               const unsigned int component,
-               const bool         common)
+      add_products(const unsigned int e,
+                   const SharedRows  &shared,
+                   const unsigned int component,
+                   const bool         common)
       {
         const int  n = shared.n_rows, width = shared.nodes.size();
         const auto row_of = [&](const int k) {

@@ -46,7 +46,9 @@ namespace
     const auto     alike = std::count(C.variants.begin(), C.variants.end(), 1U);
     const int      n_alike = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
               n_nodes      = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);
-    say("nodes whose components differ", n_nodes - n_alike, 60);
+    // those of entities that share columns with deviating ones: 20 at the ends,
+    // 15 of entities 5 to 11
+    say("nodes whose components differ", n_nodes - n_alike, 35);
     say("without such", n_nodes - n_alike > 0 ? 0 : 1, 0);
 
     Epetra_Vector y(B.RowMap()), expected(y), got(y), u(B.DomainMap());

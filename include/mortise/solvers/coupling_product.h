@@ -7,10 +7,8 @@
 #include <deal.II/base/aligned_vector.h>
 
 #include <Epetra_Vector.h>
-#include <mortise/base/types.h>
 #include <mortise/operators/block_system.h>
 #include <mortise/solvers/coupling_rows.h>
-#include <mortise/solvers/epetra_tools.h>
 
 #include <memory>
 #include <vector>
