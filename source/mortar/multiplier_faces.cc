@@ -82,9 +82,9 @@ namespace mortise
               bits |= 1u << rim_bit(c, e);
           }
       const auto status =
-        partner.coverage < none_below ? MultiplierFace::Status::none :
-        partner.coverage < full_above ? MultiplierFace::Status::partial :
-                                        MultiplierFace::Status::full;
+        partner.coverage < none_below      ? MultiplierFace::Status::none :
+        is_fully_covered(partner.coverage) ? MultiplierFace::Status::full :
+                                             MultiplierFace::Status::partial;
       for (unsigned int c = 0; c < dim; ++c)
         if (partner.can_follow[c])
           bits |= 1u << (14 + c);
@@ -139,6 +139,12 @@ namespace mortise
         }
     }
   } // namespace
+
+  bool
+  is_fully_covered(const double coverage)
+  {
+    return coverage >= full_above;
+  }
 
   std::vector<MultiplierFace>
   collect_multiplier_faces(const Body                      &body,

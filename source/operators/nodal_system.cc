@@ -85,6 +85,10 @@ namespace mortise
     stiffness->initialize(in);
     stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
+    if (!scene.couplings.empty())
+      leading = find_leading_displacements(all_levels.front(),
+                                           node_diagonal(),
+                                           scene.couplings);
     if (!pressures)
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})

@@ -26,6 +26,8 @@ namespace mortise
   {
     matrix.diagonal(inverse_diagonal);
     matrix.average_components(inverse_diagonal);
+    if (correction != nullptr)
+      correction->add_followers(inverse_diagonal);
     for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
       inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
     matrix.initialize(r);
@@ -53,6 +55,14 @@ namespace mortise
       {
         d = r;
         d.scale(inverse_diagonal);
+        // without leaders the constraint makes no eigenvalue larger
+        if (correction != nullptr && correction->has_leaders())
+          correction->correct(
+            [&](const unsigned int i) { return r.local_element(i); },
+            inverse_diagonal,
+            [&](const unsigned int i, const Number c) {
+              d.local_element(i) -= c;
+            });
         const double rho = r * d;
         if (!(rho > 0.))
           break;
@@ -128,6 +138,7 @@ namespace mortise
             [&](const unsigned int i) {
               return no_product ? B[i] : B[i] - R[i];
             },
+            inverse_diagonal,
             [&](const unsigned int i, const Number c) {
               D[i] -= take * c;
               X[i] -= take * c;

@@ -49,16 +49,15 @@ namespace mortise
         {
           const auto        &coupling = system.coupling.trilinos_matrix();
           const CouplingRows rows(coupling, true);
-          product = std::make_unique<CouplingProduct<Number>>(system, rows);
-          lifting = std::make_unique<DiagonalLifting>(system,
+          product    = std::make_unique<CouplingProduct<Number>>(system, rows);
+          lifting    = std::make_unique<DiagonalLifting>(system,
                                                       rows,
                                                       *product,
                                                       max_gathered);
-          valid   = lifting->is_valid() && valid;
-          correction =
-            std::make_unique<InterfaceCorrection<Number>>(*product,
-                                                          *lifting,
-                                                          coupling.RowMap());
+          valid      = lifting->is_valid() && valid;
+          correction = std::make_unique<InterfaceCorrection<Number>>(system,
+                                                                     *product,
+                                                                     *lifting);
           projector =
             std::make_unique<ConstraintProjector>(system, rows, *lifting);
         }

@@ -11,6 +11,8 @@ namespace mortise
   {
     for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
       weights.local_element(i) = 1. / weights.local_element(i);
+    for (const auto &leading : system.nodal->leading_displacements())
+      weights.local_element(leading.place) = 0.;
     LevelVector<float> trace;
     product.initialize(trace);
     const auto multiply =

@@ -1,22 +1,41 @@
 // See interface_correction.h.
+#include <deal.II/base/mpi.h>
+
 #include <mortise/solvers/interface_correction.h>
 
 namespace mortise
 {
+  using namespace dealii;
+
   template <typename Number>
   InterfaceCorrection<Number>::InterfaceCorrection(
+    const BlockSystem             &system,
     const CouplingProduct<Number> &product,
-    const DiagonalLifting         &lifting,
-    const Epetra_Map              &multipliers)
-    : product(product)
+    const DiagonalLifting         &lifting)
+    : system(system)
+    , product(product)
     , lifting(lifting)
-    , jump(multipliers)
+    , jump(system.coupling.trilinos_matrix().RowMap())
     , multiplier(jump)
+    , smoothed(product.places().size())
   {
     product.initialize(trace);
     for (const unsigned int i : product.places())
       weights.push_back(
         static_cast<Number>(lifting.diagonal().local_element(i)));
+    some_lead =
+      Utilities::MPI::max(system.nodal->leading_displacements().empty() ? 0 : 1,
+                          system.communicator) == 1;
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::add_followers(
+    LevelVector<Number> &diagonal) const
+  {
+    for (const auto &leading : system.nodal->leading_displacements())
+      diagonal.local_element(leading.place) +=
+        static_cast<Number>(leading.followers);
   }
 
   template <typename Number>

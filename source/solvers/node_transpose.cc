@@ -20,6 +20,10 @@ namespace mortise
       if (const int column = B.moved.column_of_value[v]; column >= 0)
         {
           const EpetraRow entries(matrix, matrix.LRID(B.matrix.GCID(column)));
+          if (std::all_of(entries.values,
+                          entries.values + entries.length,
+                          [](const double value) { return value == 0.; }))
+            continue; // multipliers do not move it
           rows[v].reserve(entries.length);
           for (int k = 0; k < entries.length; ++k)
             {
@@ -36,6 +40,8 @@ namespace mortise
       if (unite(&rows[dim * i], united))
         {
           is_common[i] = true;
+          if (united.empty())
+            continue;
           for (unsigned int c = 0; c < dim; ++c)
             row_of[dim * i + c] = begin.size() - 1;
           add_row(united);
@@ -63,7 +69,7 @@ namespace mortise
               (node < 0 || rows[c][at[c]].first < node))
             node = rows[c][at[c]].first;
         if (node < 0)
-          return !united.empty();
+          return true;
         bool is_new = true;
         for (unsigned int c = 0; c < dim; ++c)
           if (at[c] < rows[c].size() && rows[c][at[c]].first == node)

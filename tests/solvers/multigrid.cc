@@ -92,6 +92,23 @@ main(int argc, char **argv)
             Settings{"Body inner/Material/Young modulus=" + inner},
           16,
           false);
+  // the slave follows
+  for (const unsigned int p : {2, 4})
+    for (const std::string modulus : {"1e-5", "10", "100"})
+      check("slave 4 times as fine, p = " + std::to_string(p) + ", modulus " +
+              modulus + " : 10",
+            degree_and_mesh(p) +
+              Settings{"Body inner/Mesh/Subdivisions=4, 2",
+                       "Body outer/Mesh/Subdivisions=1, 1",
+                       "Body inner/Material/Young modulus=" + modulus},
+            16,
+            p == 2);
+  check("slave 3 times as fine, tetrahedra",
+        degree_and_mesh(2) + inner_cells + outer_cells +
+          Settings{"Body inner/Mesh/Subdivisions=6, 2",
+                   "Body outer/Mesh/Subdivisions=2, 1"},
+        16,
+        true);
   // C hardly has full rank without the slave's own part: single precision does
   // not suffice for its factors
   check("slave 1e6 times stiffer than a coarser master",

@@ -18,6 +18,9 @@ namespace mortise
     struct Partner
     {
       unsigned int master; ///< among InterfaceHandler::master_faces()
+      /// In values at nodes: is the master so much coarser that preconditioners
+      /// let the slave follow it, rather than move both?
+      bool                       leads = false;
       dealii::FullMatrix<double> mixed; ///< int N_i^slave N_j^master
       dealii::FullMatrix<double>
         mass; ///< int N_i^master N_j^master; empty unless asked for
@@ -29,7 +32,8 @@ namespace mortise
                          gap_moment; ///< int N_i^slave (x_master - x_slave)
     std::vector<Partner> partners;
     double               penalty =
-      0.; ///< 2.5 E / h of the softer side, the scale of jump penalties
+      0.; ///< scale of jump penalties: 2.5 E / h of the softer side, or of the
+          ///< slave where a master leads, since it is what moves
   };
 
   /// Clip @p interface and integrate; one entry per slave face. Collective.

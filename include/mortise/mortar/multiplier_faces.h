@@ -18,6 +18,10 @@ namespace mortise
       can_follow{}; ///< by component: some displacement there is free
   };
 
+  /// Has a slave face with this covered fraction all its multipliers?
+  bool
+  is_fully_covered(double coverage);
+
   /// A slave face of an owned or ghost cell. Vertices and edges are numbered as
   /// in the basis.
   struct MultiplierFace

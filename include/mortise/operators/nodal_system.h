@@ -8,6 +8,7 @@
 #include <Epetra_Vector.h>
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/held_pressures.h>
+#include <mortise/operators/leading_displacements.h>
 
 #include <memory>
 #include <vector>
@@ -93,6 +94,12 @@ namespace mortise
       return mean;
     }
 
+    const std::vector<LeadingDisplacement> &
+    leading_displacements() const
+    {
+      return leading;
+    }
+
     /// int b.v + int t.v less the work of prescribed displacements, zero where
     /// held, and what these leave to the pressures (not touched without mixed
     /// bodies). @p loads: by body. Collective.
@@ -139,6 +146,7 @@ namespace mortise
     std::vector<NodalLevel>                all_levels;
     std::unique_ptr<LevelOperator<double>> stiffness;
     LevelVector<double>                    stiffness_diagonal;
+    std::vector<LeadingDisplacement>       leading;
     std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
     HeldPressures                          held_pressures;
     LevelVector<double>                    norm_diagonal;

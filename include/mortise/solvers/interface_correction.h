@@ -1,6 +1,6 @@
 // Jacobi's method among the displacements that satisfy the constraint: the
-// inverse T of diag(K) becomes T - T B^T C^{-1} B T with C = B T B^T. It never
-// looks at K.
+// inverse D^{-1} of a diagonal becomes P D^{-1} P^T with P = I - T B^T C^{-1}
+// B, C = B T B^T. It never looks at K.
 // Sources: Braess, Sarazin (1997); Braess, Dahmen, Wieners (1999).
 #pragma once
 
@@ -11,28 +11,57 @@
 
 namespace mortise
 {
-  /// Works on the few displacements that multipliers move.
+  /// Works on the few displacements that multipliers move. Where none leads, T
+  /// is D^{-1} and P D^{-1} P^T = T - T B^T C^{-1} B T.
   template <typename Number>
   class InterfaceCorrection
   {
   public:
-    /// Both must stay alive. @p multipliers: rows of B. Collective.
-    InterfaceCorrection(const CouplingProduct<Number> &product,
-                        const DiagonalLifting         &lifting,
-                        const Epetra_Map              &multipliers);
+    /// @p product and @p lifting must stay alive. Collective.
+    InterfaceCorrection(const BlockSystem             &system,
+                        const CouplingProduct<Number> &product,
+                        const DiagonalLifting         &lifting);
 
-    /// subtract(i, c_i) with c = T B^T C^{-1} B T r, r_i = residual(i), for the
-    /// places i of owned displacements that multipliers move. Collective.
+    /// Do displacements lead on any rank?
+    bool
+    has_leaders() const
+    {
+      return some_lead;
+    }
+
+    /// To the diagonal of K, what follows leading displacements.
+    void
+    add_followers(LevelVector<Number> &diagonal) const;
+
+    /// subtract(i, c_i) with c = (D^{-1} - P D^{-1} P^T) r, r_i = residual(i),
+    /// for the places i of owned displacements that multipliers move. @p
+    /// inverse: D^{-1}. Collective.
     template <typename Residual, typename Subtract>
     void
-    correct(const Residual &residual, const Subtract &subtract) const
+    correct(const Residual            &residual,
+            const LevelVector<Number> &inverse,
+            const Subtract            &subtract) const
     {
-      const auto &places = product.places();
-      for (unsigned int k = 0; k < places.size(); ++k)
+      const auto        &places = product.places();
+      const unsigned int n      = places.size();
+      for (unsigned int k = 0; k < n; ++k)
         trace.local_element(k) = weights[k] * residual(places[k]);
       apply();
-      for (unsigned int k = 0; k < places.size(); ++k)
-        subtract(places[k], weights[k] * trace.local_element(k));
+      if (some_lead)
+        {
+          for (unsigned int k = 0; k < n; ++k)
+            trace.local_element(k) = smoothed[k] =
+              inverse.local_element(places[k]) *
+              (residual(places[k]) - trace.local_element(k));
+          apply();
+          for (unsigned int k = 0; k < n; ++k)
+            subtract(places[k],
+                     inverse.local_element(places[k]) * residual(places[k]) -
+                       smoothed[k] + weights[k] * trace.local_element(k));
+        }
+      else
+        for (unsigned int k = 0; k < n; ++k)
+          subtract(places[k], weights[k] * trace.local_element(k));
     }
 
     /// x := P x = x - T B^T C^{-1} B x. Collective.
@@ -48,10 +77,13 @@ namespace mortise
     void
     apply() const;
 
+    const BlockSystem             &system;
     const CouplingProduct<Number> &product;
     const DiagonalLifting         &lifting;
-    std::vector<Number>            weights; ///< T, by place
+    std::vector<Number>            weights;           ///< T, by place
+    bool                           some_lead = false; ///< on some rank
     mutable Epetra_Vector          jump, multiplier;
-    mutable LevelVector<Number>    trace; ///< values at the places
+    mutable LevelVector<Number>    trace;    ///< values at the places
+    mutable std::vector<Number>    smoothed; ///< likewise
   };
 } // namespace mortise

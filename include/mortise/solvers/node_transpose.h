@@ -18,7 +18,7 @@ namespace mortise
                   const NodeNumbers      &numbers);
 
     /// By moved node: has it one row for all components, which holds for those
-    /// multipliers that has_multiplier() knows?
+    /// multipliers that has_multiplier() knows, or none, since T is zero there?
     std::vector<char>         is_common;
     std::vector<int>          row_of; ///< by moved node and component; -1: none
     std::vector<unsigned int> begin;  ///< by row
