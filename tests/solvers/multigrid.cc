@@ -92,16 +92,17 @@ main(int argc, char **argv)
             Settings{"Body inner/Material/Young modulus=" + inner},
           16,
           false);
-  // the slave follows
+  // the slave follows; with the penalty of the softer side 24 and 30 for the
+  // stiffest
   for (const unsigned int p : {2, 4})
-    for (const std::string modulus : {"1e-5", "10", "100"})
+    for (const std::string modulus : {"1e-5", "10", "1000"})
       check("slave 4 times as fine, p = " + std::to_string(p) + ", modulus " +
               modulus + " : 10",
             degree_and_mesh(p) +
               Settings{"Body inner/Mesh/Subdivisions=4, 2",
                        "Body outer/Mesh/Subdivisions=1, 1",
                        "Body inner/Material/Young modulus=" + modulus},
-            16,
+            18,
             p == 2);
   check("slave 3 times as fine, tetrahedra",
         degree_and_mesh(2) + inner_cells + outer_cells +
