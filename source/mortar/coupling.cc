@@ -1,10 +1,8 @@
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-
 #include <mortise/mortar/coupling.h>
 #include <mortise/mortar/nodal_block.h>
+#include <mortise/mortar/row_assembler.h>
 
 #include <algorithm>
-#include <map>
 
 namespace mortise
 {
@@ -13,16 +11,6 @@ namespace mortise
   namespace
   {
     using Index = types::global_dof_index;
-
-    /// Rows of a local matrix in one component: expansions of local functions
-    /// in global ones.
-    struct Expansion
-    {
-      const std::vector<unsigned int> &begin;
-      const std::vector<Index>        &index;
-      const std::vector<double>       &weight;
-      unsigned int                     offset; ///< first row of the component
-    };
 
     Expansion
     component(const FaceTrace &trace, const unsigned int c)
@@ -97,112 +85,6 @@ namespace mortise
       return {rows.begin, rows.index, rows.weight, c * n};
     }
 
-    /// Entries sum_ij (row expansion of i) matrix_ij (column expansion of j),
-    /// gathered row by row. In a first pass only their places are recorded.
-    class Assembler
-    {
-    public:
-      Assembler(const IndexSet &rows, const IndexSet &columns)
-        : rows(rows)
-        , columns(columns)
-      {}
-
-      void
-      record(const Expansion   &row,
-             const unsigned int n_rows,
-             const Expansion   &column,
-             const unsigned int n_columns)
-      {
-        std::vector<Index> places(column.index.begin() +
-                                    column.begin[column.offset],
-                                  column.index.begin() +
-                                    column.begin[column.offset + n_columns]);
-        std::sort(places.begin(), places.end());
-        places.erase(std::unique(places.begin(), places.end()), places.end());
-        for (unsigned int e = row.begin[row.offset];
-             e < row.begin[row.offset + n_rows];
-             ++e)
-          {
-            auto &entries = pattern[row.index[e]];
-            entries.insert(entries.end(), places.begin(), places.end());
-            if (entries.size() > 4 * (compressed[row.index[e]] + 64))
-              compress(row.index[e]);
-          }
-      }
-
-      void
-      create(SparseMatrix &matrix, const MPI_Comm comm)
-      {
-        IndexSet touched = rows;
-        for (const auto &row : pattern)
-          touched.add_index(row.first);
-        touched.compress();
-        DynamicSparsityPattern sparsity(rows.size(), columns.size(), touched);
-        for (auto &row : pattern)
-          {
-            compress(row.first);
-            sparsity.add_entries(row.first,
-                                 row.second.begin(),
-                                 row.second.end(),
-                                 true);
-            row.second = std::vector<Index>();
-          }
-        matrix.reinit(rows, columns, sparsity, comm, true);
-      }
-
-      static void
-      add(const Expansion          &row,
-          const Expansion          &column,
-          const FullMatrix<double> &local,
-          const double              factor,
-          const bool                transposed,
-          SparseMatrix             &matrix)
-      {
-        const unsigned int  n_rows    = transposed ? local.n() : local.m();
-        const unsigned int  n_columns = transposed ? local.m() : local.n();
-        const unsigned int  first     = column.begin[column.offset];
-        const unsigned int  last      = column.begin[column.offset + n_columns];
-        std::vector<double> values(last - first);
-        for (unsigned int i = 0; i < n_rows; ++i)
-          {
-            for (unsigned int j = 0; j < n_columns; ++j)
-              for (unsigned int e = column.begin[column.offset + j];
-                   e < column.begin[column.offset + j + 1];
-                   ++e)
-                values[e - first] =
-                  column.weight[e] * (transposed ? local(j, i) : local(i, j));
-            for (unsigned int e = row.begin[row.offset + i];
-                 e < row.begin[row.offset + i + 1];
-                 ++e)
-              {
-                std::vector<double> scaled(values);
-                for (double &value : scaled)
-                  value *= factor * row.weight[e];
-                matrix.add(row.index[e],
-                           scaled.size(),
-                           column.index.data() + first,
-                           scaled.data(),
-                           false);
-              }
-          }
-      }
-
-    private:
-      void
-      compress(const Index row)
-      {
-        auto &entries = pattern[row];
-        std::sort(entries.begin(), entries.end());
-        entries.erase(std::unique(entries.begin(), entries.end()),
-                      entries.end());
-        compressed[row] = entries.size();
-      }
-
-      const IndexSet                     &rows, &columns;
-      std::map<Index, std::vector<Index>> pattern;
-      std::map<Index, std::size_t>        compressed;
-    };
-
     /// Move prescribed displacements to the right hand side: g_i -= factor
     /// local_ij constant_j.
     void
@@ -273,8 +155,8 @@ namespace mortise
                       SparseMatrix                &coupling_matrix,
                       Vector                      &coupling_rhs)
   {
-    Assembler assembler(partition.owned_multiplier,
-                        partition.owned_displacement);
+    RowAssembler assembler(partition.owned_multiplier,
+                           partition.owned_displacement);
     for_each_face(
       couplings, [&](const Coupling &coupling, const unsigned int s) {
         const FaceTrace   &slave  = coupling.interface->slave().traces[s];
@@ -292,7 +174,7 @@ namespace mortise
         for (const auto &partner : coupling.local[s].partners)
           record(coupling.interface->master_traces()[partner.master]);
       });
-    assembler.create(coupling_matrix, partition.comm);
+    assembler.allocate();
     coupling_rhs.reinit(partition.owned_multiplier, partition.comm);
 
     for_each_face(
@@ -308,12 +190,8 @@ namespace mortise
           for (unsigned int c = 0; c < dim; ++c)
             {
               const Expansion row = component(rows, c);
-              Assembler::add(row,
-                             columns.component(c),
-                             in_columns,
-                             factor,
-                             false,
-                             coupling_matrix);
+              assembler.add(
+                row, columns.component(c), in_columns, factor, false);
               move_constants(row, side, c, block, factor, coupling_rhs);
             }
         };
@@ -323,7 +201,7 @@ namespace mortise
               partner.mixed,
               -1.);
       });
-    coupling_matrix.compress(VectorOperation::add);
+    assembler.create(coupling_matrix, partition.comm);
     coupling_rhs.compress(VectorOperation::add);
   }
 
@@ -332,9 +210,9 @@ namespace mortise
                         const CouplingPartition     &partition,
                         SparseMatrix                &jump_penalty)
   {
-    Assembler  assembler(partition.owned_displacement,
-                        partition.owned_displacement);
-    const auto for_each_block = [&](const auto &block) {
+    RowAssembler assembler(partition.owned_displacement,
+                           partition.owned_displacement);
+    const auto   for_each_block = [&](const auto &block) {
       for_each_face(
         couplings, [&](const Coupling &coupling, const unsigned int s) {
           const FaceTrace     &slave = coupling.interface->slave().traces[s];
@@ -375,14 +253,14 @@ namespace mortise
                        column,
                        transposed ? local.m() : local.n());
     });
-    assembler.create(jump_penalty, partition.comm);
+    assembler.allocate();
     for_each_block([&](const Expansion          &row,
                        const Expansion          &column,
                        const FullMatrix<double> &local,
                        const double              factor,
                        const bool                transposed) {
-      Assembler::add(row, column, local, factor, transposed, jump_penalty);
+      assembler.add(row, column, local, factor, transposed);
     });
-    jump_penalty.compress(VectorOperation::add);
+    assembler.create(jump_penalty, partition.comm);
   }
 } // namespace mortise

@@ -43,22 +43,22 @@ namespace mortise
 
   template <typename Work>
   bool
-  CholeskyInverse<Work>::initialize(const std::function<NodeRows()> &rows,
-                                    const Product                   &product,
-                                    const Epetra_Map                &map,
-                                    const bool allow_single)
+  CholeskyInverse<Work>::initialize(const NodeRows   &rows,
+                                    const Product    &product,
+                                    const Epetra_Map &map,
+                                    const bool        allow_single)
   {
     const MPI_Comm comm = communicator(map);
     if (allow_single)
       {
         light = std::make_unique<SparseCholesky<float, Work>>();
-        if (light->initialize(rows(), comm) &&
+        if (light->initialize(rows, comm) &&
             relative_correction(*light, product, map) < largest_correction)
           return true;
         light.reset();
       }
     exact = std::make_unique<SparseCholesky<double>>();
-    return exact->initialize(rows(), comm);
+    return exact->initialize(rows, comm);
   }
 
   template <typename Work>

@@ -15,12 +15,10 @@ namespace mortise
   {
     template <typename T>
     std::vector<T>
-    gather_on_all(std::vector<T> mine, const MPI_Comm comm)
+    gather_on_all(const std::vector<T> &mine, const MPI_Comm comm)
     {
       int n_ranks = 1, n_mine = mine.size();
       MPI_Comm_size(comm, &n_ranks);
-      if (n_ranks == 1)
-        return mine;
       std::vector<int> counts(n_ranks), starts(n_ranks + 1);
       MPI_Allgather(&n_mine, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
       std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
@@ -38,13 +36,22 @@ namespace mortise
     }
   } // namespace
 
-  GatheredRows::GatheredRows(NodeRows rows, const MPI_Comm comm)
+  GatheredRows::GatheredRows(const NodeRows &rows, const MPI_Comm comm)
     : n_components(rows.n_components)
   {
-    const auto lengths = gather_on_all(std::move(rows.lengths), comm);
-    columns            = gather_on_all(std::move(rows.columns), comm);
-    variants           = gather_on_all(std::move(rows.variants), comm);
-    values             = gather_on_all(std::move(rows.values), comm);
+    const bool alone = Utilities::MPI::n_mpi_processes(comm) == 1;
+    if (!alone)
+      {
+        gathered.lengths  = gather_on_all(rows.lengths, comm);
+        gathered.columns  = gather_on_all(rows.columns, comm);
+        gathered.variants = gather_on_all(rows.variants, comm);
+        gathered.values   = gather_on_all(rows.values, comm);
+      }
+    const NodeRows &all     = alone ? rows : gathered;
+    const auto     &lengths = all.lengths;
+    columns                 = make_array_view(all.columns);
+    variants                = make_array_view(all.variants);
+    values                  = make_array_view(all.values);
     begin.assign(lengths.size() + 1, 0);
     std::partial_sum(lengths.begin(), lengths.end(), begin.begin() + 1);
     std::size_t n_values = 0;

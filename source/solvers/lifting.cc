@@ -29,13 +29,11 @@ namespace mortise
     if (together || size <= always_gathered)
       {
         gathered = std::make_unique<CholeskyInverse<double>>();
-        valid =
-          gathered->initialize([&C] { return C->rows(); },
-                               [&C](Epetra_Vector &y, const Epetra_Vector &x) {
-                                 C->vmult(y, x);
-                               },
-                               map,
-                               true);
+        valid    = gathered->initialize(
+          C->rows(),
+          [&C](Epetra_Vector &y, const Epetra_Vector &x) { C->vmult(y, x); },
+          map,
+          true);
         if (valid)
           return;
         gathered.reset();

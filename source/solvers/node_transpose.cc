@@ -1,5 +1,4 @@
 // See node_transpose.h.
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/node_transpose.h>
 
 #include <algorithm>
@@ -7,9 +6,9 @@
 
 namespace mortise
 {
-  NodeTranspose::NodeTranspose(const Epetra_CrsMatrix &matrix,
-                               const CouplingRows     &B,
-                               const NodeNumbers      &numbers)
+  NodeTranspose::NodeTranspose(TransposedRows      source,
+                               const CouplingRows &B,
+                               const NodeNumbers  &numbers)
     : is_common(B.moved.n_nodes)
     , row_of(dim * B.moved.n_nodes, -1)
     , begin{0}
@@ -17,25 +16,27 @@ namespace mortise
   {
     std::vector<Row> rows(dim * B.moved.n_nodes);
     for (unsigned int v = 0; v < rows.size(); ++v)
-      if (const int column = B.moved.column_of_value[v]; column >= 0)
-        {
-          const EpetraRow entries(matrix, matrix.LRID(B.matrix.GCID(column)));
-          if (std::all_of(entries.values,
-                          entries.values + entries.length,
-                          [](const double value) { return value == 0.; }))
-            continue; // multipliers do not move it
-          rows[v].reserve(entries.length);
-          for (int k = 0; k < entries.length; ++k)
-            {
-              const int node = numbers.of_column[entries.columns[k]];
-              rows[v].emplace_back(node, entries.values[k]);
-              components[node] |= 1 << v % dim;
-            }
-          std::sort(rows[v].begin(), rows[v].end());
-        }
+      {
+        Entry *const first = source.entries.data() + source.begin[v],
+                     *last = source.entries.data() + source.begin[v + 1];
+        if (std::all_of(first, last, [](const Entry &entry) {
+              return entry.second == 0.;
+            }))
+          continue; // multipliers do not move it
+        for (Entry *entry = first; entry != last; ++entry)
+          {
+            entry->first = numbers.of_column[entry->first];
+            components[entry->first] |= 1 << v % dim;
+          }
+        if (!std::is_sorted(first, last))
+          std::sort(first, last);
+        rows[v] = {first, last};
+      }
 
     // rows of all components first
-    Row united;
+    nodes.reserve(source.entries.size());
+    values.reserve(source.entries.size());
+    std::vector<Entry> united;
     for (unsigned int i = 0; i < B.moved.n_nodes; ++i)
       if (unite(&rows[dim * i], united))
         {
@@ -44,7 +45,7 @@ namespace mortise
             continue;
           for (unsigned int c = 0; c < dim; ++c)
             row_of[dim * i + c] = begin.size() - 1;
-          add_row(united);
+          add_row({united.data(), united.data() + united.size()});
         }
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int i = 0; i < B.moved.n_nodes; ++i)
@@ -57,26 +58,27 @@ namespace mortise
   }
 
   bool
-  NodeTranspose::unite(const Row *rows, Row &united) const
+  NodeTranspose::unite(const Row *rows, std::vector<Entry> &united) const
   {
     united.clear();
-    std::array<std::size_t, dim> at = {};
+    std::array<const Entry *, dim> at;
+    for (unsigned int c = 0; c < dim; ++c)
+      at[c] = rows[c].first;
     for (;;)
       {
         int node = -1;
         for (unsigned int c = 0; c < dim; ++c)
-          if (at[c] < rows[c].size() &&
-              (node < 0 || rows[c][at[c]].first < node))
-            node = rows[c][at[c]].first;
+          if (at[c] != rows[c].last && (node < 0 || at[c]->first < node))
+            node = at[c]->first;
         if (node < 0)
           return true;
         bool is_new = true;
         for (unsigned int c = 0; c < dim; ++c)
-          if (at[c] < rows[c].size() && rows[c][at[c]].first == node)
+          if (at[c] != rows[c].last && at[c]->first == node)
             {
               if (is_new)
-                united.push_back(rows[c][at[c]]);
-              else if (rows[c][at[c]].second != united.back().second)
+                united.push_back(*at[c]);
+              else if (at[c]->second != united.back().second)
                 return false;
               is_new = false;
               ++at[c];
@@ -89,10 +91,10 @@ namespace mortise
   void
   NodeTranspose::add_row(const Row &row)
   {
-    for (const auto &[node, value] : row)
+    for (const Entry *entry = row.first; entry != row.last; ++entry)
       {
-        nodes.push_back(node);
-        values.push_back(value);
+        nodes.push_back(entry->first);
+        values.push_back(entry->second);
       }
     begin.push_back(nodes.size());
     const unsigned int r = begin.size() - 2;

@@ -15,16 +15,16 @@ namespace mortise
 
   template <typename Number, typename Work>
   bool
-  SparseCholesky<Number, Work>::initialize(NodeRows       rows,
-                                           const MPI_Comm communicator)
+  SparseCholesky<Number, Work>::initialize(const NodeRows &rows,
+                                           const MPI_Comm  communicator)
   {
     comm = communicator;
     MPI_Comm_rank(comm, &rank);
     MPI_Comm_size(comm, &n_ranks);
     n_components = rows.n_components;
-    entries      = std::move(rows.entries);
+    entries      = rows.entries;
     counts = Utilities::MPI::all_gather(comm, static_cast<int>(entries.size()));
-    const GatheredRows all(std::move(rows), comm);
+    const GatheredRows all(rows, comm);
     starts.assign(n_ranks + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
     if (std::find(all.scale.begin(), all.scale.end(), 0.) != all.scale.end())

@@ -54,15 +54,14 @@ namespace mortise
     x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
       {
-        factorization = std::make_unique<CholeskyInverse<float>>();
-        const bool valid =
-          factorization->initialize([this] { return rows_as_nodes(*coarse); },
-                                    [this](Epetra_Vector       &y,
-                                           const Epetra_Vector &x) {
-                                      coarse->Multiply(false, x, y);
-                                    },
-                                    *map,
-                                    allow_single);
+        factorization    = std::make_unique<CholeskyInverse<float>>();
+        const bool valid = factorization->initialize(
+          rows_as_nodes(*coarse),
+          [this](Epetra_Vector &y, const Epetra_Vector &x) {
+            coarse->Multiply(false, x, y);
+          },
+          *map,
+          allow_single);
         coarse.reset();
         return valid;
       }

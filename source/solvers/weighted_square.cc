@@ -1,7 +1,5 @@
 // See weighted_square.h.
-#include <Epetra_Import.h>
 #include <Teuchos_BLAS.hpp>
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/node_transpose.h>
 #include <mortise/solvers/weighted_square.h>
 
@@ -275,36 +273,17 @@ namespace mortise
       const Teuchos::BLAS<int, double> blas;
       std::vector<double>              product;
     };
-
-    /// T B^T with a row for each column of B.
-    std::unique_ptr<Epetra_CrsMatrix>
-    scaled_transpose(const Epetra_CrsMatrix    &B,
-                     const LevelVector<double> &weights)
-    {
-      const Epetra_Map &owned  = B.DomainMap();
-      auto              scaled = transpose(B, owned);
-      Epetra_Vector     scale(owned);
-      for (int i = 0; i < scale.MyLength(); ++i)
-        scale[i] = weights.local_element(i);
-      scaled->LeftScale(scale);
-      if (B.Comm().NumProc() == 1)
-        return scaled;
-      auto on_columns = std::make_unique<Epetra_CrsMatrix>(Copy, B.ColMap(), 0);
-      on_columns->Import(*scaled, Epetra_Import(B.ColMap(), owned), Insert);
-      on_columns->FillComplete(B.RangeMap(), owned);
-      return on_columns;
-    }
   } // namespace
 
   NodeRows
   weighted_square(const CouplingRows        &coupling,
                   const LevelVector<double> &weights)
   {
-    const auto          transposed = scaled_transpose(coupling.matrix, weights);
-    const NodeNumbers   numbers    = number_nodes(coupling.entities,
+    TransposedRows      transposed(coupling, weights);
+    const NodeNumbers   numbers = number_nodes(coupling.entities,
                                              coupling.matrix.RowMap(),
-                                             transposed->ColMap());
-    const NodeTranspose by_node(*transposed, coupling, numbers);
+                                             transposed.multipliers);
+    const NodeTranspose by_node(std::move(transposed), coupling, numbers);
     return Square(coupling, by_node, numbers).result;
   }
 } // namespace mortise

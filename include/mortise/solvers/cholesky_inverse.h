@@ -20,15 +20,14 @@ namespace mortise
     using Product =
       std::function<void(Epetra_Vector &y, const Epetra_Vector &x)>;
 
-    /// @p rows: those of the matrix, called once for each precision tried. @p
-    /// product: with it, in double precision. @p map: of vectors with the
+    /// @p rows: those of the matrix. @p product: with it, in double precision. @p map: of vectors with the
     /// entries of the rows. False, on every rank, when the matrix is not
     /// positive definite. Collective.
     bool
-    initialize(const std::function<NodeRows()> &rows,
-               const Product                   &product,
-               const Epetra_Map                &map,
-               bool                             allow_single);
+    initialize(const NodeRows   &rows,
+               const Product    &product,
+               const Epetra_Map &map,
+               bool              allow_single);
 
     /// x = matrix^{-1} b, to four digits at least in the norm of the matrix.
     /// Collective.

@@ -4,6 +4,8 @@
 // METIS.
 #pragma once
 
+#include <deal.II/base/array_view.h>
+
 #include <vector>
 
 namespace mortise
@@ -12,8 +14,8 @@ namespace mortise
   /// included.
   struct MatrixGraph
   {
-    std::vector<unsigned int> begin;
-    std::vector<int>          columns;
+    std::vector<unsigned int>    begin;
+    dealii::ArrayView<const int> columns;
 
     unsigned int
     size() const

@@ -12,8 +12,9 @@ namespace mortise
 {
   struct GatheredRows : MatrixGraph
   {
-    /// Collective.
-    GatheredRows(NodeRows rows, MPI_Comm comm);
+    /// @p rows must stay alive: a rank alone refers to them. Collective.
+    GatheredRows(const NodeRows &rows, MPI_Comm comm);
+    GatheredRows(const GatheredRows &) = delete;
 
     /// Values of the columns of node @p i.
     const double *
@@ -25,12 +26,15 @@ namespace mortise
                 std::size_t(component) * (begin[i + 1] - begin[i]));
     }
 
-    unsigned int              n_components;
-    std::vector<unsigned int> variants; ///< as in NodeRows
-    std::vector<std::size_t>  begin_values;
-    std::vector<double>       values;
+    unsigned int                          n_components;
+    dealii::ArrayView<const unsigned int> variants; ///< as in NodeRows
+    std::vector<std::size_t>              begin_values;
+    dealii::ArrayView<const double>       values;
     /// To diagonals of at most one, by node: its components share it, as they
     /// share rows in which it is a column. 0: not possible.
     std::vector<double> scale;
+
+  private:
+    NodeRows gathered; ///< where there are several ranks
   };
 } // namespace mortise

@@ -34,11 +34,11 @@ namespace mortise
   /// Owned nodes, by their number on this rank, and others behind them.
   struct NodeNumbers
   {
-    std::vector<int> of_column; ///< of T B^T
+    std::vector<int> of_column; ///< by column given
     std::vector<int> global;
   };
 
-  /// @p rows: of B. @p columns: of T B^T, multipliers of other ranks among them.
+  /// @p rows: of B. @p columns: multipliers, those of other ranks among them.
   /// Collective.
   NodeNumbers
   number_nodes(const std::vector<EntityNodes> &entities,

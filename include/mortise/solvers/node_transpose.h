@@ -2,8 +2,7 @@
 // the same entries. It never multiplies.
 #pragma once
 
-#include <Epetra_CrsMatrix.h>
-#include <mortise/solvers/coupling_rows.h>
+#include <mortise/solvers/transposed_rows.h>
 
 #include <vector>
 
@@ -11,11 +10,10 @@ namespace mortise
 {
   struct NodeTranspose
   {
-    /// @p matrix: T B^T with a row for each column of B. @p numbers: nodes of
-    /// multipliers by its columns.
-    NodeTranspose(const Epetra_CrsMatrix &matrix,
-                  const CouplingRows     &B,
-                  const NodeNumbers      &numbers);
+    /// @p rows: T B^T. @p numbers: nodes by its multipliers.
+    NodeTranspose(TransposedRows      rows,
+                  const CouplingRows &B,
+                  const NodeNumbers  &numbers);
 
     /// By moved node: has it one row for all components, which holds for those
     /// multipliers that has_multiplier() knows, or none, since T is zero there?
@@ -40,11 +38,16 @@ namespace mortise
     }
 
   private:
-    using Row = std::vector<std::pair<int, double>>; ///< nodes, values
+    using Entry = TransposedRows::Entry; ///< node, value
+
+    struct Row
+    {
+      const Entry *first = nullptr, *last = nullptr;
+    };
 
     /// The row of all components of a node, if they share one.
     bool
-    unite(const Row *rows, Row &united) const;
+    unite(const Row *rows, std::vector<Entry> &united) const;
     bool
     same_nodes(unsigned int r, unsigned int s) const;
     void

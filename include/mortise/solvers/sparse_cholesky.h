@@ -25,7 +25,7 @@ namespace mortise
     /// have the same. False, on every rank, when it is not positive definite.
     /// Collective.
     bool
-    initialize(NodeRows rows, MPI_Comm comm);
+    initialize(const NodeRows &rows, MPI_Comm comm);
 
     /// x = matrix^{-1} b, both with the entries of NodeRows. Collective.
     void

@@ -1,0 +1,105 @@
+// Sums of dense blocks in a sparse matrix, each row and column of a block a
+// combination of global ones. It never integrates.
+#pragma once
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <mortise/base/types.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace mortise
+{
+  /// Local functions in global ones: function i is sum_e weight[e] index[e],
+  /// begin[offset + i] <= e < begin[offset + i + 1].
+  struct Expansion
+  {
+    const std::vector<unsigned int>                    &begin;
+    const std::vector<dealii::types::global_dof_index> &index;
+    const std::vector<double>                          &weight;
+    unsigned int                                        offset;
+  };
+
+  /// Entries sum_ij (row expansion of i) block_ij (column expansion of j).
+  /// First the places of all blocks are recorded, then their entries added.
+  class RowAssembler
+  {
+  public:
+    /// Owned ranges, contiguous and rank by rank.
+    RowAssembler(const dealii::IndexSet &rows, const dealii::IndexSet &columns);
+
+    void
+    record(const Expansion &row,
+           unsigned int     n_rows,
+           const Expansion &column,
+           unsigned int     n_columns);
+
+    /// Behind the last record(), in front of the first add().
+    void
+    allocate();
+
+    /// Adds factor times @p block or its transpose.
+    void
+    add(const Expansion                  &row,
+        const Expansion                  &column,
+        const dealii::FullMatrix<double> &block,
+        double                            factor,
+        bool                              transposed);
+
+    /// Collective.
+    void
+    create(SparseMatrix &matrix, MPI_Comm comm);
+
+  private:
+    using Index   = dealii::types::global_dof_index;
+    using Entries = std::vector<std::pair<Index, double>>; ///< by key
+
+    /// Where a column stands among others: owned ones in front, as in the
+    /// matrix.
+    Index
+    key(const Index column) const
+    {
+      return columns.is_element(column) ? column : column + columns.size();
+    }
+    Index
+    column_of(const Index key) const
+    {
+      return key % columns.size();
+    }
+    int
+    find(Index row) const;
+    unsigned int
+    find_or_insert(Index row);
+    /// Where @p keys stand in @p pattern: mostly where those of another
+    /// component of the same block did, in an earlier call with this @p guess.
+    const std::vector<unsigned int> &
+    find_places(const std::vector<Index> &keys,
+                const std::vector<Index> &pattern,
+                unsigned int              guess);
+    /// To owned rows, what other ranks have for them. Collective.
+    void
+    add_from_others(MPI_Comm comm);
+    /// An owned row becomes the sum of @p entries.
+    void
+    replace(Index row, Entries &entries);
+    /// The columns that the matrix has on this rank.
+    std::vector<Index>
+    used_keys() const;
+
+    const dealii::IndexSet &rows, &columns;
+    std::vector<int>        number_of_owned; ///< by owned row; -1: not recorded
+    std::map<Index, unsigned int>   number_of_other;
+    std::vector<std::vector<Index>> sets; ///< keys of one record()
+    /// By recorded row: its sets, until allocate().
+    std::vector<std::vector<unsigned int>> sets_of;
+    std::vector<std::vector<Index>>        patterns;   ///< keys, ascending
+    std::vector<unsigned int>              pattern_of; ///< by recorded row
+    std::vector<std::size_t>               begin;      ///< of values, likewise
+    std::vector<double>                    values;
+    std::vector<std::vector<unsigned int>> guesses; ///< see find_places()
+  };
+} // namespace mortise
