@@ -4,10 +4,10 @@
 Over degree and mesh, ranks, contrast of moduli, ratio of sizes, Poisson's ratio, refinement, and
 tetrahedra. Writes doc/iterations.md. TABLE: words of the titles of those to measure; the others are
 kept as the page has them."""
+import argparse
 import json
 import os
 import subprocess
-import sys
 import tempfile
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -118,13 +118,20 @@ def report(mortise):
 
 
 def main():
-    if words := sys.argv[2:]:
+    parser = argparse.ArgumentParser(description=__doc__.partition(":")[0])
+    parser.add_argument("mortise", help="the program")
+    parser.add_argument("tables", nargs="*", metavar="table", help="words of the titles of those to measure, all unless said")
+    arguments = parser.parse_args()
+    if arguments.tables:
         blocks = open(PAGE).read().strip().split("\n\n")[2:]  # behind the head
-        kept.update((title, rows) for title, rows in zip(blocks[::2], blocks[1::2]) if not any(word in title for word in words))
-    with open(PAGE, "w") as out:
-        for line in report(os.path.abspath(sys.argv[1])):
-            print(line, file=out, flush=True)
-            print(line)
+        kept.update((title, rows) for title, rows in zip(blocks[::2], blocks[1::2])
+                    if not any(word in title for word in arguments.tables))
+    lines = []
+    for line in report(os.path.abspath(arguments.mortise)):
+        print(line, flush=True)
+        lines.append(line)
+    with open(PAGE, "w") as page:
+        print(*lines, sep="\n", file=page)
 
 
 if __name__ == "__main__":
