@@ -153,6 +153,9 @@ namespace mortise
         {
           V G[dim][dim], h[dim][dim], s[dim][dim];
           metric_at<affine>(metric, q, G);
+          if constexpr (!affine)
+            for (int k = 0; k < n9; ++k)
+              __builtin_prefetch(metric + (q + N) * n9 + k, 0, 2);
           gradient_at(g + q, N, G, h);
           stress_of(h, lambda, mu, s);
           set_stress(s, G, N, g + q);
