@@ -253,6 +253,8 @@ namespace mortise
             for (unsigned int a = 0; a < dim; ++a)
               for (unsigned int e = 0; e < dim; ++e)
                 G[a][e] = metric[q * n9 + dim * a + e];
+          if (!is_affine)
+            fetch_metric(metric + (q + n_points) * n9);
           gradient_at(g + q, n_points, G, h);
           stress_of(h, lambda, mu, s);
           set_stress(s, G, n_points, g + q);

@@ -129,11 +129,13 @@ namespace mortise
     }
 
     /// The metric at point @p q, weights included: sqrt(w |J|) dxi_a/dx_e as
-    /// G[a][e].
+    /// G[a][e]. That of the next batch is fetched.
     template <bool affine>
     void
     metric_at(const V *metric, const int q, V (&G)[dim][dim]) const
     {
+      if constexpr (!affine)
+        fetch_metric(metric + (q + N) * n9);
       for (unsigned int a = 0; a < dim; ++a)
         for (unsigned int e = 0; e < dim; ++e)
           G[a][e] = affine ? metric[dim * a + e] * root_weights[q] :
@@ -153,9 +155,6 @@ namespace mortise
         {
           V G[dim][dim], h[dim][dim], s[dim][dim];
           metric_at<affine>(metric, q, G);
-          if constexpr (!affine)
-            for (int k = 0; k < n9; ++k)
-              __builtin_prefetch(metric + (q + N) * n9 + k, 0, 2);
           gradient_at(g + q, N, G, h);
           stress_of(h, lambda, mu, s);
           set_stress(s, G, N, g + q);
