@@ -3,6 +3,7 @@
 #include <mortise/mortar/row_assembler.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mortise
 {
@@ -113,6 +114,39 @@ namespace mortise
         }
     }
 
+    bool
+    has_columns(const FaceTrace &trace, const unsigned int c)
+    {
+      const Expansion dofs = component(trace, c);
+      return dofs.begin[dofs.offset + trace.n_functions()] >
+             dofs.begin[dofs.offset];
+    }
+
+    /// Faces belong to one boundary each.
+    bool
+    have_same_slave(const Coupling &a, const Coupling &b)
+    {
+      const BodySurface &first  = a.interface->slave(),
+                        &second = b.interface->slave();
+      return !first.faces.empty() &&
+             first.faces.size() == second.faces.size() &&
+             first.cells[0] == second.cells[0] &&
+             first.face_numbers[0] == second.face_numbers[0];
+    }
+
+    /// Does interface @p a have more of slave face @p s than @p b? Of halves, the first by name
+    /// counts as more.
+    bool
+    goes_in_front(const Coupling &a, const Coupling &b, const unsigned int s)
+    {
+      constexpr double rounding = 1e-6;
+      const double     difference =
+        a.interface->coverage()[s] - b.interface->coverage()[s];
+      return std::fabs(difference) > rounding ?
+               difference > 0. :
+               a.interface->name() < b.interface->name();
+    }
+
     /// Calls visit(slave trace, rows, local) for each slave face with a
     /// partner.
     template <typename Visit>
@@ -126,27 +160,33 @@ namespace mortise
     }
   } // namespace
 
-  std::vector<PartnerState>
-  partner_states(const Coupling &coupling)
+  std::vector<std::vector<PartnerState>>
+  partner_states(const std::vector<Coupling> &couplings)
   {
-    std::vector<PartnerState> states;
-    for (unsigned int s = 0; s < coupling.local.size(); ++s)
+    std::vector<std::vector<PartnerState>> all;
+    for (const Coupling &coupling : couplings)
       {
-        PartnerState state;
-        state.coverage = coupling.interface->coverage()[s];
-        for (const auto &partner : coupling.local[s].partners)
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              const FaceTrace &master =
-                coupling.interface->master_traces()[partner.master];
-              const Expansion dofs = component(master, c);
-              if (dofs.begin[dofs.offset + master.n_functions()] >
-                  dofs.begin[dofs.offset])
-                state.can_follow[c] = true;
-            }
-        states.push_back(state);
+        std::vector<const Coupling *> sharing;
+        for (const Coupling &other : couplings)
+          if (&other != &coupling && have_same_slave(coupling, other))
+            sharing.push_back(&other);
+        all.emplace_back();
+        for (unsigned int s = 0; s < coupling.local.size(); ++s)
+          {
+            const double covered = coupling.interface->coverage()[s];
+            PartnerState state   = {cover_of(covered, true), {}};
+            for (const Coupling *other : sharing)
+              if (goes_in_front(*other, coupling, s))
+                state.cover = cover_of(covered, false);
+            for (const auto &partner : coupling.local[s].partners)
+              for (unsigned int c = 0; c < dim; ++c)
+                if (has_columns(
+                      coupling.interface->master_traces()[partner.master], c))
+                  state.can_follow[c] = true;
+            all.back().push_back(state);
+          }
       }
-    return states;
+    return all;
   }
 
   void

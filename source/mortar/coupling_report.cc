@@ -26,7 +26,7 @@ namespace mortise
       return sum;
     }
 
-    /// Calls visit(slave face, function, component, entry, local coupling).
+    /// Calls visit(slave face, function, component, multiplier, its weight).
     template <typename Visit>
     void
     for_each_entry(const Coupling &coupling, const Visit &visit)
@@ -41,7 +41,7 @@ namespace mortise
                 for (unsigned int e = rows.begin[c * n + i];
                      e < rows.begin[c * n + i + 1];
                      ++e)
-                  visit(s, i, rows.index[e], rows.weight[e]);
+                  visit(s, i, c, rows.index[e], rows.weight[e]);
           }
     }
 
@@ -61,7 +61,75 @@ namespace mortise
           coupling.interface->master_traces()[partner.master].basis());
       return sum;
     }
+    /// Of int |N_i|: the root of the area times that of int N_i^2.
+    double
+    weight_bound(const Coupling    &coupling,
+                 const unsigned int s,
+                 const unsigned int i)
+    {
+      return std::sqrt(coupling.local[s].mass(i, i)) *
+             coupling.interface->slave().faces[s].size;
+    }
+
+    /// Entries by multiplier, those that the faces of this rank touch included.
+    std::vector<LinearAlgebra::distributed::Vector<double>>
+    make_sums(const unsigned int n,
+              const Coupling    &coupling,
+              const IndexSet    &owned_multiplier,
+              const MPI_Comm     comm)
+    {
+      IndexSet ghosts = owned_multiplier;
+      for (const auto &rows : coupling.multipliers->rows())
+        ghosts.add_indices(rows.index.begin(), rows.index.end());
+      std::vector<LinearAlgebra::distributed::Vector<double>> sums(n);
+      for (auto &sum : sums)
+        sum.reinit(owned_multiplier, ghosts, comm);
+      return sums;
+    }
   } // namespace
+
+  std::vector<MultiplierMoment>
+  multiplier_moments(const Coupling &coupling,
+                     const IndexSet &owned_multiplier,
+                     const MPI_Comm  comm)
+  {
+    if (owned_multiplier.size() == 0)
+      return {};
+    // by component: the bound, the weight, the moment
+    constexpr unsigned int n_sums = 2 + dim;
+    auto sums = make_sums(dim * n_sums, coupling, owned_multiplier, comm);
+    for_each_entry(
+      coupling,
+      [&](const unsigned int s,
+          const unsigned int i,
+          const unsigned int c,
+          const auto         index,
+          const double       w) {
+        const LocalCoupling &local = coupling.local[s];
+        auto *const          sum   = &sums[c * n_sums];
+        sum[0](index) += std::fabs(w) * weight_bound(coupling, s, i);
+        sum[1](index) +=
+          w * on_constants(local.mass,
+                           i,
+                           coupling.interface->slave().traces[s].basis());
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[2 + d](index) += w * local.position_moment[i][d];
+      });
+    for (auto &sum : sums)
+      sum.compress(VectorOperation::add);
+
+    std::vector<MultiplierMoment> result;
+    for (unsigned int k = 0; k < owned_multiplier.n_elements(); ++k)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (const auto  *sum   = &sums[c * n_sums];
+            const double bound = sum[0].local_element(k))
+          {
+            result.push_back({c, sum[1].local_element(k) / bound, {}});
+            for (unsigned int d = 0; d < dim; ++d)
+              result.back().moment[d] = sum[2 + d].local_element(k) / bound;
+          }
+    return result;
+  }
 
   TransferErrors
   transfer_errors(const Coupling &coupling,
@@ -81,19 +149,15 @@ namespace mortise
       scale,
       n_sums
     };
-    IndexSet ghosts = owned_multiplier;
-    for (const auto &rows : coupling.multipliers->rows())
-      ghosts.add_indices(rows.index.begin(), rows.index.end());
-    std::vector<LinearAlgebra::distributed::Vector<double>> sums(n_sums);
-    for (auto &sum : sums)
-      sum.reinit(owned_multiplier, ghosts, comm);
+    auto sums = make_sums(n_sums, coupling, owned_multiplier, comm);
 
     for_each_entry(
       coupling,
       [&](const unsigned int s,
           const unsigned int i,
-          const auto         index,
-          const double       w) {
+          const unsigned int,
+          const auto   index,
+          const double w) {
         const LocalCoupling &local = coupling.local[s];
         const double         row =
           on_constants(local.mass,
@@ -103,12 +167,8 @@ namespace mortise
         sums[weight](index) += w * row;
         for (unsigned int c = 0; c < dim; ++c)
           sums[gap_x + c](index) += w * local.gap_moment[i][c];
-        // int |lambda_i| is at most the root of the area times that of int
-        // lambda_i^2
-        const double area = std::sqrt(local.mass(i, i)) *
-                            coupling.interface->slave().faces[s].size;
-        sums[scale](index) +=
-          std::fabs(w) * area * coupling.interface->slave().faces[s].size;
+        sums[scale](index) += std::fabs(w) * weight_bound(coupling, s, i) *
+                              coupling.interface->slave().faces[s].size;
       });
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);

@@ -104,7 +104,7 @@ namespace mortise
   integrate_coupling(InterfaceHandler &interface, const bool with_master_mass)
   {
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
-    FullMatrix<double> slave_values, master_values, weighted, gap, moment;
+    FullMatrix<double> slave_values, master_values, weighted, places, moment;
 
     interface.visit_pairs([&](const unsigned int       s,
                               const unsigned int       m,
@@ -122,6 +122,7 @@ namespace mortise
         {
           local.mass.reinit(n_slave, n_slave);
           local.gap_moment.resize(n_slave);
+          local.position_moment.resize(n_slave);
           local.penalty = pair_penalty;
         }
       local.penalty = std::min(local.penalty, pair_penalty);
@@ -129,7 +130,7 @@ namespace mortise
       partner.mixed.reinit(n_slave, master.n_functions());
       if (with_master_mass)
         partner.mass.reinit(master.n_functions(), master.n_functions());
-      moment.reinit(n_slave, dim);
+      moment.reinit(n_slave, 2 * dim);
       for (unsigned int first = 0; first < points.size(); first += max_points)
         {
           const unsigned int n =
@@ -139,12 +140,15 @@ namespace mortise
           scale_rows(slave_values, &points.weight[first], weighted);
           weighted.Tmmult(local.mass, slave_values, true);
           weighted.Tmmult(partner.mixed, master_values, true);
-          gap.reinit(n, dim, true);
+          places.reinit(n, 2 * dim, true);
           for (unsigned int q = 0; q < n; ++q)
             for (unsigned int c = 0; c < dim; ++c)
-              gap(q, c) =
-                points.master_x[c][first + q] - points.slave_x[c][first + q];
-          weighted.Tmmult(moment, gap, true);
+              {
+                places(q, c) =
+                  points.master_x[c][first + q] - points.slave_x[c][first + q];
+                places(q, dim + c) = points.slave_x[c][first + q];
+              }
+          weighted.Tmmult(moment, places, true);
           if (with_master_mass)
             {
               scale_rows(master_values, &points.weight[first], weighted);
@@ -153,7 +157,10 @@ namespace mortise
         }
       for (unsigned int i = 0; i < n_slave; ++i)
         for (unsigned int c = 0; c < dim; ++c)
-          local.gap_moment[i][c] += moment(i, c);
+          {
+            local.gap_moment[i][c] += moment(i, c);
+            local.position_moment[i][c] += moment(i, dim + c);
+          }
       local.partners.push_back(std::move(partner));
     });
     return couplings;

@@ -16,8 +16,9 @@ namespace mortise
 
   namespace
   {
-    constexpr double none_below = 0.1;
-    constexpr double full_above = 0.9;
+    constexpr double nothing_below = 1e-6;
+    constexpr double sliver_below  = 0.1;
+    constexpr double full_above    = 0.9;
 
     /// What only the owner of a cell knows for sure, by face: 12 bits of rims,
     /// 2 of coverage, 3 of what the partners can follow.
@@ -81,14 +82,10 @@ namespace mortise
             if (rim)
               bits |= 1u << rim_bit(c, e);
           }
-      const auto status =
-        partner.coverage < none_below      ? MultiplierFace::Status::none :
-        is_fully_covered(partner.coverage) ? MultiplierFace::Status::full :
-                                             MultiplierFace::Status::partial;
       for (unsigned int c = 0; c < dim; ++c)
         if (partner.can_follow[c])
           bits |= 1u << (14 + c);
-      return bits | (static_cast<std::uint32_t>(status) << 12);
+      return bits | (static_cast<std::uint32_t>(partner.cover) << 12);
     }
 
     MultiplierFace
@@ -124,7 +121,7 @@ namespace mortise
                const BlockedDofs  &blocked,
                MultiplierFace     &face)
     {
-      face.status = static_cast<MultiplierFace::Status>((bits >> 12) & 3u);
+      face.cover = static_cast<Cover>((bits >> 12) & 3u);
       for (unsigned int c = 0; c < dim; ++c)
         {
           face.can_follow[c] = bits & (1u << (14 + c));
@@ -140,10 +137,13 @@ namespace mortise
     }
   } // namespace
 
-  bool
-  is_fully_covered(const double coverage)
+  Cover
+  cover_of(const double covered, const bool most)
   {
-    return coverage >= full_above;
+    return covered < nothing_below         ? Cover::none :
+           covered < sliver_below || !most ? Cover::sliver :
+           covered < full_above            ? Cover::partial :
+                                             Cover::full;
   }
 
   std::vector<MultiplierFace>

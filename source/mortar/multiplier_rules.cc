@@ -31,7 +31,7 @@ namespace mortise
           {
             const TraceBasis::Function &f      = basis.functions[k];
             MultiplierRecord           &record = records[dofs[k]];
-            record.on_full_face |= face.status == MultiplierFace::Status::full;
+            record.on_full_face |= face.cover == Cover::full;
             record.can_follow |= can_follow;
             if (f.dimension == 0)
               vertex(f.entity, record);
@@ -106,6 +106,7 @@ namespace mortise
       vertex(const unsigned int v, MultiplierRecord &record)
       {
         record.vertex = true;
+        record.blocked |= blocked[v];
         for (unsigned int e = 0; e < basis.n_edges(); ++e)
           {
             const auto ends = basis.edge_vertices(e);
@@ -189,6 +190,35 @@ namespace mortise
       const unsigned int                          n_rims;
     };
   } // namespace
+
+  void
+  make_up_for_blocked_vertices(const MultiplierFace &face,
+                               const unsigned int    c,
+                               MultiplierRecords    &records)
+  {
+    const TraceBasis &basis   = *face.basis;
+    const auto       &dofs    = face.dofs[c];
+    const auto        is_last = [&](const TraceBasis::Function &f) {
+      return f.dimension == 2 && f.modes[0] == face.face_degree &&
+             f.modes[1] == face.face_degree;
+    };
+    for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+      {
+        MultiplierRecord &vertex = records[dofs[basis.vertex_function(v)]];
+        if (!vertex.is_alone())
+          continue;
+        vertex.made_up |= face.face_degree > 1;
+        for (unsigned int k = 0; k < basis.size(); ++k)
+          if (is_last(basis.functions[k]))
+            records[dofs[k]].kept = false;
+        for (unsigned int e = 0; e < basis.n_edges(); ++e)
+          if (const auto ends = basis.edge_vertices(e);
+              ends[0] == v || ends[1] == v)
+            if (const auto other = ends[0] == v ? ends[1] : ends[0];
+                !face.blocked_vertex[c][other])
+              vertex.neighbours.insert(dofs[basis.vertex_function(other)]);
+      }
+  }
 
   void
   apply_multiplier_rules(const MultiplierFace &face,

@@ -6,6 +6,7 @@
 #include <mortise/mortar/stranded_vertices.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -45,10 +46,21 @@ namespace mortise
         reduction.add_entry(dof, other, 1. / of.size());
     }
 
-    /// Owned dofs of vertices that are stranded but for others beside them on
-    /// the rim, with those.
-    std::map<types::global_dof_index, MultiplierRecord::Dofs>
-    find_rescued(const Body &body, const MultiplierRecords &records)
+    using DofSets = std::map<types::global_dof_index, MultiplierRecord::Dofs>;
+
+    bool
+    is_sliver(const MultiplierFace &face)
+    {
+      return face.cover == Cover::sliver;
+    }
+
+    /// Owned dofs of vertices that take the mean of others: those that are
+    /// stranded but for others beside them on the rim, and those that are on
+    /// slivers only.
+    DofSets
+    find_followers(const Body                        &body,
+                   const std::vector<MultiplierFace> &faces,
+                   const MultiplierRecords           &records)
     {
       // the owner of a dof knows all faces around it
       const IndexSet &owned = body.dof_handler.locally_owned_dofs();
@@ -59,13 +71,49 @@ namespace mortise
           settled(dof) = 1.;
       settled.update_ghost_values();
 
-      std::map<types::global_dof_index, MultiplierRecord::Dofs> rescued;
+      DofSets followers;
       for (const auto &[dof, record] : records)
         if (owned.is_element(dof) && record.is_stranded())
           for (const auto other : record.beside)
             if (settled(other) > 0.5)
-              rescued[dof].insert(other);
-      return rescued;
+              followers[dof].insert(other);
+      for (const MultiplierFace &face : faces)
+        for (unsigned int c = 0; c < dim && is_sliver(face); ++c)
+          for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
+            if (const auto dof = face.dofs[c][face.basis->vertex_function(v)];
+                owned.is_element(dof) && records.count(dof) == 0)
+              for (unsigned int w = 0; w < face.basis->n_vertices(); ++w)
+                if (const auto other =
+                      face.dofs[c][face.basis->vertex_function(w)];
+                    settled(other) > 0.5)
+                  followers[dof].insert(other);
+      return followers;
+    }
+
+    /// By dof of the vertices that no other gives a value, those of slivers
+    /// among them: whether the other side can follow a multiplier there.
+    std::map<types::global_dof_index, bool>
+    find_stranded(const Body                        &body,
+                  const std::vector<MultiplierFace> &faces,
+                  const MultiplierRecords           &records,
+                  const DofSets                     &followers)
+    {
+      std::map<types::global_dof_index, bool> stranded;
+      const auto add = [&](const types::global_dof_index dof,
+                           const bool                    can_follow) {
+        if (!body.conformity.is_constrained(dof) && followers.count(dof) == 0)
+          stranded.emplace(dof, false).first->second |= can_follow;
+      };
+      for (const auto &[dof, record] : records)
+        if (record.is_stranded())
+          add(dof, record.can_follow);
+      for (const MultiplierFace &face : faces)
+        for (unsigned int c = 0; c < dim && is_sliver(face); ++c)
+          for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
+            if (const auto dof = face.dofs[c][face.basis->vertex_function(v)];
+                records.count(dof) == 0)
+              add(dof, face.can_follow[c]);
+      return stranded;
     }
 
     /// The line of one dof without conformity constraints; none if it is a
@@ -73,7 +121,6 @@ namespace mortise
     void
     add_reduction(const types::global_dof_index dof,
                   const MultiplierRecords      &records,
-                  const StrandedVertices       &stranded,
                   AffineConstraints<double>    &reduction)
     {
       const auto found = records.find(dof);
@@ -84,15 +131,6 @@ namespace mortise
           return;
         }
       const MultiplierRecord &record = found->second;
-      if (record.is_stranded())
-        {
-          const auto constant = stranded.representative(dof);
-          if (!constant)
-            reduction.add_line(dof);
-          else if (*constant != dof)
-            add_mean(dof, {*constant}, reduction);
-          return;
-        }
       if (record.vertex && record.on_rim && !record.across_kept)
         {
           if (!record.neighbours.empty())
@@ -100,6 +138,8 @@ namespace mortise
           if (record.merged.empty())
             return add_mean(dof, record.diagonal, reduction);
         }
+      if (record.is_alone() && !record.made_up && !record.neighbours.empty())
+        return add_mean(dof, record.neighbours, reduction);
       const auto same = representative(dof, records);
       if (same != dof)
         add_mean(dof, {same}, reduction);
@@ -122,16 +162,18 @@ namespace mortise
       for (unsigned int c = 0; c < dim; ++c)
         {
           on_surface.insert(face.dofs[c].begin(), face.dofs[c].end());
-          if (face.status != MultiplierFace::Status::none)
+          if (face.cover >= Cover::partial)
             apply_multiplier_rules(face, c, records);
         }
+    for (auto &[dof, record] : records)
+      record.blocked &= !body.conformity.is_constrained(dof);
+    for (const MultiplierFace &face : faces)
+      for (unsigned int c = 0; c < dim; ++c)
+        if (face.cover >= Cover::partial)
+          make_up_for_blocked_vertices(face, c, records);
 
-    std::map<types::global_dof_index, bool> may_follow;
-    const auto rescued = find_rescued(body, records);
-    for (const auto &[dof, record] : records)
-      if (record.is_stranded() && !body.conformity.is_constrained(dof) &&
-          rescued.count(dof) == 0)
-        may_follow.emplace(dof, record.can_follow);
+    const auto followers  = find_followers(body, faces, records);
+    const auto may_follow = find_stranded(body, faces, records, followers);
     const StrandedVertices stranded(body, faces, may_follow);
     IndexSet               known = body.relevant_dofs;
     stranded.add_representatives(known);
@@ -140,12 +182,21 @@ namespace mortise
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
         {
-          if (const auto found = rescued.find(dof); found != rescued.end())
+          if (const auto found = followers.find(dof); found != followers.end())
             add_mean(dof, found->second, reduction);
-          else
-            add_reduction(dof, records, stranded, reduction);
-          if (!reduction.is_constrained(dof))
-            owned_dofs.push_back(dof);
+          else if (may_follow.count(dof) == 0)
+            add_reduction(dof, records, reduction);
+          else if (const auto constant = stranded.representative(dof);
+                   !constant)
+            reduction.add_line(dof);
+          else if (*constant != dof)
+            add_mean(dof, {*constant}, reduction);
+          if (reduction.is_constrained(dof))
+            continue;
+          owned_dofs.push_back(dof);
+          const auto record = records.find(dof);
+          at_vertices.push_back(record == records.end() ||
+                                record->second.vertex);
         }
     complete_constraints(body.dof_handler, reduction);
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
@@ -170,9 +221,14 @@ namespace mortise
       body.dof_handler.locally_owned_dofs(),
       reduction.get_local_lines(),
       body.triangulation().get_communicator());
+    auto ones = numbers; // coefficients of the constant one
     for (unsigned int i = 0; i < owned_dofs.size(); ++i)
-      numbers(owned_dofs[i]) = first + i;
+      {
+        numbers(owned_dofs[i]) = first + i;
+        ones(owned_dofs[i])    = at_vertices[i] ? 1. : 0.;
+      }
     numbers.update_ghost_values();
+    ones.update_ghost_values();
 
     face_rows.clear();
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
@@ -180,20 +236,31 @@ namespace mortise
         FaceRows   rows;
         const auto dofs = face_dofs(slave.cells[s], slave.face_numbers[s]);
         rows.begin      = {0};
+        double     sum  = 0.;
         const auto add  = [&](const Index dof, const double weight) {
           rows.index.push_back(static_cast<Index>(numbers(dof)));
           rows.weight.push_back(weight);
+          sum += weight * ones(dof);
         };
+        const auto &functions = slave.traces[s].basis().functions;
         for (unsigned int c = 0; c < dim; ++c)
-          for (const auto dof : dofs[c])
-            {
-              if (!reduction.is_constrained(dof))
-                add(dof, 1.);
-              else
-                for (const auto &entry : *reduction.get_constraint_entries(dof))
-                  add(entry.first, entry.second);
-              rows.begin.push_back(rows.index.size());
-            }
+          {
+            rows.hold_constants[c] = true;
+            for (unsigned int k = 0; k < dofs[c].size(); ++k)
+              {
+                const auto dof = dofs[c][k];
+                sum            = 0.;
+                if (!reduction.is_constrained(dof))
+                  add(dof, 1.);
+                else
+                  for (const auto &entry :
+                       *reduction.get_constraint_entries(dof))
+                    add(entry.first, entry.second);
+                rows.begin.push_back(rows.index.size());
+                if (functions[k].dimension == 0)
+                  rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
+              }
+          }
         face_rows.push_back(std::move(rows));
       }
   }

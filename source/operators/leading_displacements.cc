@@ -54,7 +54,7 @@ namespace mortise
       const FaceTrace     &slave = coupling.interface->slave().traces[s];
       const BlockSide      side{slave.shape, slave.degree, slave.degree};
       FullMatrix<double>   from_moments = nodal_block(local.mass, side, side);
-      if (is_fully_covered(coupling.interface->coverage()[s]))
+      if (cover_of(coupling.interface->coverage()[s], true) == Cover::full)
         from_moments.gauss_jordan();
       else
         {
@@ -92,8 +92,11 @@ namespace mortise
                  const std::vector<Coupling> &couplings)
         : stiffness(level.layout)
         , n_faces(stiffness)
+        , n_interfaces(stiffness)
         , is_free(stiffness)
       {
+        for (const Coupling &coupling : couplings)
+          count(coupling);
         for_each_slave(couplings,
                        [&](const Coupling &, unsigned int, const FaceTrace &t) {
                          for (const auto node : t.nodes[0].nodes)
@@ -106,7 +109,8 @@ namespace mortise
         is_free = 1.;
         for (const unsigned int place : level.held)
           is_free.local_element(place) = 0.;
-        for (const auto *vector : {&stiffness, &n_faces, &is_free})
+        for (const auto *vector :
+             {&stiffness, &n_faces, &n_interfaces, &is_free})
           vector->update_ghost_values();
       }
 
@@ -123,10 +127,17 @@ namespace mortise
         return n_faces(dim * node) > 0.;
       }
 
-      /// Has each component a node that is free?
+      /// Has each component a node that is free, and does no other interface
+      /// move any?
       bool
       can_follow(const FaceNodes &face) const
       {
+        if (std::any_of(face.nodes.begin(),
+                        face.nodes.end(),
+                        [&](const auto node) {
+                          return n_interfaces(dim * node) > 1.;
+                        }))
+          return false;
         for (unsigned int c = 0; c < dim; ++c)
           if (std::none_of(face.nodes.begin(),
                            face.nodes.end(),
@@ -138,7 +149,29 @@ namespace mortise
       }
 
     private:
-      LevelVector<double> stiffness, n_faces, is_free;
+      /// The nodes that @p coupling moves.
+      void
+      count(const Coupling &coupling)
+      {
+        LevelVector<double> moved(n_interfaces);
+        moved           = 0.;
+        const auto mark = [&](const FaceTrace &trace) {
+          for (const auto node : trace.nodes[0].nodes)
+            moved(dim * node) = 1.;
+        };
+        for (unsigned int s = 0; s < coupling.local.size(); ++s)
+          for (const auto &partner : coupling.local[s].partners)
+            {
+              mark(coupling.interface->slave().traces[s]);
+              mark(coupling.interface->master_traces()[partner.master]);
+            }
+        moved.compress(VectorOperation::add);
+        for (unsigned int i = 0; i < moved.locally_owned_size(); ++i)
+          if (moved.local_element(i) > 0.)
+            n_interfaces.local_element(i) += 1.;
+      }
+
+      LevelVector<double> stiffness, n_faces, n_interfaces, is_free;
     };
   } // namespace
 
@@ -163,25 +196,30 @@ namespace mortise
       [&](const Coupling    &coupling,
           const unsigned int s,
           const FaceTrace   &slave) {
-        const auto &partners = coupling.local[s].partners;
-        const auto &masters  = coupling.interface->master_traces();
-        if (!is_led(coupling.local[s]))
+        const auto &partners  = coupling.local[s].partners;
+        const auto &masters   = coupling.interface->master_traces();
+        const bool  is_led    = mortise::is_led(coupling.local[s]),
+                   can_follow = slaves.can_follow(slave.nodes[0]);
+        if (!is_led && can_follow)
           return;
-        const bool can_follow = slaves.can_follow(slave.nodes[0]);
-        const std::vector<FullMatrix<double>> following = follow(coupling, s);
+        std::vector<FullMatrix<double>> following;
+        if (is_led)
+          following = follow(coupling, s);
         for (unsigned int k = 0; k < partners.size(); ++k)
           {
             const auto &nodes = masters[partners[k].master].nodes[0].nodes;
             for (unsigned int j = 0; j < nodes.size(); ++j)
               {
                 double sum = 0.;
-                for (unsigned int i = 0; i < slave.n_functions(); ++i)
+                for (unsigned int i = 0; is_led && i < slave.n_functions(); ++i)
                   if (const auto node = node_of(slave.nodes[0], i); node)
                     sum +=
                       slaves.share(*node) * std::pow(following[k](i, j), 2);
                 sums(dim * nodes[j]) += sum;
-                if (partners[k].leads)
-                  (can_follow ? leads : stays)(dim * nodes[j]) = 1.;
+                if (!can_follow)
+                  stays(dim * nodes[j]) = 1.;
+                else if (partners[k].leads)
+                  leads(dim * nodes[j]) = 1.;
               }
           }
       });

@@ -119,14 +119,14 @@ namespace mortise
   multiplier_error(
     const Bodies                                        &bodies,
     const std::vector<Coupling>                         &couplings,
-    const std::vector<unsigned int>                     &slave_bodies,
+    const std::vector<TiedBodies>                       &tied,
     const std::vector<std::vector<std::vector<double>>> &coefficients,
     const ExactSolution                                 &exact)
   {
     double error = 0., norm = 0., stress_norm = 0.;
     for (unsigned int n = 0; n < couplings.size(); ++n)
       {
-        const Body        &body = *bodies[slave_bodies[n]];
+        const Body        &body = *bodies[tied[n].slave];
         ByFace<FaceValues> by_face;
         const BodySurface &slave = couplings[n].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
@@ -146,13 +146,18 @@ namespace mortise
                 {
                   // lambda acts on the master: it is minus the traction on the
                   // slave
-                  const auto stress = exact.stress(face->points[q], body.index);
+                  const auto stress =
+                    exact.stress(face->points[q], tied[n].bearing);
                   const Tensor<1, dim> traction   = stress * face->normals[q];
                   Tensor<1, dim>       difference = traction;
                   for (unsigned int c = 0; c < dim; ++c)
-                    for (unsigned int k = 0; k < n_functions; ++k)
-                      difference[c] += coefficients[n][s][c * n_functions + k] *
-                                       face->value(k, q);
+                    if (couplings[n].multipliers->rows()[s].hold_constants[c])
+                      for (unsigned int k = 0; k < n_functions; ++k)
+                        difference[c] +=
+                          coefficients[n][s][c * n_functions + k] *
+                          face->value(k, q);
+                    else // nothing moves there: any traction is right
+                      difference[c] = 0.;
                   error += face->weights[q] * difference.norm_square();
                   norm += face->weights[q] * traction.norm_square();
                   stress_norm += face->weights[q] * (stress * stress);

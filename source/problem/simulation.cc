@@ -3,7 +3,6 @@
 #include <mortise/base/error.h>
 #include <mortise/body/boundary_faces.h>
 #include <mortise/problem/formulation.h>
-#include <mortise/problem/rigid_motions.h>
 #include <mortise/problem/scene_data.h>
 #include <mortise/problem/simulation.h>
 #include <mortise/solvers/solve.h>
@@ -21,6 +20,7 @@ namespace mortise
     : parameters(parameters)
     , log(log)
     , comm(comm)
+    , interfaces(parameters.interfaces)
   {
     summary.program = program_info(Utilities::MPI::n_mpi_processes(comm));
     summary.title   = parameters.title;
@@ -79,11 +79,6 @@ namespace mortise
                       "gives it a pressure of its own");
         dirichlet.push_back(make_dirichlet(parameters, *body, exact));
       }
-    std::vector<std::pair<unsigned int, unsigned int>> ties;
-    for (const InterfaceParameters &interface : parameters.interfaces)
-      ties.emplace_back(interface.slave.body, interface.master.body);
-    check_rigid_motions(bodies, dirichlet, ties);
-
     for (const auto &body : bodies)
       {
         body_constraints.emplace_back();
@@ -91,7 +86,6 @@ namespace mortise
         add_dirichlet_constraints(*body,
                                   dirichlet[body->index],
                                   body_constraints.back());
-        occupied.emplace_back(body->dof_handler.n_locally_owned_dofs(), false);
       }
     auto &numbering = displacement_field.numbering;
     numbering       = FieldNumbering(handlers, comm);
@@ -138,7 +132,7 @@ namespace mortise
       scene.push_back(body.get());
     const bool nodal = NodalSpace::represents(scene);
     method           = choose_solver(parameters.solver.method,
-                                     {displacement_field.numbering.size(),
+                           {displacement_field.numbering.size(),
                                       max_degree,
                                       nodal,
                                       system.mixed()})
@@ -156,32 +150,42 @@ namespace mortise
       }
   }
 
+  Coupling
+  Simulation::make_coupling(const InterfaceParameters &given) const
+  {
+    const auto surface = [&](const SideParameters &side) {
+      const Body &body = *bodies[side.body];
+      return extract_surface(body,
+                             body.boundary_id(side.boundary,
+                                              "Interface " + given.name),
+                             displacement_field.numbering,
+                             displacement_field.constraints,
+                             nodal_spaces);
+    };
+    InterfaceOptions options;
+    options.search_fraction      = given.search_distance;
+    options.points_per_direction = given.quadrature_points;
+    Coupling coupling;
+    coupling.interface = std::make_unique<InterfaceHandler>(
+      given.name, surface(given.slave), surface(given.master), options, comm);
+    return coupling;
+  }
+
+  void
+  Simulation::integrate(Coupling &coupling) const
+  {
+    coupling.local =
+      integrate_coupling(*coupling.interface, method != SolverMethod::direct);
+  }
+
   void
   Simulation::find_pairs()
   {
     auto          stage = log.stage(timers, "interface_search");
     std::uint64_t faces = 0;
-    for (const InterfaceParameters &given : parameters.interfaces)
+    for (const InterfaceParameters &given : interfaces)
       {
-        const auto surface = [&](const SideParameters &side) {
-          const Body &body = *bodies[side.body];
-          return extract_surface(body,
-                                 body.boundary_id(side.boundary,
-                                                  "Interface " + given.name),
-                                 displacement_field.numbering,
-                                 displacement_field.constraints,
-                                 nodal_spaces);
-        };
-        InterfaceOptions options;
-        options.search_fraction      = given.search_distance;
-        options.points_per_direction = given.quadrature_points;
-        couplings.emplace_back();
-        couplings.back().interface =
-          std::make_unique<InterfaceHandler>(given.name,
-                                             surface(given.slave),
-                                             surface(given.master),
-                                             options,
-                                             comm);
+        couplings.push_back(make_coupling(given));
         faces +=
           Utilities::MPI::sum(couplings.back().interface->slave().faces.size(),
                               comm);
@@ -197,10 +201,8 @@ namespace mortise
     std::string balance;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
-        InterfaceHandler &interface = *couplings[i].interface;
-        couplings[i].local =
-          integrate_coupling(interface, method != SolverMethod::direct);
-        const InterfaceReport &report = interface.report();
+        integrate(couplings[i]);
+        const InterfaceReport &report = couplings[i].interface->report();
         clipping += report.clipping_seconds;
         if (const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
             n_ranks > 1)
@@ -216,7 +218,7 @@ namespace mortise
                      " faces coincide with a partner";
         if (report.pairs == 0)
           {
-            const InterfaceParameters &given = parameters.interfaces[i];
+            const InterfaceParameters &given = interfaces[i];
             throw InputError(
               "Interface " + given.name + ": the surfaces " +
               bodies[given.slave.body]->name + ": " + given.slave.boundary +
@@ -227,7 +229,7 @@ namespace mortise
               " face sizes. Check positions, names and Search distance");
           }
         if (report.failed_pairs > 0)
-          log.warning("interface " + parameters.interfaces[i].name +
+          log.warning("interface " + interfaces[i].name +
                       ": the projection of " +
                       std::to_string(report.failed_pairs) +
                       " pairs of faces did not converge");
@@ -235,7 +237,7 @@ namespace mortise
           {
             std::ostringstream text;
             text
-              << "interface " << parameters.interfaces[i].name << ": only "
+              << "interface " << interfaces[i].name << ": only "
               << RunLog::number(100. * report.covered_area / report.slave_area)
               << " % of the slave surface has a partner; worst is the face at "
               << report.worst_face_centre << " ("
@@ -258,7 +260,8 @@ namespace mortise
     if (!couplings.empty())
       {
         auto stage = log.stage(timers, "coupling");
-        number_multipliers();
+        choose_multipliers();
+        check_support();
         const CouplingPartition partition{system.owned_displacement,
                                           system.owned_multiplier,
                                           comm};
@@ -279,6 +282,7 @@ namespace mortise
     else
       {
         system.owned_multiplier.set_size(0);
+        check_support();
       }
     auto               stage = log.stage(timers, "bulk");
     std::vector<Loads> loads;

@@ -1,70 +1,92 @@
 #include <deal.II/base/mpi.h>
 
-#include <mortise/body/boundary_faces.h>
+#include <mortise/base/error.h>
+#include <mortise/mortar/shared_displacements.h>
 #include <mortise/problem/simulation.h>
+
+#include <cmath>
+#include <sstream>
 
 namespace mortise
 {
   using namespace dealii;
 
   std::vector<bool>
-  Simulation::blocked_dofs(const unsigned int b) const
+  Simulation::blocked_dofs(const unsigned int       b,
+                           const std::vector<bool> &taken) const
   {
-    std::vector<bool> blocked = occupied[b];
-    unsigned int      i       = 0;
+    const auto       &numbering = displacement_field.numbering;
+    std::vector<bool> blocked;
     for (const auto dof : bodies[b]->dof_handler.locally_owned_dofs())
-      {
-        if (body_constraints[b].is_constrained(dof) &&
-            !bodies[b]->conformity.is_constrained(dof))
-          blocked[i] = true;
-        ++i;
-      }
+      blocked.push_back(
+        taken[numbering.owned().index_within_set(numbering(b, dof))] ||
+        (body_constraints[b].is_constrained(dof) &&
+         !bodies[b]->conformity.is_constrained(dof)));
     return blocked;
   }
 
   void
-  Simulation::occupy(const unsigned int i)
+  Simulation::check_constants(const unsigned int               i,
+                              const std::vector<PartnerState> &states)
   {
-    const SideParameters &slave  = parameters.interfaces[i].slave,
-                         &master = parameters.interfaces[i].master;
-    const auto mark              = [&](const unsigned int            b,
-                          const types::global_dof_index dof) {
-      const IndexSet &owned = bodies[b]->dof_handler.locally_owned_dofs();
-      if (owned.is_element(dof))
-        occupied[b][owned.index_within_set(dof)] = true;
-    };
-    for (const auto dof : couplings[i].multipliers->slave_dofs())
-      mark(slave.body, dof);
-    const Body &body = *bodies[master.body];
-    for (const auto &[cell, f] :
-         boundary_faces(body, body.boundary_id(master.boundary, "")))
-      for (const auto &component : face_dofs(cell, f))
-        for (const auto dof : component)
-          mark(master.body, dof);
+    const std::string name    = interfaces[i].name;
+    const auto       &rows    = couplings[i].multipliers->rows();
+    unsigned int      n_fixed = 0, n_covered = 0;
+    std::string       lost;
+    for (unsigned int s = 0; s < states.size(); ++s)
+      if (states[s].cover != Cover::none)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            ++n_covered;
+            if (rows[s].hold_constants[c])
+              continue;
+            ++n_fixed;
+            if (!states[s].can_follow[c] || !lost.empty())
+              continue;
+            std::ostringstream text;
+            text << "Interface " << name << ": nothing is tied in direction "
+                 << "xyz"[c] << " at "
+                 << couplings[i]
+                      .interface->slave()
+                      .cells[s]
+                      ->face(couplings[i].interface->slave().face_numbers[s])
+                      ->center()
+                 << ", since other interfaces determine all displacements of "
+                    "the slave there; exchange slave and master";
+            lost = text.str();
+          }
+    throw_if_any(lost, comm);
+    n_fixed   = Utilities::MPI::sum(n_fixed, comm);
+    n_covered = Utilities::MPI::sum(n_covered, comm);
+    if (n_covered == 0)
+      log.warning("interface " + name +
+                  ": the surfaces hardly meet; nothing is tied");
+    else if (n_fixed == n_covered)
+      log.warning("interface " + name +
+                  ": no multipliers are left, since every displacement of both "
+                  "surfaces is prescribed; nothing is tied");
   }
 
   void
   Simulation::number_multipliers()
   {
-    for (unsigned int i = 0; i < couplings.size(); ++i)
+    const auto          states = partner_states(couplings);
+    SharedDisplacements shared(couplings,
+                               states,
+                               displacement_field.numbering,
+                               comm);
+    for (const unsigned int i : shared.order())
       {
-        const SideParameters &slave    = parameters.interfaces[i].slave;
+        const SideParameters &slave    = interfaces[i].slave;
         const Body           &body     = *bodies[slave.body];
         Coupling             &coupling = couplings[i];
-        coupling.multipliers =
-          std::make_unique<MultiplierSpace>(body,
-                                            body.boundary_id(slave.boundary,
-                                                             ""),
-                                            coupling.interface->slave(),
-                                            partner_states(coupling),
-                                            blocked_dofs(slave.body));
-        if (Utilities::MPI::sum(coupling.multipliers->n_owned(), comm) == 0)
-          log.warning(
-            "interface " + parameters.interfaces[i].name +
-            ": no multipliers are left, since every displacement of both surfaces is "
-            "prescribed; nothing is tied");
-        if (i + 1 < couplings.size())
-          occupy(i);
+        coupling.multipliers           = std::make_unique<MultiplierSpace>(
+          body,
+          body.boundary_id(slave.boundary, ""),
+          coupling.interface->slave(),
+          states[i],
+          blocked_dofs(slave.body, shared.taken()));
+        shared.take(i);
       }
     types::global_dof_index mine = 0, first = 0, total = 0;
     for (const Coupling &coupling : couplings)
@@ -76,14 +98,89 @@ namespace mortise
           first += counts[rank];
         total += counts[rank];
       }
-    system.owned_multiplier.set_size(total);
+    system.owned_multiplier = IndexSet(total);
     system.owned_multiplier.add_range(first, first + mine);
     for (Coupling &coupling : couplings)
       {
         coupling.multipliers->number(coupling.interface->slave(), first);
         first += coupling.multipliers->n_owned();
       }
-    summary.steps.back().dofs.multiplier = total;
-    summary.steps.back().dofs.total += total;
+  }
+
+
+  std::vector<TieSupport>
+  Simulation::tie_supports() const
+  {
+    std::vector<TieSupport> ties;
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      {
+        const InterfaceReport &report = couplings[i].interface->report();
+        ties.push_back(
+          {interfaces[i].name,
+           interfaces[i].slave.body,
+           interfaces[i].master.body,
+           multiplier_moments(couplings[i], system.owned_multiplier, comm),
+           report.covered_area / report.slave_area,
+           {}});
+        const BodySurface &slave = couplings[i].interface->slave();
+        for (unsigned int s = 0; s < slave.faces.size(); ++s)
+          {
+            const auto   face = slave.cells[s]->face(slave.face_numbers[s]);
+            const double area = couplings[i].interface->coverage()[s] *
+                                std::pow(slave.faces[s].size, 2);
+            for (const unsigned int v : face->vertex_indices())
+              ties.back().places.emplace_back(face->vertex(v), area);
+          }
+      }
+    return ties;
+  }
+
+  void
+  Simulation::choose_multipliers()
+  {
+    number_multipliers();
+    std::vector<bool> tried(couplings.size(), false);
+    auto              weak = weak_ties(bodies, tie_supports());
+    for (unsigned int k = 0; k < weak.size();)
+      {
+        const unsigned int   i     = weak[k++];
+        InterfaceParameters &given = interfaces[i];
+        const auto &master = parameters.bodies[given.master.body].boundaries;
+        const auto  side   = master.find(given.master.boundary);
+        if (tried[i] || (side != master.end() && side->second.displacement))
+          continue;
+        tried[i] = true;
+        std::swap(given.slave, given.master);
+        Coupling other = make_coupling(given);
+        integrate(other);
+        std::swap(couplings[i], other);
+        number_multipliers();
+        const auto still = weak_ties(bodies, tie_supports());
+        if (still.size() < weak.size())
+          {
+            log.line("  interface " + given.name +
+                     ": slave and master exchanged, since too few "
+                     "displacements of the slave are left for multipliers");
+            weak = still;
+            k    = 0;
+          }
+        else
+          {
+            std::swap(given.slave, given.master);
+            std::swap(couplings[i], other);
+            number_multipliers();
+          }
+      }
+    const auto states = partner_states(couplings);
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      check_constants(i, states[i]);
+    summary.steps.back().dofs.multiplier = system.owned_multiplier.size();
+    summary.steps.back().dofs.total += system.owned_multiplier.size();
+  }
+
+  void
+  Simulation::check_support() const
+  {
+    check_rigid_motions(bodies, dirichlet, tie_supports());
   }
 } // namespace mortise

@@ -16,7 +16,7 @@ namespace mortise
   {
     create_meshes();
     create_spaces();
-    if (!parameters.interfaces.empty())
+    if (!interfaces.empty())
       {
         find_pairs();
         couple();
@@ -81,12 +81,13 @@ namespace mortise
         body_solutions(
           bodies, displacement_field, pressure_field, interiors, solution);
 
-    std::vector<unsigned int> slave_bodies;
+    std::vector<TiedBodies> tied;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
         tractions.push_back(
           multiplier_on_faces(couplings[i], solution.multiplier, comm));
-        slave_bodies.push_back(parameters.interfaces[i].slave.body);
+        tied.push_back(
+          {interfaces[i].slave.body, parameters.interfaces[i].slave.body});
         const ResultantErrors errors =
           resultant_errors(couplings[i], solution.multiplier, comm);
         step.interfaces[i].force_residual  = errors.force;
@@ -103,8 +104,8 @@ namespace mortise
         if (system.mixed())
           result.pressure_l2 = errors.pressure_l2;
         if (!couplings.empty())
-          result.multiplier_l2 = multiplier_error(
-            bodies, couplings, slave_bodies, tractions, *exact);
+          result.multiplier_l2 =
+            multiplier_error(bodies, couplings, tied, tractions, *exact);
         step.errors = result;
       }
     for (const PointQuantity &quantity : parameters.output.points)
@@ -160,7 +161,7 @@ namespace mortise
         if (selection.traction)
           for (unsigned int i = 0; i < couplings.size(); ++i)
             {
-              const unsigned int slave = parameters.interfaces[i].slave.body;
+              const unsigned int slave = interfaces[i].slave.body;
               write_interface_fields(*bodies[slave],
                                      couplings[i],
                                      tractions[i],

@@ -222,7 +222,7 @@ namespace mortise::testing
         std::make_unique<MultiplierSpace>(*bodies[0],
                                           bodies[0]->boundary_id("zmax", ""),
                                           coupling.interface->slave(),
-                                          partner_states(coupling),
+                                          partner_states(couplings)[0],
                                           blocked);
       coupling.multipliers->number(coupling.interface->slave(), 0);
       Vector     rhs;

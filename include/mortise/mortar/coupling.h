@@ -22,9 +22,10 @@ namespace mortise
     std::unique_ptr<MultiplierSpace>  multipliers;
   };
 
-  /// By slave face; after the integration.
-  std::vector<PartnerState>
-  partner_states(const Coupling &coupling);
+  /// By coupling and slave face; after the integration of all that share a
+  /// slave surface.
+  std::vector<std::vector<PartnerState>>
+  partner_states(const std::vector<Coupling> &couplings);
 
   /// Who owns which rows and columns.
   struct CouplingPartition
@@ -48,6 +49,20 @@ namespace mortise
   assemble_jump_penalty(const std::vector<Coupling> &couplings,
                         const CouplingPartition     &partition,
                         SparseMatrix                &jump_penalty);
+
+  /// What a multiplier feels of rigid motions.
+  struct MultiplierMoment
+  {
+    unsigned int           component; ///< of the displacement
+    double                 weight;    ///< int psi over a bound of int |psi|
+    dealii::Tensor<1, dim> moment; ///< int psi x over the same bound, a length
+  };
+
+  /// Of the owned multipliers of @p coupling. Collective.
+  std::vector<MultiplierMoment>
+  multiplier_moments(const Coupling         &coupling,
+                     const dealii::IndexSet &owned_multiplier,
+                     MPI_Comm                comm);
 
   /// How exactly constant and linear fields pass an interface.
   struct TransferErrors

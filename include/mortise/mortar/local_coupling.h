@@ -29,7 +29,9 @@ namespace mortise
     dealii::FullMatrix<double>
       mass; ///< int N_i^slave N_j^slave; empty: no partner
     std::vector<dealii::Tensor<1, dim>>
-                         gap_moment; ///< int N_i^slave (x_master - x_slave)
+      gap_moment; ///< int N_i^slave (x_master - x_slave)
+    std::vector<dealii::Tensor<1, dim>>
+                         position_moment; ///< int N_i^slave x_slave
     std::vector<Partner> partners;
     double               penalty =
       0.; ///< scale of jump penalties: 2.5 E / h of the softer side, or of the

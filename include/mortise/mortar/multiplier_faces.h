@@ -10,31 +10,34 @@
 
 namespace mortise
 {
+  /// How much of a slave face has a partner.
+  enum class Cover : unsigned char
+  {
+    none,    ///< no multipliers
+    sliver,  ///< little, or less than another interface has of it: it goes on
+             ///< with the multipliers of faces beside it
+    partial, ///< less than nine tenths: multipliers of degree 1
+    full
+  };
+
+  /// @p covered: the fraction; @p most: no interface has more of the face.
+  Cover
+  cover_of(double covered, bool most);
+
   /// What a slave face meets on the other side.
   struct PartnerState
   {
-    double coverage = 0.; ///< covered fraction of the face
+    Cover cover = Cover::none;
     std::array<bool, dim>
       can_follow{}; ///< by component: some displacement there is free
   };
-
-  /// Has a slave face with this covered fraction all its multipliers?
-  bool
-  is_fully_covered(double coverage);
 
   /// A slave face of an owned or ghost cell. Vertices and edges are numbered as
   /// in the basis.
   struct MultiplierFace
   {
-    enum class Status : unsigned char
-    {
-      none,    ///< covered by less than a tenth: no multipliers of its own
-      partial, ///< covered by less than nine tenths: multipliers of degree 1
-      full
-    };
-
     const TraceBasis *basis;
-    Status            status = Status::full;
+    Cover             cover = Cover::full;
     bool              can_follow[dim]; ///< as in PartnerState
     std::array<std::vector<dealii::types::global_dof_index>, dim>
                  dofs; ///< [c][k] as in FaceTrace

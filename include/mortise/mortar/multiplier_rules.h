@@ -17,14 +17,23 @@ namespace mortise
     bool kept         = true;  ///< not above the reduced degree of a face
     bool on_full_face = false; ///< some face around it is well covered
     bool vertex       = false;
+    bool blocked      = false; ///< vertices: the displacement is
+    bool made_up      = false; ///< ... and a mode is dropped instead
     bool on_rim       = false; ///< vertices: end of an edge across a rim ...
     bool across_kept  = false; ///< ... that has modes left
     bool can_follow = false; ///< the other side of some face around it is free
-    Dofs neighbours;         ///< across the rim, off all rims
-    Dofs diagonal;           ///< other vertices, off all rims
-    Dofs merged;             ///< must have the same value
+    Dofs neighbours; ///< across the rim or from a blocked vertex, off all rims
+    Dofs diagonal;   ///< other vertices, off all rims
+    Dofs merged;     ///< must have the same value
     /// Vertices on rims that give the value of one with none of the above.
     Dofs beside;
+
+    /// A blocked vertex that is at the end of no rim.
+    bool
+    is_alone() const
+    {
+      return blocked && !on_rim;
+    }
 
     /// A vertex on a rim that finds no free one on the faces around it to
     /// take its value from.
@@ -51,4 +60,13 @@ namespace mortise
   apply_multiplier_rules(const MultiplierFace &face,
                          unsigned int          c,
                          MultiplierRecords    &records);
+
+  /// Behind apply_multiplier_rules() for all faces: where the displacement of
+  /// a quadrilateral's vertex is blocked, but that of no edge there, the
+  /// multiplier stays and the highest mode inside goes in its place, from
+  /// degree 2 on; at degree 1 the vertex takes the mean of its neighbours.
+  void
+  make_up_for_blocked_vertices(const MultiplierFace &face,
+                               unsigned int          c,
+                               MultiplierRecords    &records);
 } // namespace mortise

@@ -12,9 +12,10 @@
 //   constant is left on it, which the other side follows if it can;
 // - hanging nodes and mixed degrees: the conforming trace space, by the body's
 // constraints;
-// - no partner: faces covered by less than a tenth have no multipliers of their
-// own, faces covered
-//   by less than nine tenths only those of degree 1.
+// - faces covered in part: those covered by less than nine tenths have only
+// multipliers of degree 1, those
+//   covered by less than a tenth go on with the values at the vertices that
+//   they share with better covered ones, so that constants pass there, too.
 // Sources: Bernardi, Maday, Patera (1994); Wohlmuth (2000); Seshaiyer, Suri
 // (2000).
 #pragma once
@@ -42,6 +43,9 @@ namespace mortise
       std::vector<unsigned int> begin;
       std::vector<Index>  index; ///< numbering of all multipliers of the scene
       std::vector<double> weight;
+      /// By component: is there a multiplier that is one on the whole face? If
+      /// not, constant tractions do not pass.
+      std::array<bool, dim> hold_constants{};
     };
 
     /// Decide which multipliers there are. @p blocked: whether a locally owned displacement dof
@@ -84,6 +88,7 @@ namespace mortise
   private:
     const Body        &body;
     std::vector<Index> owned_dofs;
+    std::vector<bool>  at_vertices; ///< by owned multiplier
     dealii::AffineConstraints<double>
                           reduction; ///< in the body's numbering; closed
     std::vector<FaceRows> face_rows;

@@ -33,14 +33,22 @@ namespace mortise
                   const std::vector<BodySolution> &solutions,
                   const ExactSolution             &exact);
 
+  /// The bodies of an interface.
+  struct TiedBodies
+  {
+    unsigned int slave;
+    unsigned int bearing; ///< whose exact stress is that of the interface
+  };
+
   /// |lambda - t| / |t| in L2 over the slave faces with a partner, t the exact
-  /// traction, all
-  /// interfaces together (over |sigma| there if t is zero); @p coefficients by interface, see multiplier_on_faces(). Collective.
+  /// traction, all interfaces together (over |sigma| there if t is zero),
+  /// without components that nothing can follow; @p coefficients by interface,
+  /// see multiplier_on_faces(). Collective.
   double
   multiplier_error(
     const Bodies                                        &bodies,
     const std::vector<Coupling>                         &couplings,
-    const std::vector<unsigned int>                     &slave_bodies,
+    const std::vector<TiedBodies>                       &tied,
     const std::vector<std::vector<std::vector<double>>> &coefficients,
     const ExactSolution                                 &exact);
 

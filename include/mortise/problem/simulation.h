@@ -11,6 +11,7 @@
 #include <mortise/output/errors.h>
 #include <mortise/output/summary.h>
 #include <mortise/problem/parameters.h>
+#include <mortise/problem/rigid_motions.h>
 #include <mortise/solvers/solve_report.h>
 #include <mortise/solvers/solver_options.h>
 
@@ -56,8 +57,25 @@ namespace mortise
     find_pairs();
     void
     couple();
+    Coupling
+    make_coupling(const InterfaceParameters &given) const;
+    void
+    integrate(Coupling &coupling) const;
+    /// The multipliers, with slave and master exchanged where other interfaces
+    /// and prescribed displacements leave too few to hold the bodies together.
+    void
+    choose_multipliers();
     void
     number_multipliers();
+    std::vector<TieSupport>
+    tie_supports() const;
+    /// Throws InputError where constant tractions do not pass interface @p i, though its master
+    /// could follow. @p states: of its slave faces.
+    void
+    check_constants(unsigned int i, const std::vector<PartnerState> &states);
+    /// Throws InputError where a body can move.
+    void
+    check_support() const;
     void
     assemble();
     /// Which constants of the pressure nothing determines; throws InputError
@@ -76,17 +94,16 @@ namespace mortise
     void
     print_table();
 
-    /// Displacement dofs of body @p b that are prescribed or belong to an earlier interface.
+    /// Owned displacement dofs of body @p b that are prescribed or among @p taken, those of the scene.
     std::vector<bool>
-    blocked_dofs(unsigned int b) const;
-    void
-    occupy(unsigned int i);
+    blocked_dofs(unsigned int b, const std::vector<bool> &taken) const;
 
-    const Parameters &parameters;
-    RunLog           &log;
-    const MPI_Comm    comm;
-    Timers            timers;
-    Summary           summary;
+    const Parameters                &parameters;
+    RunLog                          &log;
+    const MPI_Comm                   comm;
+    Timers                           timers;
+    Summary                          summary;
+    std::vector<InterfaceParameters> interfaces; ///< sides as they are solved
 
     std::shared_ptr<const ExactSolution>           exact;
     Bodies                                         bodies;
@@ -96,10 +113,9 @@ namespace mortise
     SceneField                                     pressure_field;
     SolverMethod method = SolverMethod::automatic; ///< chosen
     NodalSpaces  nodal_spaces; ///< for a bulk without a matrix, until assembly
-    std::unique_ptr<NodalSpace>    nodal_pressures; ///< likewise, in mixed form
-    std::vector<Coupling>          couplings;
-    std::vector<std::vector<bool>> occupied; ///< by body, owned dofs
-    BlockSystem                    system;
+    std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
+    std::vector<Coupling>       couplings;
+    BlockSystem                 system;
     std::vector<CondensedInteriors> interiors; ///< by body
     SystemSolution                  solution;
     SolveReport                     solve_report;
