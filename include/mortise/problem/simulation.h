@@ -3,6 +3,7 @@
 // itself.
 #pragma once
 
+#include <mortise/base/field_checks.h>
 #include <mortise/base/run_log.h>
 #include <mortise/base/timers.h>
 #include <mortise/material/exact_solution.h>
@@ -88,6 +89,7 @@ namespace mortise
     Timers            timers;
     Summary           summary;
 
+    FieldChecks field_checks; ///< of what is given
     std::shared_ptr<const ExactSolution>           exact;
     Bodies                                         bodies;
     std::vector<std::vector<DirichletCondition>>   dirichlet;
