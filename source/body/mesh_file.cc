@@ -66,7 +66,9 @@ namespace mortise
       std::ifstream     in(file, std::ios::binary);
       const std::string content((std::istreambuf_iterator<char>(in)),
                                 std::istreambuf_iterator<char>());
-      if (!std::filesystem::is_regular_file(file) || !in.is_open() || in.bad())
+      std::error_code   none; // a name that is too long has no status
+      if (!std::filesystem::is_regular_file(file, none) || !in.is_open() ||
+          in.bad())
         fail("cannot be read; does it exist, and is it readable?");
       if (content.empty())
         fail("is empty");

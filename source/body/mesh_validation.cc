@@ -148,6 +148,8 @@ namespace mortise
         cells <= 2e7,
         "Subdivisions = " + list(q.subdivisions) +
           " make more than 20 million coarse cells; use Refinements instead");
+      check.require(all_finite(q.extent),
+                    "Extent = " + list(q.extent) + " is not finite");
       check.require(sensible_lengths(q.extent),
                     "Extent = " + list(q.extent) +
                       "; allowed: finite numbers of at most " +
@@ -310,10 +312,11 @@ namespace mortise
         "locally; try Degree by region, Refinements, or a gmsh file "
         "whose Mesh size varies");
     check.require(all_finite(parameters.rotate) &&
-                    sensible_lengths(parameters.translate),
-                  "Rotate = " + list(parameters.rotate) +
-                    ", Translate = " + list(parameters.translate) +
-                    "; allowed: finite numbers, lengths of at most " +
+                    all_finite(parameters.translate),
+                  "Rotate or Translate is not finite");
+    check.require(sensible_lengths(parameters.translate),
+                  "Translate = " + list(parameters.translate) +
+                    "; allowed: lengths of at most " +
                     list<double>({largest_length}) + " in magnitude");
     if (parameters.source == "file")
       check_file_parameters(parameters, where);

@@ -164,8 +164,11 @@ namespace mortise
       if (error)
         return error.message();
       while (!fs::exists(fs::symlink_status(existing, error)) &&
+             error != std::errc::filename_too_long &&
              existing.has_relative_path())
         existing = existing.parent_path();
+      if (error == std::errc::filename_too_long)
+        return error.message();
       const std::string it = file_in_quotes(existing.string()) + " ";
       if (fs::is_symlink(existing, error) && !fs::exists(existing, error))
         return it + "is a link to nothing";

@@ -353,6 +353,10 @@ main(int argc, char **argv)
         check_cut_files(report, format);
         check_garbage(report, format);
       }
+  refused(report,
+          "a file whose name is too long",
+          file_parameters(std::string(100000, 'q') + ".msh"),
+          "qqq.msh' cannot be read");
   check_cells(report);
   check_surface_elements(report);
   check_coordinates(report);

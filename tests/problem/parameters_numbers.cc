@@ -177,6 +177,15 @@ namespace
       "a long name in a file",
       [&] { parse_parameters("subsection " + ramble + "\nend\n", "a.prm"); },
       "line 1 of a.prm");
+    check_message("a long name of a directory",
+                  [&] {
+                    check_output_directory(
+                      parse_parameters(scene,
+                                       "a.prm",
+                                       {"Output/Directory=" + ramble}),
+                      MPI_COMM_SELF);
+                  },
+                  {"Output/Directory (--set", "File name too long", "allowed"});
     const std::string message =
       message_of([&] { read_parameters(ramble + ".prm", {}, MPI_COMM_SELF); });
     verdict(message.size() < 1000 &&
