@@ -107,6 +107,21 @@ main(int argc, char *argv[])
               hexahedron,
               settings);
       }
+  // Five ranks share six tetrahedra so that one has none of them.
+  for (const std::string degree : {"1", "3"})
+    check("six tetrahedra each, degree " + degree,
+          two_boxes() + solution,
+          {"Output/Points=tip: lower: 0.1, 0.2, 0.3",
+           "Solver/Tolerance=1e-12",
+           // not in the space, so that errors are more than round-off
+           "Exact solution/Displacement=0.1*sin(x + y); 0.1*exp(y)*z; "
+           "0.1*cos(x*z)",
+           "Body lower/Degree=" + degree,
+           "Body upper/Degree=" + degree,
+           "Body lower/Mesh/Cells=tetrahedra",
+           "Body upper/Mesh/Cells=tetrahedra",
+           "Body lower/Mesh/Subdivisions=1, 1, 1",
+           "Body upper/Mesh/Subdivisions=1, 1, 1"});
   for (const std::string method : {"direct", "auto"})
     check("incompressible, " + method,
           hexahedron,
