@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 
 #include <algorithm>
 #include <cctype>
@@ -66,11 +67,16 @@ namespace mortise
   std::string
   join_names(const std::vector<std::string> &names)
   {
+    constexpr std::size_t most = 1000; // names of a mesh may be thousands
     if (names.empty())
       return "(none)";
-    std::string joined = names.front();
+    std::string joined = shortened(names.front());
     for (std::size_t i = 1; i < names.size(); ++i)
-      joined += ", " + names[i];
+      {
+        if (names[i].size() + joined.size() > most && i + 1 < names.size())
+          return joined + ", ... (" + std::to_string(names.size()) + " in all)";
+        joined += ", " + shortened(names[i]);
+      }
     return joined;
   }
 } // namespace mortise

@@ -4,6 +4,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
+#include <mortise/base/quotes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -339,7 +340,7 @@ namespace mortise
       throw InputError(
         (where.empty() ? "" : where + ": ") +
         "a vector needs 3 expressions separated by ';', as in \"0; 0; 2*x\"; got " +
-        std::to_string(parts.size()) + " in \"" + text + "\"");
+        std::to_string(parts.size()) + " in " + in_quotes(text));
     for (unsigned int c = 0; c < 3; ++c)
       components[c] = Expression(parts[c], where);
   }

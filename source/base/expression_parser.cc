@@ -5,10 +5,12 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
+#include <mortise/base/quotes.h>
 
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace mortise
 {
@@ -75,8 +77,7 @@ namespace mortise
         skip_space();
         if (position < text.size())
           fail(position, "an operator or the end is expected here");
-        compact(root);
-        return result;
+        return compact(root);
       }
 
     private:
@@ -88,8 +89,9 @@ namespace mortise
           got =
             "'" + text.substr(at, 12) + (at + 12 < text.size() ? "...'" : "'");
         throw InputError((where.empty() ? "" : where + ": ") +
-                         "in the expression \"" + text + "\", at character " +
-                         std::to_string(at + 1) + " (" + got + "): " + what);
+                         "in the expression " + in_quotes(text) +
+                         ", at character " + std::to_string(at + 1) + " (" +
+                         got + "): " + what);
       }
 
       void
@@ -253,8 +255,13 @@ namespace mortise
         const char *begin = text.data() + position;
         const auto [end, error] =
           std::from_chars(begin, text.data() + text.size(), value);
-        if (error != std::errc())
-          fail(position, "this is not a number that can be represented");
+        // a number too small to be represented in full would lose digits, or
+        // become 0, without a word
+        constexpr double smallest = std::numeric_limits<double>::min();
+        if (error != std::errc() || (value != 0. && value < smallest))
+          fail(position,
+               "this number is too large or too small; allowed: 0, or from "
+               "2.2e-308 to 1.7e308");
         position += end - begin;
         return constant(value);
       }
@@ -312,29 +319,41 @@ namespace mortise
           known.emplace_back(function.text);
         const std::string nearest = nearest_name(word, known);
         fail(at,
-             "'" + word + "' is not known" +
+             in_quotes(word, '\'') + " is not known" +
                (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
                " Known: " + join_names(known));
       }
 
-      /// Append the nodes that @p node needs, then itself, to the result.
-      unsigned int
-      compact(const unsigned int node)
+      /// The nodes that @p root needs, itself last. Not by recursion: a sum of
+      /// many terms is as deep as it is long.
+      std::vector<Node>
+      compact(const unsigned int root) const
       {
-        Node copy = nodes[node];
-        for (unsigned int i = 0; i < Expression::n_operands(copy.operation);
-             ++i)
-          copy.operands[i] = compact(copy.operands[i]);
-        result.push_back(copy);
-        return result.size() - 1;
+        std::vector<bool> used(nodes.size(), false);
+        used[root] = true;
+        for (unsigned int n = root + 1; n-- > 0;) // operands come before
+          for (unsigned int i = 0;
+               used[n] && i < Expression::n_operands(nodes[n].operation);
+               ++i)
+            used[nodes[n].operands[i]] = true;
+        std::vector<Node>         result;
+        std::vector<unsigned int> place(root + 1, 0);
+        for (unsigned int n = 0; n <= root; ++n)
+          if (used[n])
+            {
+              place[n] = result.size();
+              result.push_back(nodes[n]);
+              for (unsigned int &operand : result.back().operands)
+                operand = place[operand];
+            }
+        return result;
       }
 
       const std::string &text;
       const std::string &where;
       std::size_t        position = 0;
       unsigned int       depth    = 0;
-      std::vector<Node>  nodes;  ///< as parsed, folded parts included
-      std::vector<Node>  result; ///< those in use
+      std::vector<Node>  nodes; ///< as parsed, folded parts included
     };
   } // namespace
 

@@ -4,6 +4,7 @@
 #include <deal.II/fe/mapping_q.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/body.h>
 #include <mortise/body/hexahedral_mapping.h>
 #include <mortise/body/legendre_elements.h>
@@ -113,8 +114,9 @@ namespace mortise
     std::vector<std::string> existing;
     for (const auto &entry : mesh.names.boundaries)
       existing.push_back(entry.first);
-    throw InputError(where + ": body '" + name + "' has no boundary '" +
-                     boundary + "'; it has: " + join_names(existing));
+    throw InputError(where + ": body " + in_quotes(name, '\'') +
+                     " has no boundary " + in_quotes(boundary, '\'') +
+                     "; it has: " + join_names(existing));
   }
 
   Body::Statistics

@@ -4,6 +4,8 @@
 #include <deal.II/grid/manifold_lib.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/numbers.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/curved_boundaries.h>
 #include <mortise/body/mesh_file.h>
 
@@ -28,15 +30,15 @@ namespace mortise
     std::vector<double>
     read_numbers(const std::string &text)
     {
-      try
+      std::vector<double> numbers;
+      for (const std::string &part : Utilities::split_string_list(text, ','))
         {
-          return Utilities::string_to_double(
-            Utilities::split_string_list(text, ','));
+          const ReadNumber number = read_number(part);
+          if (!number.problem.empty())
+            return {std::nan("")};
+          numbers.push_back(number.value);
         }
-      catch (const std::exception &)
-        {
-          return {std::nan("")};
-        }
+      return numbers;
     }
 
     bool
@@ -191,7 +193,7 @@ namespace mortise
         existing.push_back(boundary.first);
       const std::string nearest = nearest_name(entry.boundary, existing);
       throw InputError(
-        where + ": Curved boundaries names '" + entry.boundary + "'" +
+        where + ": Curved boundaries names " + in_quotes(entry.boundary, '\'') +
         (nearest.empty() ? "" : " (did you mean '" + nearest + "'?)") +
         ", which the mesh does not have; it has: " + join_names(existing));
     }
@@ -241,13 +243,14 @@ namespace mortise
         else
           entry.numbers = read_numbers(numbers);
         if (!sensible(entry))
-          throw InputError(where + ": Curved boundaries has the entry '" +
-                           part + "'; allowed: " + allowed_entries);
+          throw InputError(where + ": Curved boundaries has the entry " +
+                           in_quotes(part, '\'') +
+                           "; allowed: " + allowed_entries);
         for (const CurvedBoundary &other : entries)
           if (other.boundary == entry.boundary)
-            throw InputError(where + ": Curved boundaries names '" +
-                             entry.boundary +
-                             "' twice; allowed: each boundary once");
+            throw InputError(where + ": Curved boundaries names " +
+                             in_quotes(entry.boundary, '\'') +
+                             " twice; allowed: each boundary once");
         entries.push_back(entry);
       }
     return entries;
@@ -263,13 +266,15 @@ namespace mortise
       {
         if (mesh.geometry != nullptr)
           throw InputError(
-            where + ": Curved boundaries = " + parameters.curved_boundaries +
-            ", but the file '" + parameters.file +
-            "' is of second order, whose own curved geometry is kept; allowed: a file "
+            where +
+            ": Curved boundaries = " + shortened(parameters.curved_boundaries) +
+            ", but the file " + file_in_quotes(parameters.file, '\'') +
+            " is of second order, whose own curved geometry is kept; allowed: a file "
             "of first order (gmsh -order 1), or no Curved boundaries");
         const auto        id   = find_boundary(entry, mesh, where);
-        const std::string here = where + ", Curved boundaries, '" +
-                                 entry.boundary + ": " + entry.kind + "'";
+        const std::string here =
+          where + ", Curved boundaries, " +
+          in_quotes(entry.boundary + ": " + entry.kind, '\'');
         const auto                  parts = connected_parts(mesh, id);
         std::vector<SurfacePointer> candidates, shapes;
         if (entry.kind == "step")

@@ -133,6 +133,7 @@ namespace mortise
           if (place[tags[i]] != numbers::invalid_unsigned_int)
             continue;
           place[tags[i]] = model.nodes.size();
+          model.node_tags.push_back(tags[i]);
           model.nodes.emplace_back(coordinates[3 * i],
                                    coordinates[3 * i + 1],
                                    coordinates[3 * i + 2]);
@@ -182,6 +183,7 @@ namespace mortise
           for (unsigned int t = 0; t < types.size(); ++t)
             {
               GmshElements block = describe(dimension, entity.second, types[t]);
+              block.tags         = tags[t];
               for (const std::size_t tag : nodes[t])
                 {
                   if (tag >= place.size() ||

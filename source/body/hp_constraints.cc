@@ -92,8 +92,10 @@ namespace mortise
                               const EntityDegrees       &degrees,
                               AffineConstraints<double> &constraints)
   {
+    // the elements tell the shape: a rank without tetrahedra has no cells
     AssertThrow(
-      !dof_handler.get_triangulation().all_reference_cells_are_hyper_cube() ||
+      dof_handler.get_fe_collection()[0].reference_cell() !=
+          ReferenceCells::Hexahedron ||
         is_consistently_ordered(dof_handler.get_triangulation()),
       ExcMessage(
         "make_conformity_constraints: the cells are not ordered consistently; "

@@ -29,6 +29,26 @@ namespace mortise
     dof_handler.distribute_dofs(fe);
   }
 
+  namespace
+  {
+    /// Whether the owned cells of all ranks are hexahedra. What deal.II says of
+    /// a rank without tetrahedra is not to be asked: it gives such a rank a
+    /// hexahedron that stands for what it does not have. Collective.
+    bool
+    is_hexahedral(const Triangulation<3> &triangulation)
+    {
+      unsigned int others = 0;
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned() &&
+            cell->reference_cell() != ReferenceCells::Hexahedron)
+          {
+            others = 1;
+            break;
+          }
+      return Utilities::MPI::max(others, triangulation.get_communicator()) == 0;
+    }
+  } // namespace
+
   void
   distribute_legendre_dofs(
     const std::set<unsigned int> &degrees,
@@ -38,7 +58,7 @@ namespace mortise
     hp::FECollection<3>                                          &fe,
     DoFHandler<3>                                                &dof_handler)
   {
-    if (dof_handler.get_triangulation().all_reference_cells_are_hyper_cube())
+    if (is_hexahedral(dof_handler.get_triangulation()))
       {
         distribute_dofs_by_degree(
           degrees,

@@ -5,6 +5,7 @@
 #include <boost/serialization/vector.hpp>
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/curved_boundaries.h>
 #include <mortise/body/mesh_file.h>
 
@@ -28,7 +29,8 @@ namespace mortise
                  const std::string &file_name,
                  const std::string &what)
     {
-      return where + ": the mesh file '" + file_name + "' " + what;
+      return where + ": the mesh file " + file_in_quotes(file_name, '\'') +
+             " " + what;
     }
 
     bool
@@ -64,7 +66,9 @@ namespace mortise
       std::ifstream     in(file, std::ios::binary);
       const std::string content((std::istreambuf_iterator<char>(in)),
                                 std::istreambuf_iterator<char>());
-      if (!std::filesystem::is_regular_file(file) || !in.is_open() || in.bad())
+      std::error_code   none; // a name that is too long has no status
+      if (!std::filesystem::is_regular_file(file, none) || !in.is_open() ||
+          in.bad())
         fail("cannot be read; does it exist, and is it readable?");
       if (content.empty())
         fail("is empty");
@@ -93,6 +97,7 @@ namespace mortise
       };
       CoarseMesh mesh =
         select_part(read_model(parameters, where), parameters, fail);
+      check_size(mesh, fail);
       check_volumes(mesh, fail);
       check_coinciding_nodes(mesh, fail);
       return mesh;

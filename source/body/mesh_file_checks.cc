@@ -1,5 +1,7 @@
 #include <deal.II/base/geometry_info.h>
 
+#include <mortise/base/numbers.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -173,6 +175,20 @@ namespace mortise
       return pairs;
     }
 
+    /// The lowest and the highest coordinates.
+    std::pair<Point<3>, Point<3>>
+    bounding_box(const CoarseMesh &mesh)
+    {
+      Point<3> low = mesh.vertices[0], high = mesh.vertices[0];
+      for (const Point<3> &vertex : mesh.vertices)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            low[d]  = std::min(low[d], vertex[d]);
+            high[d] = std::max(high[d], vertex[d]);
+          }
+      return {low, high};
+    }
+
     template <typename Id>
     bool
     disjoint(const std::set<Id> &a, const std::set<Id> &b)
@@ -182,6 +198,20 @@ namespace mortise
       });
     }
   } // namespace
+
+  void
+  check_size(const CoarseMesh &mesh, const FileError &fail)
+  {
+    const auto   box  = bounding_box(mesh);
+    const double size = box.first.distance(box.second);
+    if (size >= smallest_length && size <= largest_length)
+      return;
+    std::ostringstream text;
+    text << "has a body of size " << size << ", from " << place_name(box.first)
+         << " to " << place_name(box.second)
+         << "; allowed: " << allowed_lengths();
+    fail(text.str());
+  }
 
   void
   check_volumes(CoarseMesh &mesh, const FileError &fail)
@@ -213,15 +243,9 @@ namespace mortise
   void
   check_coinciding_nodes(const CoarseMesh &mesh, const FileError &fail)
   {
-    Point<3> low = mesh.vertices[0], high = mesh.vertices[0];
-    for (const Point<3> &vertex : mesh.vertices)
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          low[d]  = std::min(low[d], vertex[d]);
-          high[d] = std::max(high[d], vertex[d]);
-        }
+    const auto box = bounding_box(mesh);
     const auto pairs =
-      coinciding_pairs(mesh.vertices, 1e-9 * low.distance(high));
+      coinciding_pairs(mesh.vertices, 1e-9 * box.first.distance(box.second));
     if (pairs.empty())
       return;
     const auto surfaces = named_surfaces(mesh);

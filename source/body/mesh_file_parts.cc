@@ -1,6 +1,7 @@
 #include "mesh_file_parts.h"
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/vertex_order.h>
 
 #include <algorithm>
@@ -64,8 +65,8 @@ namespace mortise
         if (parameters.part == name || parameters.part == std::to_string(tag))
           tags.insert(tag);
       if (!parameters.part.empty() && tags.empty())
-        fail("has no physical volume '" + parameters.part +
-             "', which Part names; it has: " + list_parts(model));
+        fail("has no physical volume " + in_quotes(parameters.part, '\'') +
+             ", which Part names; it has: " + list_parts(model));
       std::vector<const GmshElements *> blocks;
       for (const GmshElements &block : model.elements)
         if (block.dimension == 3 &&
@@ -79,7 +80,7 @@ namespace mortise
           parameters.part.empty() ?
             "holds no volume elements; allowed: a mesh of tetrahedra or hexahedra (is there a "
             "physical volume, or were all elements saved; was a geometry meshed in 3D?)" :
-            "holds no cells of Part = " + parameters.part);
+            "holds no cells of Part = " + shortened(parameters.part));
       return blocks;
     }
 

@@ -37,6 +37,10 @@ namespace mortise
   void
   name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail);
 
+  /// Refuse a body that is smaller or larger than numbers can stand.
+  void
+  check_size(const CoarseMesh &mesh, const FileError &fail);
+
   /// Turn the cells of a mesh that is numbered inside out as a whole, and
   /// refuse cells of negative or no volume otherwise.
   void

@@ -3,6 +3,7 @@
 #include <deal.II/grid/tria.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/curved_boundaries.h>
 #include <mortise/body/mesh_file.h>
 #include <mortise/body/mesh_source.h>
@@ -227,9 +228,9 @@ namespace mortise
     CoarseMesh coarse = coarse_mesh(parameters, where, comm);
     if (is_tetrahedral(coarse) && !parameters.refine_near.empty())
       throw InputError(
-        where + ": Refine near = '" + parameters.refine_near +
-        "' belongs to hexahedra, but '" + parameters.file +
-        "' has tetrahedra, which cannot be refined locally; try Degree by "
+        where + ": Refine near = " + in_quotes(parameters.refine_near, '\'') +
+        " belongs to hexahedra, but " + file_in_quotes(parameters.file, '\'') +
+        " has tetrahedra, which cannot be refined locally; try Degree by "
         "region, Refinements, or a gmsh file whose mesh size varies");
 
     Mesh mesh;

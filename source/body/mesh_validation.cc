@@ -1,6 +1,8 @@
 #include <deal.II/base/utilities.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/numbers.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/generators.h>
 #include <mortise/body/mesh_file.h>
 #include <mortise/body/mesh_source.h>
@@ -59,7 +61,7 @@ namespace mortise
       {
         const std::string nearest = nearest_name(got, allowed);
         require(std::find(allowed.begin(), allowed.end(), got) != allowed.end(),
-                parameter + " = '" + got + "' is not known" +
+                parameter + " = " + in_quotes(got, '\'') + " is not known" +
                   (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") +
                   "; allowed: " + join_names(allowed));
       }
@@ -95,6 +97,12 @@ namespace mortise
       return text.str();
     }
 
+    std::string
+    list(const std::array<double, 3> &numbers)
+    {
+      return list(std::vector<double>(numbers.begin(), numbers.end()));
+    }
+
     template <typename Numbers>
     bool
     all_finite(const Numbers &numbers)
@@ -103,6 +111,17 @@ namespace mortise
                          numbers.end(),
                          [](const double number) {
                            return std::isfinite(number);
+                         });
+    }
+
+    template <typename Numbers>
+    bool
+    sensible_lengths(const Numbers &numbers)
+    {
+      return std::all_of(numbers.begin(),
+                         numbers.end(),
+                         [](const double number) {
+                           return std::fabs(number) <= largest_length;
                          });
     }
 
@@ -131,6 +150,10 @@ namespace mortise
           " make more than 20 million coarse cells; use Refinements instead");
       check.require(all_finite(q.extent),
                     "Extent = " + list(q.extent) + " is not finite");
+      check.require(sensible_lengths(q.extent),
+                    "Extent = " + list(q.extent) +
+                      "; allowed: finite numbers of at most " +
+                      list<double>({largest_length}) + " in magnitude");
       const bool radial =
         q.source == "shell octant" || q.source == "cylinder sector";
       if (radial)
@@ -144,6 +167,12 @@ namespace mortise
         check.require(q.extent[d] < q.extent[d + 3],
                       "Extent = " + list(q.extent) +
                         "; allowed: x0 < x1, y0 < y1, z0 < z1");
+      double size = radial ? q.extent[1] : 0.;
+      for (unsigned int d = 0; q.extent.size() == 6 && d < 3; ++d)
+        size = std::max(size, q.extent[d + 3] - q.extent[d]);
+      check.require(q.extent.empty() || size >= smallest_length,
+                    "Extent = " + list(q.extent) +
+                      "; allowed: a body whose size is " + allowed_lengths());
     }
 
     /// What belongs to files only.
@@ -159,8 +188,8 @@ namespace mortise
         {"Mesh size", q.mesh_size == 0. ? "" : list<double>({q.mesh_size})}};
       for (const auto &[name, value] : given)
         check.require(value.empty(),
-                      name + " = '" + value +
-                        "' belongs to Source = file; got Source = " + q.source);
+                      name + " = " + in_quotes(value, '\'') +
+                        " belongs to Source = file; got Source = " + q.source);
     }
 
     void
@@ -235,21 +264,18 @@ namespace mortise
         if (entry.empty())
           continue;
         std::vector<double> numbers;
-        try
+        for (const std::string &part : Utilities::split_string_list(entry, ','))
           {
-            numbers = Utilities::string_to_double(
-              Utilities::split_string_list(entry, ','));
-          }
-        catch (const std::exception &)
-          {
-            numbers.clear();
+            const ReadNumber number = read_number(part);
+            numbers.push_back(number.problem.empty() ? number.value :
+                                                       std::nan(""));
           }
         check.require(
           numbers.size() == 5 && all_finite(numbers) && numbers[3] > 0. &&
             numbers[4] >= 1. && numbers[4] <= 12. &&
             numbers[4] == std::floor(numbers[4]),
-          "Refine near has the entry '" + entry +
-            "'; allowed: x, y, z, radius, times; with radius > 0 and a whole number "
+          "Refine near has the entry " + in_quotes(entry, '\'') +
+            "; allowed: x, y, z, radius, times; with radius > 0 and a whole number "
             "of times from 1 to 12, entries separated by ';'");
         balls.push_back({Point<3>(numbers[0], numbers[1], numbers[2]),
                          numbers[3],
@@ -281,13 +307,17 @@ namespace mortise
                     std::to_string(levels) + " levels; allowed: 14 in all");
     check.require(
       parameters.cells != "tetrahedra" || balls.empty(),
-      "Refine near = '" + parameters.refine_near +
-        "' belongs to hexahedra, since tetrahedra cannot be refined "
+      "Refine near = " + in_quotes(parameters.refine_near, '\'') +
+        " belongs to hexahedra, since tetrahedra cannot be refined "
         "locally; try Degree by region, Refinements, or a gmsh file "
         "whose Mesh size varies");
     check.require(all_finite(parameters.rotate) &&
                     all_finite(parameters.translate),
                   "Rotate or Translate is not finite");
+    check.require(sensible_lengths(parameters.translate),
+                  "Translate = " + list(parameters.translate) +
+                    "; allowed: lengths of at most " +
+                    list<double>({largest_length}) + " in magnitude");
     if (parameters.source == "file")
       check_file_parameters(parameters, where);
   }

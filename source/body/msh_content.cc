@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <sstream>
 
 #include "mesh_file_parts.h"
+#include "msh_scanner.h"
 
 namespace mortise
 {
@@ -18,156 +18,12 @@ namespace mortise
       {19, 13}, {20, 9},  {21, 10}, {26, 4},  {29, 20}, {36, 16},
       {39, 12}, {90, 40}, {91, 40}, {92, 64}, {99, 32}, {118, 30}};
 
-    /// Reads numbers one by one, as text or as bytes, and fails at the end of
-    /// the file.
-    class Scanner
-    {
-    public:
-      Scanner(const std::string &content, const FileError &file_error)
-        : content(content)
-        , file_error(file_error)
-      {}
-
-      [[noreturn]] void
-      fail(const std::string &what) const
-      {
-        file_error("is not a complete mesh: in $" + section + ", byte " +
-                   std::to_string(at) + ", " + what);
-        std::abort(); // file_error throws
-      }
-
-      int
-      integer()
-      {
-        return binary ? bytes<int>() : static_cast<int>(text_integer());
-      }
-
-      /// A number of things or a tag: size_t in version 4.1.
-      std::uint64_t
-      count()
-      {
-        return binary ? bytes<std::uint64_t>() :
-                        static_cast<std::uint64_t>(text_integer());
-      }
-
-      /// A count in plain text, whatever the format.
-      std::uint64_t
-      line_count()
-      {
-        const std::uint64_t n = text_integer();
-        if (binary && at < content.size() && content[at] == '\n')
-          ++at;
-        return n;
-      }
-
-      void
-      skip_reals(const unsigned int n)
-      {
-        for (unsigned int i = 0; i < n; ++i)
-          if (binary)
-            bytes<double>();
-          else
-            text_real();
-      }
-
-      void
-      skip_integers(const std::uint64_t n)
-      {
-        fits(n, 4, "integers");
-        for (std::uint64_t i = 0; i < n; ++i)
-          integer();
-      }
-
-      /// @p n things of so many bytes each, or (as text) of two at least.
-      void
-      fits(const std::uint64_t n, const unsigned int size, const char *what)
-      {
-        if (n > (content.size() - at) / (binary ? size : 2))
-          fail("there are said to be " + std::to_string(n) + " " + what +
-               ", more than the rest of the file can hold");
-      }
-
-      /// To the line after "$End" + section.
-      void
-      end_section(const bool here)
-      {
-        const std::size_t end = content.find("$End" + section, at);
-        if (end == std::string::npos)
-          file_error("ends before $End" + section +
-                     "; allowed: a complete file");
-        if (here && content.find_first_not_of(" \t\r\n", at) != end)
-          fail("there is something else before $End" + section);
-        at = end + 4 + section.size();
-      }
-
-      /// Name of the next section; false at the end of the file.
-      bool
-      next_section()
-      {
-        at = content.find('$', at);
-        if (at == std::string::npos)
-          return false;
-        const std::size_t end = content.find_first_of("\r\n", at);
-        if (end == std::string::npos)
-          return false;
-        section = content.substr(at + 1, end - at - 1);
-        section.erase(section.find_last_not_of(" \t") + 1);
-        at = content.find('\n', end) + 1;
-        return at != 0;
-      }
-
-      std::string section = "MeshFormat";
-      bool        binary  = false;
-
-    private:
-      const std::string &content;
-      const FileError   &file_error;
-      std::size_t        at = 0;
-
-      template <typename Number>
-      Number
-      bytes()
-      {
-        Number number;
-        if (content.size() - at < sizeof(Number))
-          fail("the file ends");
-        std::memcpy(&number, &content[at], sizeof(Number));
-        at += sizeof(Number);
-        return number;
-      }
-
-      long long
-      text_integer()
-      {
-        char           *end;
-        const long long number = std::strtoll(&content[at], &end, 10);
-        finish_text(end);
-        return number;
-      }
-
-      void
-      text_real()
-      {
-        char *end;
-        std::strtod(&content[at], &end);
-        finish_text(end);
-      }
-
-      void
-      finish_text(const char *end)
-      {
-        if (end == &content[at])
-          fail("there is no number");
-        at = end - content.data();
-      }
-    };
-
     /// The tags of nodes that a file has.
     class NodeTags
     {
     public:
       void
-      add(const std::int64_t tag, Scanner &in)
+      add(const std::int64_t tag, MshScanner &in)
       {
         if (tag < 1)
           in.fail("a node has the tag " + std::to_string(tag));
@@ -175,7 +31,7 @@ namespace mortise
       }
 
       void
-      finish(Scanner &in)
+      finish(MshScanner &in)
       {
         std::sort(tags.begin(), tags.end());
         if (!tags.empty() && static_cast<std::uint64_t>(tags.back()) >
@@ -185,7 +41,7 @@ namespace mortise
       }
 
       void
-      check(const std::int64_t tag, Scanner &in) const
+      check(const std::int64_t tag, MshScanner &in) const
       {
         if (!std::binary_search(tags.begin(), tags.end(), tag))
           in.fail("an element has the node " + std::to_string(tag) +
@@ -197,7 +53,7 @@ namespace mortise
     };
 
     unsigned int
-    nodes_of(const int type, Scanner &in)
+    nodes_of(const int type, MshScanner &in)
     {
       const auto known = element_nodes.find(type);
       if (known == element_nodes.end())
@@ -208,7 +64,7 @@ namespace mortise
 
     /// Points, curves, surfaces and volumes of version 4.1.
     void
-    walk_entities(Scanner &in)
+    walk_entities(MshScanner &in)
     {
       std::uint64_t n[4];
       for (std::uint64_t &m : n)
@@ -228,7 +84,7 @@ namespace mortise
     }
 
     void
-    walk_nodes_4(Scanner &in, NodeTags &nodes)
+    walk_nodes_4(MshScanner &in, NodeTags &nodes)
     {
       const std::uint64_t blocks = in.count(), n = in.count();
       in.count();
@@ -245,15 +101,22 @@ namespace mortise
           if (dimension < 0 || dimension > 3 || parametric < 0 ||
               parametric > 1)
             in.fail("a block of nodes does not begin as it should");
-          for (std::uint64_t i = 0; i < m; ++i)
-            nodes.add(in.count(), in);
-          for (std::uint64_t i = 0; i < m; ++i)
-            in.skip_reals(3 + (parametric == 1 ? dimension : 0));
+          std::vector<std::int64_t> tags(m);
+          for (std::int64_t &tag : tags)
+            {
+              tag = in.count();
+              nodes.add(tag, in);
+            }
+          for (const std::int64_t tag : tags)
+            {
+              in.coordinates(tag);
+              in.skip_reals(parametric == 1 ? dimension : 0);
+            }
         }
     }
 
     void
-    walk_elements_4(Scanner &in, const NodeTags &nodes)
+    walk_elements_4(MshScanner &in, const NodeTags &nodes)
     {
       const std::uint64_t blocks = in.count(), n = in.count();
       in.count();
@@ -279,19 +142,20 @@ namespace mortise
     }
 
     void
-    walk_nodes_2(Scanner &in, NodeTags &nodes)
+    walk_nodes_2(MshScanner &in, NodeTags &nodes)
     {
       const std::uint64_t n = in.line_count();
       in.fits(n, 28, "nodes");
       for (std::uint64_t i = 0; i < n; ++i)
         {
-          nodes.add(in.integer(), in);
-          in.skip_reals(3);
+          const int tag = in.integer();
+          nodes.add(tag, in);
+          in.coordinates(tag);
         }
     }
 
     void
-    walk_elements_2(Scanner &in, const NodeTags &nodes)
+    walk_elements_2(MshScanner &in, const NodeTags &nodes)
     {
       const std::uint64_t n = in.line_count();
       in.fits(n, 8, "elements");
@@ -321,7 +185,9 @@ namespace mortise
 
     /// Version 4.1 (else 2.2).
     bool
-    read_header(const std::string &content, Scanner &in, const FileError &fail)
+    read_header(const std::string &content,
+                MshScanner        &in,
+                const FileError   &fail)
     {
       if (content.compare(0, 11, "$MeshFormat") != 0)
         fail(
@@ -354,7 +220,7 @@ namespace mortise
   void
   check_msh_content(const std::string &content, const FileError &fail)
   {
-    Scanner    in(content, fail);
+    MshScanner in(content, fail);
     const bool version_4 = read_header(content, in, fail);
     NodeTags   nodes;
     bool       has_nodes = false, has_elements = false;

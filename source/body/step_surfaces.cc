@@ -1,6 +1,7 @@
 #include <deal.II/base/config.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/body/surfaces.h>
 
 #ifdef DEAL_II_WITH_OPENCASCADE
@@ -104,8 +105,9 @@ namespace mortise
         faces.clear();
       }
     if (faces.empty())
-      throw InputError(where + ": the STEP file '" + file_name +
-                       "' cannot be read or has no faces");
+      throw InputError(where + ": the STEP file " +
+                       file_in_quotes(file_name, '\'') +
+                       " cannot be read or has no faces");
     return faces;
   }
 #else

@@ -1,4 +1,5 @@
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/output/summary.h>
 #include <mortise/problem/command_line.h>
 #include <mortise/problem/parameter_file.h>
@@ -75,7 +76,7 @@ namespace mortise
           line.settings.push_back("Output/Directory=" + directory);
         }
       else if (value)
-        fail("unknown option \"" + arguments[i] + "\"" +
+        fail("unknown option " + in_quotes(arguments[i]) +
              did_you_mean(option, option_names) +
              "; allowed: " + join_names(option_names));
       else if (option == "--validate")
@@ -87,7 +88,7 @@ namespace mortise
       else if (option == "--version")
         set_action(line, Action::print_version, option);
       else
-        fail("unknown option \"" + option + "\"" +
+        fail("unknown option " + in_quotes(option) +
              did_you_mean(option, option_names) +
              "; allowed: " + join_names(option_names));
     }
@@ -101,9 +102,9 @@ namespace mortise
       if (arguments[i].size() > 1 && arguments[i][0] == '-')
         read_option(line, arguments, i);
       else if (!line.file.empty())
-        fail("got two parameter files, \"" + line.file + "\" and \"" +
-             arguments[i] +
-             "\"; allowed is one (a value with blanks needs quotes)");
+        fail("got two parameter files, " + in_quotes(line.file) + " and " +
+             in_quotes(arguments[i]) +
+             "; allowed is one (a value with blanks needs quotes)");
       else
         line.file = arguments[i];
     const bool needs_file =

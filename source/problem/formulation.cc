@@ -1,5 +1,6 @@
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/formulation.h>
 
 #include <algorithm>
@@ -56,8 +57,8 @@ namespace mortise
                " (the pressure has one less, and is continuous)");
       if (parameters.solver.method == SolverMethod::condensed)
         fail(parameters.where("Solver/Method"),
-             "\"condensed\" with body \"" + body.name +
-               "\" in mixed form, which conjugate gradients cannot solve",
+             "\"condensed\" with body " + in_quotes(body.name) +
+               " in mixed form, which conjugate gradients cannot solve",
              "auto, saddle point, direct");
     }
   } // namespace
@@ -74,8 +75,8 @@ namespace mortise
     const auto names = formulation_names();
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
-      throw InputError("Formulation: got \"" + name +
-                       "\"; allowed: " + join_names(names));
+      throw InputError("Formulation: got " + in_quotes(name) +
+                       "; allowed: " + join_names(names));
     return static_cast<Formulation>(found - names.begin());
   }
 
@@ -110,7 +111,7 @@ namespace mortise
     const bool        by_expressions = exact.kind == ExactKind::expressions;
     if (exact.pressure && !(by_expressions && incompressible))
       fail(where,
-           "\"" + *exact.pressure + "\"",
+           in_quotes(*exact.pressure),
            "nothing, unless Displacement holds expressions and a body has "
            "Poisson ratio 0.5: it follows from the rest");
     if (!exact.pressure && by_expressions && incompressible)

@@ -1,4 +1,5 @@
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/parameter_file.h>
 
 #include <algorithm>
@@ -57,13 +58,14 @@ namespace mortise
   did_you_mean(const std::string &got, const std::vector<std::string> &allowed)
   {
     const std::string nearest = nearest_name(got, allowed);
-    return nearest.empty() ? "" : " (did you mean \"" + nearest + "\"?)";
+    return nearest.empty() ? "" : " (did you mean " + in_quotes(nearest) + "?)";
   }
 
   std::string
   read_text_file(const std::string &file, const std::string &from)
   {
-    const std::string what = "parameter file \"" + file + "\"" + from + ": ";
+    const std::string what =
+      "parameter file " + file_in_quotes(file) + from + ": ";
     std::error_code   ignored;
     if (std::filesystem::is_directory(file, ignored))
       throw InputError(what +
@@ -134,6 +136,17 @@ namespace mortise
       return lines;
     }
 
+    /// Names stand in messages as they are.
+    void
+    check_length(const std::string &name, const std::string &origin)
+    {
+      constexpr std::size_t longest = 200;
+      if (name.size() > longest)
+        throw InputError(origin + ": got the name " + in_quotes(name) +
+                         "; allowed: names of at most " +
+                         std::to_string(longest) + " characters");
+    }
+
     /// Collects the assignments of a file and of those that it includes.
     class Scanner
     {
@@ -145,7 +158,7 @@ namespace mortise
         for (const Line &line : lines_of(text, file))
           scan_line(line, file, depth);
         if (sections.size() > depth)
-          throw InputError("subsection \"" + sections.back() + "\" (" +
+          throw InputError("subsection " + in_quotes(sections.back()) + " (" +
                            opened_at.back() +
                            "): \"end\" is missing before the end of " + file);
       }
@@ -180,8 +193,8 @@ namespace mortise
           include(line, rest, file);
         else
           throw InputError(
-            line.origin + ": cannot understand \"" + line.text +
-            "\"; allowed are: set NAME = VALUE, subsection NAME, end, include FILE, "
+            line.origin + ": cannot understand " + in_quotes(line.text) +
+            "; allowed are: set NAME = VALUE, subsection NAME, end, include FILE, "
             "and comments after #" +
             did_you_mean(keyword, {"set", "subsection", "end", "include"}));
       }
@@ -192,8 +205,10 @@ namespace mortise
         const std::size_t equals = rest.find('=');
         const std::string name   = normalised(rest.substr(0, equals));
         if (equals == std::string::npos || name.empty())
-          throw InputError(line.origin + ": cannot understand \"" + line.text +
-                           "\"; allowed is: set NAME = VALUE");
+          throw InputError(line.origin + ": cannot understand " +
+                           in_quotes(line.text) +
+                           "; allowed is: set NAME = VALUE");
+        check_length(name, line.origin);
         assignments.push_back(
           {sections, name, normalised(rest.substr(equals + 1)), line.origin});
       }
@@ -205,6 +220,7 @@ namespace mortise
           throw InputError(
             line.origin +
             ": a subsection needs a name, as in \"subsection Solver\"");
+        check_length(name, line.origin);
         sections.push_back(name);
         opened_at.push_back(line.origin);
         assignments.push_back({sections, "", "", line.origin});
@@ -221,7 +237,7 @@ namespace mortise
           throw InputError(line.origin + ": include needs the name of a file");
         if (++nesting > deepest)
           throw InputError(
-            "parameter file \"" + name + "\"" + from +
+            "parameter file " + file_in_quotes(name) + from +
             ": more than 20 files within each other; does one include itself?");
         const auto beside = std::filesystem::path(file).parent_path() / name;
         std::error_code   ignored;
@@ -247,7 +263,7 @@ namespace mortise
   Assignment
   scan_setting(const std::string &setting)
   {
-    const std::string        origin = "--set \"" + setting + "\"";
+    const std::string        origin = "--set " + in_quotes(setting);
     const std::size_t        equals = setting.find('=');
     std::vector<std::string> path;
     std::istringstream       stream(setting.substr(0, equals));
@@ -262,6 +278,8 @@ namespace mortise
         origin +
         ": cannot understand this; allowed is SECTION/SUBSECTION/NAME=VALUE, "
         "for example --set \"Body inner/Mesh/Refinements=1\"");
+    for (const std::string &part : path)
+      check_length(part, origin);
     const std::string name = path.back();
     path.pop_back();
     return {path, name, normalised(setting.substr(equals + 1)), origin};

@@ -1,5 +1,7 @@
 #include <deal.II/base/utilities.h>
 
+#include <mortise/base/numbers.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/parameter_reader.h>
 
 namespace mortise
@@ -23,8 +25,8 @@ namespace mortise
                         const std::string &got,
                         const std::string &allowed) const
   {
-    throw InputError(where(name) + ": got \"" + got +
-                     "\"; allowed: " + allowed);
+    throw InputError(where(name) + ": got " + in_quotes(got) +
+                     "; allowed: " + allowed);
   }
 
   std::string
@@ -34,9 +36,20 @@ namespace mortise
   }
 
   double
+  ParameterReader::number_of(const std::string &name,
+                             const std::string &text) const
+  {
+    const ReadNumber number = read_number(text);
+    if (!number.problem.empty())
+      throw InputError(where(name) + ": got " + in_quotes(text) + ", which " +
+                       number.problem + "; allowed: " + allowed_numbers());
+    return number.value;
+  }
+
+  double
   ParameterReader::number(const std::string &name) const
   {
-    return dealii::Utilities::string_to_double(text(name));
+    return number_of(name, text(name));
   }
 
   unsigned int
@@ -48,8 +61,10 @@ namespace mortise
   std::vector<double>
   ParameterReader::numbers(const std::string &name) const
   {
-    return dealii::Utilities::string_to_double(
-      split_outside_parentheses(text(name), ','));
+    std::vector<double> result;
+    for (const std::string &part : split_outside_parentheses(text(name), ','))
+      result.push_back(number_of(name, part));
+    return result;
   }
 
   std::optional<Components>
@@ -96,7 +111,7 @@ namespace mortise
       names.push_back(b.name);
     const auto position = std::find(names.begin(), names.end(), body);
     if (position == names.end())
-      throw InputError(where(name) + ": there is no body \"" + body + "\"" +
+      throw InputError(where(name) + ": there is no body " + in_quotes(body) +
                        did_you_mean(body, names) +
                        "; bodies are: " + join_names(names));
     return position - names.begin();

@@ -1,4 +1,5 @@
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/parameter_schema.h>
 
 #include <algorithm>
@@ -70,9 +71,10 @@ namespace mortise
               why = ": \"set Interfaces = " + join_names(names.interfaces) +
                     "\" does not name this interface";
             throw InputError(
-              "unknown subsection \"" + section + "\"" +
-              (parent.empty() ? "" : " in \"" + path_of(parent) + "\"") + " (" +
-              assignment.origin + ")" + why + did_you_mean(section, near) +
+              "unknown subsection " + in_quotes(section) +
+              (parent.empty() ? "" : " in " + in_quotes(path_of(parent))) +
+              " (" + assignment.origin + ")" + why +
+              did_you_mean(section, near) +
               "; allowed here: " + join_names(known));
           }
         parent.push_back(section);
@@ -104,10 +106,10 @@ namespace mortise
       hint = " (it is a subsection)";
     else if (!elsewhere.empty())
       hint = " (it belongs into: " + join_names(elsewhere) + ")";
-    throw InputError("unknown parameter \"" + assignment.name + "\"" +
+    throw InputError("unknown parameter " + in_quotes(assignment.name) +
                      (assignment.sections.empty() ?
                         "" :
-                        " in \"" + path_of(assignment.sections) + "\"") +
+                        " in " + in_quotes(path_of(assignment.sections))) +
                      " (" + assignment.origin + ")" + hint +
                      "; allowed here: " + join_names(here));
   }
@@ -122,7 +124,7 @@ namespace mortise
     if (!p.pattern->match(assignment.value))
       throw InputError(
         path_of(p.sections) + (p.sections.empty() ? "" : "/") + p.name + " (" +
-        assignment.origin + "): got \"" + assignment.value + "\"" +
+        assignment.origin + "): got " + in_quotes(assignment.value) +
         did_you_mean(assignment.value, p.choices) + "; allowed: " + p.allowed);
     for (const std::string &section : p.sections)
       handler.enter_subsection(section);

@@ -1,8 +1,8 @@
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/formulation.h>
 #include <mortise/problem/parameter_reader.h>
 #include <mortise/problem/parameters.h>
@@ -201,7 +201,7 @@ namespace mortise
         "three expressions \"ux; uy; uz\", thick sphere, or thick cylinder";
       if (text.find_first_of(";,") == std::string::npos || text == "exact")
         throw InputError(
-          reader.where("Displacement") + ": got \"" + text + "\"" +
+          reader.where("Displacement") + ": got " + in_quotes(text) +
           did_you_mean(text, {"thick sphere", "thick cylinder"}) +
           "; allowed: " + allowed);
       return {ExactKind::expressions,
@@ -223,23 +223,23 @@ namespace mortise
         {
           if (std::find(field_names().begin(), field_names().end(), field) ==
               field_names().end())
-            throw InputError(reader.where("Fields") + ": got \"" + field +
-                             "\"" + did_you_mean(field, field_names()) +
-                             "; allowed: a list of " +
-                             join_names(field_names()));
+            throw InputError(
+              reader.where("Fields") + ": got " + in_quotes(field) +
+              did_you_mean(field, field_names()) + "; allowed: a list of " +
+              join_names(field_names()));
           output.fields.push_back(field);
         }
       const std::string point = "\"name: body: x, y, z; ...\"";
       for (const Strings &record : reader.records("Points", 3, point))
         {
-          if (!dealii::Patterns::List(dealii::Patterns::Double(), 3, 3)
-                 .match(record[2]))
+          const auto x = split_outside_parentheses(record[2], ',');
+          if (x.size() != 3)
             reader.fail("Points", record[2], point);
-          const auto x = dealii::Utilities::string_to_double(
-            split_outside_parentheses(record[2], ','));
           output.points.push_back({record[0],
                                    reader.body_index("Points", record[1]),
-                                   {x[0], x[1], x[2]}});
+                                   {reader.number_of("Points", x[0]),
+                                    reader.number_of("Points", x[1]),
+                                    reader.number_of("Points", x[2])}});
         }
       for (const Strings &record :
            reader.records("Resultants", 3, "\"name: body: boundary; ...\""))
@@ -266,11 +266,14 @@ namespace mortise
         {
           if (name.empty() || name.find_first_of(":;/") != std::string::npos)
             throw InputError(
-              origin + "got the name \"" + name +
-              "\"; a name is not empty and contains none of : ; /");
+              origin + "got the name " + in_quotes(name) +
+              "; a name is not empty and contains none of : ; /");
+          if (name.size() > 100)
+            throw InputError(origin + "got the name " + in_quotes(name) +
+                             "; a name has at most 100 characters");
           if (std::count(names.begin(), names.end(), name) > 1)
-            throw InputError(origin + "the name \"" + name +
-                             "\" stands there twice; each name only once");
+            throw InputError(origin + "the name " + in_quotes(name) +
+                             " stands there twice; each name only once");
         }
       return names;
     }

@@ -1,7 +1,10 @@
+#include "parameters_validate.h"
+
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-#include <mortise/base/expression.h>
+#include <mortise/base/numbers.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/formulation.h>
 #include <mortise/problem/parameter_file.h>
 #include <mortise/problem/parameters.h>
@@ -11,32 +14,11 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
-#include <sstream>
 
 namespace mortise
 {
   namespace
   {
-    template <typename T>
-    std::string
-    text_of(const T &value)
-    {
-      std::ostringstream stream;
-      stream << value;
-      return stream.str();
-    }
-
-    template <typename T>
-    [[noreturn]] void
-    fail(const Parameters  &parameters,
-         const std::string &path,
-         const T           &got,
-         const std::string &allowed)
-    {
-      throw InputError(parameters.where(path) + ": got " + text_of(got) +
-                       "; allowed: " + allowed);
-    }
-
     void
     check_degree(const Parameters  &parameters,
                  const std::string &path,
@@ -59,101 +41,19 @@ namespace mortise
       if (material.law != "linear elastic")
         fail(parameters,
              section + "/Law",
-             "\"" + material.law + "\"",
+             in_quotes(material.law),
              "linear elastic");
-      if (!(E > 0.) || !std::isfinite(E))
+      if (!(E >= smallest_modulus && E <= largest_modulus))
         fail(parameters,
              section + "/Young modulus",
              E,
-             "a positive number (force per area)");
+             "a positive number (force per area) " + allowed_moduli());
       if (!(nu > -1. && nu <= 0.5))
         fail(
           parameters,
           section + "/Poisson ratio",
           nu,
           "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)");
-    }
-
-    /// Components are "-" (if @p may_be_free), "exact" (if there is an exact solution), or parse.
-    void
-    check_components(const Parameters  &parameters,
-                     const std::string &path,
-                     const Components  &components,
-                     const bool         may_be_free)
-    {
-      static const char *const names[] = {"x", "y", "z"};
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          const std::string &text = components[d];
-          if (text == "-" && may_be_free)
-            continue;
-          if (text == "-" || text.empty())
-            fail(parameters,
-                 path,
-                 "\"" + text + "\" as component " + names[d],
-                 may_be_free ?
-                   "an expression in x, y, z, - (free), or exact" :
-                   "an expression in x, y, z, or exact; 0 for nothing");
-          if (text != "exact")
-            Expression(text,
-                       parameters.where(path) + ", component " + names[d]);
-          else if (parameters.exact_solution.kind == ExactKind::none)
-            fail(parameters,
-                 path,
-                 "\"exact\" in a scene without an exact solution",
-                 "an expression, or give Exact solution/Displacement");
-        }
-    }
-
-    void
-    check_boundary(const Parameters         &parameters,
-                   const std::string        &section,
-                   const BoundaryParameters &boundary)
-    {
-      if (boundary.traction)
-        check_components(parameters,
-                         section + "/Traction",
-                         *boundary.traction,
-                         false);
-      if (boundary.displacement)
-        check_components(parameters,
-                         section + "/Displacement",
-                         *boundary.displacement,
-                         true);
-      if (!boundary.pressure)
-        return;
-      const std::string path = section + "/Pressure";
-      if (*boundary.pressure != "exact")
-        Expression(*boundary.pressure, parameters.where(path));
-      else if (parameters.exact_solution.kind == ExactKind::none)
-        fail(parameters,
-             path,
-             "\"exact\" in a scene without an exact solution",
-             "an expression, or give Exact solution/Displacement");
-    }
-
-    /// The named exact solutions take the pressures of the scene: they cannot
-    /// give them.
-    void
-    check_loads_of_named_solution(const Parameters         &parameters,
-                                  const std::string        &section,
-                                  const std::string        &name,
-                                  const BoundaryParameters &boundary)
-    {
-      const ExactKind kind = parameters.exact_solution.kind;
-      if ((kind != ExactKind::thick_sphere &&
-           kind != ExactKind::thick_cylinder) ||
-          (name != "inside" && name != "outside"))
-        return;
-      const char *const allowed =
-        "a constant Pressure, from which the named exact solution follows";
-      if (boundary.pressure == "exact")
-        fail(parameters, section + "/Pressure", "\"exact\"", allowed);
-      if (boundary.traction)
-        fail(parameters,
-             section + "/Traction",
-             "\"" + joined(*boundary.traction) + "\"",
-             allowed);
     }
 
     void
@@ -165,26 +65,14 @@ namespace mortise
         check_degree(parameters, section + "/Degree by region", degree);
       validate(body.mesh, parameters.where(section + "/Mesh"));
       check_material(parameters, section + "/Material", body.material);
-      if (body.body_force)
-        check_components(parameters,
-                         section + "/Body force",
-                         *body.body_force,
-                         false);
-      for (const auto &[name, boundary] : body.boundaries)
-        {
-          check_boundary(parameters, section + "/Boundary " + name, boundary);
-          check_loads_of_named_solution(parameters,
-                                        section + "/Boundary " + name,
-                                        name,
-                                        boundary);
-        }
+      check_fields(parameters, body);
     }
 
     std::string
     side_text(const Parameters &parameters, const SideParameters &side)
     {
-      return "\"" + parameters.bodies[side.body].name + ": " + side.boundary +
-             "\"";
+      return in_quotes(parameters.bodies[side.body].name + ": " +
+                       side.boundary);
     }
 
     bool
@@ -205,11 +93,11 @@ namespace mortise
              side_text(parameters, master) + ", which is the slave",
              "another boundary than the slave's, of the same or another body");
       if (interface.law != "tie")
-        fail(parameters, section + "/Law", "\"" + interface.law + "\"", "tie");
+        fail(parameters, section + "/Law", in_quotes(interface.law), "tie");
       if (interface.multiplier != "standard")
         fail(parameters,
              section + "/Multiplier",
-             "\"" + interface.multiplier + "\"",
+             in_quotes(interface.multiplier),
              "standard");
       if (!(interface.search_distance > 0.) ||
           !std::isfinite(interface.search_distance))
@@ -249,22 +137,6 @@ namespace mortise
     }
 
     void
-    check_exact_solution(const Parameters &parameters)
-    {
-      const ExactSolutionParameters &exact = parameters.exact_solution;
-      const std::string              path  = "Exact solution/Displacement";
-      if (exact.kind != ExactKind::expressions)
-        return;
-      for (const std::string &text : exact.displacement)
-        if (text == "exact" || text == "-" || text.empty())
-          fail(parameters,
-               path,
-               "\"" + text + "\"",
-               "an expression in x, y, z");
-      check_components(parameters, path, exact.displacement, false);
-    }
-
-    void
     check_output(const OutputParameters &output, const Parameters &parameters)
     {
       std::set<std::string> names;
@@ -273,7 +145,7 @@ namespace mortise
         if (!names.insert(name).second)
           fail(parameters,
                "Output/" + parameter,
-               "the name \"" + name + "\" a second time",
+               "the name " + in_quotes(name) + " a second time",
                "names that differ among Points and Resultants");
       };
       for (const PointQuantity &point : output.points)
@@ -292,16 +164,19 @@ namespace mortise
       if (error)
         return error.message();
       while (!fs::exists(fs::symlink_status(existing, error)) &&
+             error != std::errc::filename_too_long &&
              existing.has_relative_path())
         existing = existing.parent_path();
-      const std::string quoted = "\"" + existing.string() + "\" ";
+      if (error == std::errc::filename_too_long)
+        return error.message();
+      const std::string it = file_in_quotes(existing.string()) + " ";
       if (fs::is_symlink(existing, error) && !fs::exists(existing, error))
-        return quoted + "is a link to nothing";
+        return it + "is a link to nothing";
       if (!fs::is_directory(existing, error))
-        return quoted + (error ? "cannot be looked at: " + error.message() :
-                                 "is not a directory");
+        return it + (error ? "cannot be looked at: " + error.message() :
+                             "is not a directory");
       if (access(existing.c_str(), W_OK | X_OK) != 0)
-        return quoted + "is not writable by this user";
+        return it + "is not writable by this user";
       return {};
     }
   } // namespace
@@ -337,9 +212,9 @@ namespace mortise
       message = why_not_writable(parameters.output.directory);
     if (!message.empty())
       message =
-        parameters.where("Output/Directory") + ": got \"" +
-        parameters.output.directory +
-        "\", where nothing can be written: " + message +
+        parameters.where("Output/Directory") + ": got " +
+        file_in_quotes(parameters.output.directory) +
+        ", where nothing can be written: " + message +
         "; allowed: a directory that exists or can be made, and written";
     throw_if_any(message, comm);
   }
@@ -353,10 +228,11 @@ namespace mortise
                            const std::string &name) {
       const auto &existing = names[body];
       if (std::find(existing.begin(), existing.end(), name) == existing.end())
-        throw InputError(
-          parameters.where(path) + ": body \"" + parameters.bodies[body].name +
-          "\" has no boundary \"" + name + "\"" + did_you_mean(name, existing) +
-          "; its boundaries are: " + join_names(existing));
+        throw InputError(parameters.where(path) + ": body " +
+                         in_quotes(parameters.bodies[body].name) +
+                         " has no boundary " + in_quotes(name) +
+                         did_you_mean(name, existing) +
+                         "; its boundaries are: " + join_names(existing));
     };
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       for (const auto &[name, boundary] : parameters.bodies[b].boundaries)

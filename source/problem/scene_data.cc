@@ -1,8 +1,10 @@
 #include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
 #include <mortise/problem/formulation.h>
 #include <mortise/problem/scene_data.h>
 
 #include <algorithm>
+#include <array>
 
 namespace mortise
 {
@@ -38,8 +40,8 @@ namespace mortise
       const Expression pressure(*found->second.pressure, where);
       if (!pressure.is_constant())
         throw InputError(
-          where + ": got \"" + *found->second.pressure +
-          "\"; the named exact solutions need a constant pressure");
+          where + ": got " + in_quotes(*found->second.pressure) +
+          "; the named exact solutions need a constant pressure");
       return pressure.value(Point<dim>());
     }
 
@@ -56,10 +58,10 @@ namespace mortise
         {
           const MeshParameters &mesh = parameters.bodies[b].mesh;
           if (mesh.source != source || mesh.extent.size() < 2)
-            throw InputError(where +
-                             ": the named solution needs bodies of Source = " +
-                             source + "; body '" + parameters.bodies[b].name +
-                             "' has Source = " + mesh.source);
+            throw InputError(
+              where + ": the named solution needs bodies of Source = " +
+              source + "; body " + in_quotes(parameters.bodies[b].name, '\'') +
+              " has Source = " + mesh.source);
           layers.push_back(
             {mesh.extent[0], mesh.extent[1], materials(parameters)[b]});
           if (mesh.extent[0] < layers[innermost].inner_radius)
@@ -83,18 +85,20 @@ namespace mortise
         : exact(text == "exact")
         , free(text == "-")
         , expression(exact || free ? "0" : text, where)
+        , what(where + ": " + in_quotes(text))
       {}
 
-      bool       exact, free;
-      Expression expression;
+      bool        exact, free;
+      Expression  expression;
+      std::string what; ///< for messages
     };
 
     std::vector<Component>
     components(const Components &texts, const std::string &where)
     {
       std::vector<Component> result;
-      for (const std::string &text : texts)
-        result.emplace_back(text, where);
+      for (unsigned int c = 0; c < dim; ++c)
+        result.emplace_back(texts[c], where + ", component " + "xyz"[c]);
       return result;
     }
 
@@ -113,12 +117,13 @@ namespace mortise
     Tensor<1, dim>
     evaluate(const std::vector<Component> &field,
              const Point<dim>             &x,
+             FieldChecks                  &checks,
              const ExactValue             &exact_value)
     {
       Tensor<1, dim> value;
       for (unsigned int c = 0; c < dim; ++c)
         if (!field[c].exact)
-          value[c] = field[c].expression.value(x);
+          value[c] = checks(field[c].expression.value(x), x, field[c].what);
       if (field[0].exact || field[1].exact || field[2].exact)
         {
           const Tensor<1, dim> exact = exact_value(x);
@@ -128,38 +133,104 @@ namespace mortise
         }
       return value;
     }
+
+    /// An exact solution whose values are watched.
+    class CheckedSolution : public ExactSolution
+    {
+    public:
+      CheckedSolution(const std::shared_ptr<const ExactSolution> &exact,
+                      const std::string                          &where,
+                      FieldChecks                                &checks)
+        : exact(exact)
+        , checks(checks)
+      {
+        for (unsigned int i = 0; i < what.size(); ++i)
+          what[i] = where + ": the exact " + quantities[i];
+      }
+
+      Tensor<1, 3>
+      displacement(const Point<3> &p, const unsigned int body) const override
+      {
+        return checks.all(exact->displacement(p, body), p, what[0]);
+      }
+
+      Tensor<2, 3>
+      gradient(const Point<3> &p, const unsigned int body) const override
+      {
+        return checks.all(exact->gradient(p, body), p, what[1]);
+      }
+
+      SymmetricTensor<2, 3>
+      stress(const Point<3> &p, const unsigned int body) const override
+      {
+        return checks.all(exact->stress(p, body), p, what[2]);
+      }
+
+      Tensor<1, 3>
+      body_force(const Point<3> &p, const unsigned int body) const override
+      {
+        return checks.all(exact->body_force(p, body), p, what[3]);
+      }
+
+      unsigned int
+      n_bodies() const override
+      {
+        return exact->n_bodies();
+      }
+
+    private:
+      static constexpr std::array<const char *, 4> quantities = {
+        {"displacement's norm",
+         "norm of the displacement's gradient",
+         "stress's norm",
+         "body force's norm"}};
+
+      const std::shared_ptr<const ExactSolution> exact;
+      FieldChecks                               &checks;
+      std::array<std::string, 4>                 what;
+    };
+
+    std::shared_ptr<const ExactSolution>
+    make_expression_solution(const Parameters  &parameters,
+                             const std::string &where)
+    {
+      const auto &pressure = parameters.exact_solution.pressure;
+      return std::make_shared<ExpressionSolution>(
+        VectorExpression(joined(parameters.exact_solution.displacement), where),
+        materials(parameters),
+        Expression(pressure.value_or("0"),
+                   parameters.where("Exact solution/Pressure")));
+    }
   } // namespace
 
   std::shared_ptr<const ExactSolution>
-  make_exact_solution(const Parameters &parameters)
+  make_exact_solution(const Parameters &parameters, FieldChecks &checks)
   {
-    switch (parameters.exact_solution.kind)
+    const ExactSolutionParameters &given = parameters.exact_solution;
+    std::string where = parameters.where("Exact solution/Displacement");
+    std::shared_ptr<const ExactSolution> solution;
+    if (given.kind == ExactKind::thick_sphere)
+      solution = make_lame_solution(parameters, LameSolution::Geometry::sphere);
+    else if (given.kind == ExactKind::thick_cylinder)
+      solution =
+        make_lame_solution(parameters, LameSolution::Geometry::cylinder);
+    else if (given.kind == ExactKind::expressions)
       {
-        case ExactKind::thick_sphere:
-          return make_lame_solution(parameters, LameSolution::Geometry::sphere);
-        case ExactKind::thick_cylinder:
-          return make_lame_solution(parameters,
-                                    LameSolution::Geometry::cylinder);
-        case ExactKind::expressions:
-          {
-            const Components &text     = parameters.exact_solution.displacement;
-            const auto       &pressure = parameters.exact_solution.pressure;
-            return std::make_shared<ExpressionSolution>(
-              VectorExpression(text[0] + ";" + text[1] + ";" + text[2],
-                               parameters.where("Exact solution/Displacement")),
-              materials(parameters),
-              Expression(pressure.value_or("0"),
-                         parameters.where("Exact solution/Pressure")));
-          }
-        default:
-          return {};
+        solution = make_expression_solution(parameters, where);
+        where += ": in " + in_quotes(joined(given.displacement));
+        if (given.pressure)
+          where += " with Pressure = " + in_quotes(*given.pressure);
       }
+    else
+      return {};
+    return std::make_shared<CheckedSolution>(solution, where, checks);
   }
 
   Loads
   make_loads(const Parameters                           &parameters,
              const Body                                 &body,
-             const std::shared_ptr<const ExactSolution> &exact)
+             const std::shared_ptr<const ExactSolution> &exact,
+             FieldChecks                                &checks)
   {
     const BodyParameters &given = parameters.bodies[body.index];
     const std::string     path  = "Body " + body.name;
@@ -170,8 +241,8 @@ namespace mortise
         const auto field =
           components(*given.body_force, parameters.where(path + "/Body force"));
         if (!all_zero(field))
-          loads.body_force = [=](const Point<dim> &x) {
-            return evaluate(field, x, [&](const Point<dim> &p) {
+          loads.body_force = [=, &checks](const Point<dim> &x) {
+            return evaluate(field, x, checks, [&](const Point<dim> &p) {
               return exact->body_force(p, b);
             });
           };
@@ -193,8 +264,10 @@ namespace mortise
                          parameters.where(where + "/Traction"));
             if (!all_zero(field))
               loads.tractions.push_back(
-                {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
-                   return evaluate(field, x, [&](const Point<dim> &p) {
+                {id,
+                 [=, &checks](const Point<dim>     &x,
+                              const Tensor<1, dim> &normal) {
+                   return evaluate(field, x, checks, [&](const Point<dim> &p) {
                      return exact->stress(p, b) * normal;
                    });
                  }});
@@ -206,11 +279,14 @@ namespace mortise
              }});
         else if (boundary.pressure)
           {
-            const Expression pressure(*boundary.pressure,
-                                      parameters.where(where + "/Pressure"));
+            const std::string here = parameters.where(where + "/Pressure");
+            const Expression  pressure(*boundary.pressure, here);
+            const std::string what =
+              here + ": " + in_quotes(*boundary.pressure);
             loads.tractions.push_back(
-              {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
-                 return -pressure.value(x) * normal;
+              {id,
+               [=, &checks](const Point<dim> &x, const Tensor<1, dim> &normal) {
+                 return -checks(pressure.value(x), x, what) * normal;
                }});
           }
       }
@@ -220,7 +296,8 @@ namespace mortise
   std::vector<DirichletCondition>
   make_dirichlet(const Parameters                           &parameters,
                  const Body                                 &body,
-                 const std::shared_ptr<const ExactSolution> &exact)
+                 const std::shared_ptr<const ExactSolution> &exact,
+                 FieldChecks                                &checks)
   {
     const unsigned int              b = body.index;
     std::vector<DirichletCondition> conditions;
@@ -238,8 +315,8 @@ namespace mortise
           for (unsigned int c = 0; c < dim; ++c)
             condition.fixed[c] = !field[c].free;
           if (!all_zero(field))
-            condition.value = [=](const Point<dim> &x) {
-              return evaluate(field, x, [&](const Point<dim> &p) {
+            condition.value = [=, &checks](const Point<dim> &x) {
+              return evaluate(field, x, checks, [&](const Point<dim> &p) {
                 return exact->displacement(p, b);
               });
             };

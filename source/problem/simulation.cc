@@ -3,10 +3,12 @@
 #include <mortise/base/error.h>
 #include <mortise/body/boundary_faces.h>
 #include <mortise/problem/formulation.h>
+#include <mortise/problem/result_checks.h>
 #include <mortise/problem/scene_data.h>
 #include <mortise/problem/simulation.h>
 #include <mortise/solvers/solve.h>
 
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -32,7 +34,7 @@ namespace mortise
   Simulation::create_meshes()
   {
     auto stage = log.stage(timers, "mesh");
-    exact      = make_exact_solution(parameters);
+    exact      = make_exact_solution(parameters, field_checks);
     std::vector<std::vector<std::string>> boundary_names;
     std::vector<std::set<std::string>>    interfaces(parameters.bodies.size());
     for (const InterfaceParameters &interface : parameters.interfaces)
@@ -77,7 +79,8 @@ namespace mortise
                       RunLog::number(given.material.poisson_ratio) +
                       " and degree 1 is too stiff (it locks); a higher Degree "
                       "gives it a pressure of its own");
-        dirichlet.push_back(make_dirichlet(parameters, *body, exact));
+        dirichlet.push_back(
+          make_dirichlet(parameters, *body, exact, field_checks));
       }
     for (const auto &body : bodies)
       {
@@ -287,7 +290,7 @@ namespace mortise
     auto               stage = log.stage(timers, "bulk");
     std::vector<Loads> loads;
     for (const auto &body : bodies)
-      loads.push_back(make_loads(parameters, *body, exact));
+      loads.push_back(make_loads(parameters, *body, exact, field_checks));
     system.max_degree = 1;
     for (const auto &body : bodies)
       system.max_degree = std::max(system.max_degree, body->max_degree());
@@ -332,7 +335,18 @@ namespace mortise
         log.line("    iteration " + std::to_string(iteration) + "  residual " +
                  RunLog::number(residual));
       };
+    // The answer is linear in the loads: loads of size 1, scaled without
+    // rounding, keep the single precision of preconditioners from its limits.
+    const double scale = load_scale(system);
+    scale_loads(system, scale);
     solve_report = mortise::solve(system, options, solution);
+    scale_loads(system, 1. / scale);
+    for (Vector *part :
+         {&solution.displacement, &solution.pressure, &solution.multiplier})
+      if (part->size() > 0)
+        *part *= 1. / scale;
+    if (!std::isfinite(solve_report.relative_residual))
+      solve_report.converged = false;
 
     timers.add("solver_setup", solve_report.setup_seconds);
     timers.add("solve", solve_report.solve_seconds);

@@ -1,7 +1,9 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/error.h>
 #include <mortise/output/fields.h>
 #include <mortise/problem/guard.h>
+#include <mortise/problem/result_checks.h>
 #include <mortise/problem/simulation.h>
 
 #include <algorithm>
@@ -16,14 +18,25 @@ namespace mortise
   {
     create_meshes();
     create_spaces();
+    field_checks.throw_if_any(comm);
     if (!interfaces.empty())
       {
         find_pairs();
         couple();
       }
     assemble();
+    field_checks.throw_if_any(comm);
+    check_loads(system);
     solve();
     postprocess();
+    field_checks.throw_if_any(comm);
+    const std::string not_finite = first_not_finite(summary.steps.back());
+    if (solve_report.converged && !not_finite.empty())
+      throw InputError(
+        "The solver converged, but the numbers of the scene are too large or too small to "
+        "compute with: " +
+        not_finite + "; allowed: results whose squares are finite. Check " +
+        "lengths, moduli, loads and exact solution, or take other units");
   }
 
   void

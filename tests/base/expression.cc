@@ -211,9 +211,23 @@ namespace
             0.);
   }
 
+  /// A sum of many terms is parsed and evaluated like a short one.
+  void
+  check_long_sum()
+  {
+    std::string text = "0*x";
+    for (unsigned int i = 0; i < 300000; ++i)
+      text += "+x";
+    const double error =
+      std::fabs(Expression(text).value(Point<3>(0.5, 0., 0.)) - 150000.);
+    verdict(error == 0., "a sum of 300000 terms: exact", error, 0.);
+  }
+
   /// @p text must be refused with a message that holds all of @p fragments.
   void
-  refused(const std::string &text, const std::vector<std::string> &fragments)
+  refused(const std::string              &text,
+          const std::vector<std::string> &fragments,
+          const std::size_t               longest = 100000)
   {
     std::string message = "(no error)";
     bool        good    = false;
@@ -227,7 +241,7 @@ namespace
     catch (const InputError &error)
       {
         message = error.what();
-        good    = message.find("Body force: ") == 0;
+        good = message.find("Body force: ") == 0 && message.size() <= longest;
         for (const std::string &fragment : fragments)
           good = good && message.find(fragment) != std::string::npos;
       }
@@ -242,6 +256,7 @@ main()
 {
   check_derivatives();
   check_numbers();
+  check_long_sum();
   refused("", {"character 1", "the end", "a number, a name"});
   refused("2*", {"character 3", "the end"});
   refused("sin(x", {"character 6", "')' is expected"});
@@ -257,6 +272,12 @@ main()
   refused("x + 1/0", {"character 6", "not a finite number"});
   refused("log(-1)", {"character 1", "not a finite number"});
   refused("1e999", {"character 1"});
+  for (const std::string number : {"1e-400", "1e-310"})
+    refused("x + " + number,
+            {"character 5 ('" + number + "')", "too small", "2.2e-308"});
+  refused("x + " + std::string(100000, 'y'),
+          {"\"x + yyyy", "yyy...\" (100004 characters)", "'yyyy"},
+          1000);
   refused("x = 2", {"character 3"});
   refused("sin x", {"character 5", "'(' is expected"});
   refused(std::string(300, '(') + "x", {"200 deep"});

@@ -2,6 +2,7 @@
 // wrong and where, the same on all ranks, and nothing hangs or crashes.
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "gmsh_meshes.h"
@@ -139,10 +140,104 @@ Physical Surface("low") = {5};
             broken(mesh_text(corners, {face, "2 2 8 1 1 2 3", first})),
             "in 2 physical surfaces, 7, 8");
     refused(report,
+            "a face in two surfaces, each in a physical one",
+            broken(mesh_text(corners, {face, "2 2 8 2 1 2 3", first})),
+            "has a face at (0, 0, 0) in 2 physical surfaces, 7, 8");
+    refused(report,
             "a file of third order",
             file_parameters(
               write_mesh("broken_third", cube, {4.1, false, 3, false, false})),
             "cells of order 3");
+  }
+
+  /// Elements of physical surfaces that are no faces.
+  void
+  check_surface_elements(Report &report)
+  {
+    const std::vector<std::string> corners = {
+      "0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1", "1 1 0", "1 0 1", "0 1 1"};
+    const std::string face = "2 2 7 1 1 2 3", one = "4 2 1 1 1 2 3 4",
+                      other = "4 2 2 2 2 3 4 5";
+    refused(
+      report,
+      "a surface element through the body",
+      broken(mesh_text(corners, {face, "2 2 7 1 1 2 5", one, other})),
+      "has the surface element 2 in the physical surface '7' between the "
+      "nodes 1, 2, 5, the first at (0, 0, 0), which is a face of no cell");
+    refused(report,
+            "a quadrilateral on a face that is a triangle",
+            broken(mesh_text(corners, {face, "3 2 7 1 1 2 3 4", one, other})),
+            "between the nodes 1, 2, 3, 4");
+    const std::string cube    = "5 2 1 1 1 2 6 3 4 7 5 8";
+    const std::string quad    = "3 2 7 1 1 2 6 3";
+    const std::string between = "2 2 8 2 2 3 4"; // of two volumes
+    refused(report,
+            "a triangle on a face that is a quadrilateral",
+            broken(mesh_text(corners, {quad, "2 2 7 1 1 2 6", cube})),
+            "between the nodes 1, 2, 6");
+    refused(report,
+            "a quadrilateral through a cell",
+            broken(mesh_text(corners, {quad, "3 2 7 1 1 2 5 8", cube})),
+            "between the nodes 1, 2, 5, 8");
+    report(message_of(broken(mesh_text(corners, {quad, cube}))) == "(no error)",
+           "a quadrilateral that is a face");
+    report(message_of(broken(
+             mesh_text(corners, {face, between, one, other}))) == "(no error)",
+           "a named surface within the body");
+    // volume 2 bridges the dent between the two cells of volume 1
+    mortise::MeshParameters q = broken(mesh_text(
+      {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"},
+      {face, "2 2 8 2 1 2 5", one, "4 2 1 1 2 3 4 5", "4 2 2 2 1 3 2 5"}));
+    q.part                    = "1";
+    report(message_of(q) == "(no error)",
+           "a surface of another part between vertices of this one",
+           message_of(q));
+  }
+
+  /// Coordinates that are no numbers, or too large or too small.
+  void
+  check_coordinates(Report &report)
+  {
+    const std::vector<std::string> cells = {"2 2 7 1 1 2 3", "4 2 1 1 1 2 3 4"};
+    for (const std::string x : {"inf", "-inf", "nan", "1e999"})
+      refused(report,
+              "the coordinate " + x,
+              broken(
+                mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 " + x + " 1"}, cells)),
+              "of node 4, which is not finite");
+    refused(report,
+            "the coordinate 1e200",
+            broken(mesh_text({"0 0 0", "1 0 0", "0 1 1e200", "0 0 1"}, cells)),
+            "has the coordinate z = 1e+200 of node 3; allowed: finite numbers "
+            "of at most 1e+15");
+    refused(report,
+            "a body of size 1e-50",
+            broken(mesh_text({"0 0 0", "1e-50 0 0", "0 1e-50 0", "0 0 1e-50"},
+                             cells)),
+            "has a body of size 1.73205e-50, from (0, 0, 0) to");
+    for (const bool binary : {false, true})
+      {
+        // the last of the coordinates 1 in the file becomes an infinite one
+        std::string whole = read_file(
+          write_mesh("broken_infinite", cube, {4.1, binary, 1, false, false}));
+        const double one = 1., no = std::numeric_limits<double>::infinity();
+        const std::string from =
+          binary ? std::string(reinterpret_cast<const char *>(&one), 8) :
+                   "\n1 1 1\n";
+        const std::string to =
+          binary ? std::string(reinterpret_cast<const char *>(&no), 8) :
+                   "\n1 1 inf\n";
+        const std::size_t nodes = whole.find("$Nodes"),
+                          end   = whole.find("$EndNodes");
+        const std::size_t at    = whole.rfind(from, end);
+        report(at != std::string::npos && at > nodes, "a node at (1, 1, 1)");
+        whole.replace(at, from.size(), to);
+        refused(report,
+                std::string("an infinite coordinate in version 4.1, ") +
+                  (binary ? "binary" : "ASCII"),
+                broken(whole),
+                "= inf of node ");
+      }
   }
 
   void
@@ -258,7 +353,13 @@ main(int argc, char **argv)
         check_cut_files(report, format);
         check_garbage(report, format);
       }
+  refused(report,
+          "a file whose name is too long",
+          file_parameters(std::string(100000, 'q') + ".msh"),
+          "qqq.msh' cannot be read");
   check_cells(report);
+  check_surface_elements(report);
+  check_coordinates(report);
   check_folded_cell(report);
   check_coinciding_nodes(report);
   check_geometries(report);

@@ -58,6 +58,16 @@ main(int argc, char *argv[])
             {solve,
              "Body inner/Material/Young modulus=1e10",
              "Body outer/Material/Young modulus=1e10"});
+      for (const std::string load : {"1e90", "1e-90"})
+        check(method + ", loads " + load,
+              {solve, "Body inner/Boundary inside/Pressure=" + load});
+      for (const std::string sign : {"", "-"})
+        check(method + ", lengths 1e" + sign + "14, moduli 1e" + sign + "19",
+              {solve,
+               "Body inner/Mesh/Extent=1e" + sign + "14, 1.5e" + sign + "14",
+               "Body outer/Mesh/Extent=1.5e" + sign + "14, 2e" + sign + "14",
+               "Body inner/Material/Young modulus=1e" + sign + "19",
+               "Body outer/Material/Young modulus=1e" + sign + "19"});
     }
   const std::string far = "/Mesh/Translate=3000, -2000, 1000";
   check("moved by 1e3 diameters", {"Body inner" + far, "Body outer" + far});

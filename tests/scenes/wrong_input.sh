@@ -66,6 +66,22 @@ expect 2 'rigid motions.*translation along z' "$scene" --set 'Body lower/Boundar
 expect 2 'missing.prm' "$work/missing.prm"
 echo plain >"$work/file"
 expect 2 'file' "$scene" --set "Output/Directory=$work/file/results"
+# numbers that are none, where they are evaluated; see tests/problem/parameters_numbers.cc for the file
+zmax='Body upper/Boundary zmax'
+expect 2 'component z: "1/x" is inf at (0, ' "$scene" --set "$zmax/Displacement=-, -, 1/x"
+expect 2 'component z: "sqrt(-1-x^2)" is nan at (' "$scene" --set "$zmax/Displacement=-, -, sqrt(-1-x^2)"
+expect 2 'component y: "sqrt(-1-x^2)" is nan at (' "$scene" --set "$zmax/Traction=0; sqrt(-1-x^2); 0"
+expect 2 'component x: "1/(x-x)" is inf at (' "$scene" --set 'Body upper/Body force=1/(x-x); 0; 0'
+expect 2 'Pressure.*: "log(-x)" is nan at (' "$scene" --set "$zmax/Pressure=log(-x)"
+expect 2 'in "1/x; 0; 0": the exact displacement.s norm is inf at (0, ' "$scene" \
+  --set 'Exact solution/Displacement=1/x; 0; 0'
+expect 2 'in "x^4/(x-x); 0; 0": the exact ' "$scene" --set 'Exact solution/Displacement=x^4/(x-x); 0; 0'
+expect 2 'with Pressure = "1/(x-x)": the exact ' "$scene" \
+  --set 'Body lower/Material/Poisson ratio=0.5' --set 'Body lower/Degree=2' --set 'Exact solution/Pressure=1/(x-x)'
+expect 2 '"1e160\*y" is .*e+1.* at (' "$scene" --set "$zmax/Traction=0; 0; 1e160*y"
+expect 2 'forces at nodes of at most .*e-20.; allowed: 0, or from 1e-100' "$scene" \
+  --set 'Exact solution/Displacement=0; 0; 0' --set "$zmax/Traction=0; 0; 1e-200*x"
+expect 2 'got "1e-400", which is too small' "$scene" --set 'Solver/Tolerance=1e-400'
 expect 3 'did not converge' "$scene" --set 'Solver/Method=condensed' --set 'Solver/Max iterations=1'
 
 echo "$passed passed, $failed failed"

@@ -40,7 +40,8 @@ namespace mortise
   std::string
   nearest_name(const std::string &got, const std::vector<std::string> &allowed);
 
-  /// Entries joined as "a, b, c"; "(none)" for an empty list.
+  /// Entries joined as "a, b, c", the first of them if they are many; "(none)"
+  /// for an empty list.
   std::string
   join_names(const std::vector<std::string> &names);
 } // namespace mortise

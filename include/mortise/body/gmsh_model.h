@@ -29,6 +29,8 @@ namespace mortise
     /// Indices into GmshModel::nodes, reference.size() for each element.
     std::vector<unsigned int> nodes;
 
+    std::vector<std::size_t> tags; ///< numbers of the elements in the file
+
     std::size_t
     size() const
     {
@@ -39,6 +41,7 @@ namespace mortise
   struct GmshModel
   {
     std::vector<dealii::Point<3>> nodes;
+    std::vector<std::size_t>      node_tags;     ///< their numbers in the file
     std::vector<GmshElements>     elements;      ///< surfaces, then volumes
     std::map<int, std::string>    surface_names; ///< of physical groups by tag;
     std::map<int, std::string>    volume_names;  ///< unnamed: the tag as text

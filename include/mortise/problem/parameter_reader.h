@@ -35,6 +35,11 @@ namespace mortise
     std::string
     text(const std::string &name) const;
 
+    /// @p text as a number of the parameter @p name; fails if it is none that a
+    /// run can use.
+    double
+    number_of(const std::string &name, const std::string &text) const;
+
     double
     number(const std::string &name) const;
 

@@ -3,6 +3,7 @@
 // boundaries.
 #pragma once
 
+#include <mortise/base/field_checks.h>
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/material/exact_solution.h>
 #include <mortise/operators/scene_system.h>
@@ -20,19 +21,22 @@ namespace mortise
   /// The exact solution that the parameters name; null if there is none. The
   /// named ones take radii, pressures, materials and the motion of the scene
   /// from the bodies. Throws InputError if the bodies are not what the named
-  /// solution is for.
+  /// solution is for. What these three return tells @p checks, which must live
+  /// on, of values that no run can use.
   std::shared_ptr<const ExactSolution>
-  make_exact_solution(const Parameters &parameters);
+  make_exact_solution(const Parameters &parameters, FieldChecks &checks);
 
-  /// Body force and tractions of body @p b. The result refers to @p exact.
+  /// Body force and tractions of @p body. The result refers to @p exact.
   Loads
   make_loads(const Parameters                           &parameters,
              const Body                                 &body,
-             const std::shared_ptr<const ExactSolution> &exact);
+             const std::shared_ptr<const ExactSolution> &exact,
+             FieldChecks                                &checks);
 
-  /// Prescribed displacements of body @p b.
+  /// Prescribed displacements of @p body.
   std::vector<DirichletCondition>
   make_dirichlet(const Parameters                           &parameters,
                  const Body                                 &body,
-                 const std::shared_ptr<const ExactSolution> &exact);
+                 const std::shared_ptr<const ExactSolution> &exact,
+                 FieldChecks                                &checks);
 } // namespace mortise

@@ -3,6 +3,7 @@
 // itself.
 #pragma once
 
+#include <mortise/base/field_checks.h>
 #include <mortise/base/run_log.h>
 #include <mortise/base/timers.h>
 #include <mortise/material/exact_solution.h>
@@ -105,6 +106,7 @@ namespace mortise
     Summary                          summary;
     std::vector<InterfaceParameters> interfaces; ///< sides as they are solved
 
+    FieldChecks field_checks; ///< of what is given
     std::shared_ptr<const ExactSolution>           exact;
     Bodies                                         bodies;
     std::vector<std::vector<DirichletCondition>>   dirichlet;

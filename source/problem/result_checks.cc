@@ -1,0 +1,125 @@
+#include <mortise/base/error.h>
+#include <mortise/base/numbers.h>
+#include <mortise/problem/result_checks.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace mortise
+{
+  namespace
+  {
+    double
+    largest_load(const BlockSystem &system)
+    {
+      double largest = system.load.linfty_norm();
+      if (system.mixed())
+        largest = std::max(largest, system.pressure_load.linfty_norm());
+      if (system.owned_multiplier.size() > 0)
+        largest = std::max(largest, system.coupling_rhs.linfty_norm());
+      return largest;
+    }
+  } // namespace
+
+  void
+  scale_loads(BlockSystem &system, const double factor)
+  {
+    system.load *= factor;
+    if (system.mixed())
+      system.pressure_load *= factor;
+    if (system.owned_multiplier.size() > 0)
+      system.coupling_rhs *= factor;
+  }
+
+  double
+  load_scale(const BlockSystem &system)
+  {
+    const double largest  = largest_load(system);
+    int          exponent = 0;
+    std::frexp(largest, &exponent);
+    return largest > 0. ? std::ldexp(1., -exponent) : 1.;
+  }
+
+  void
+  check_loads(const BlockSystem &system)
+  {
+    const double largest = largest_load(system);
+    if (largest == 0. ||
+        (largest >= smallest_number && largest <= largest_number))
+      return;
+    std::ostringstream message;
+    message
+      << "The loads and prescribed displacements make forces at nodes of at most "
+      << largest << "; allowed: " << allowed_numbers()
+      << ". Check them, or take other units";
+    throw InputError(message.str());
+  }
+
+  namespace
+  {
+    /// Keeps the first number that is not finite.
+    class Finder
+    {
+    public:
+      void
+      look(const std::string &name, const double value)
+      {
+        if (!found.empty() || std::isfinite(value))
+          return;
+        std::ostringstream text;
+        text << name << " = ";
+        if (std::isnan(value)) // without the sign that some write
+          text << "nan";
+        else
+          text << value;
+        found = text.str();
+      }
+
+      void
+      look(const std::string &name, const std::optional<double> &value)
+      {
+        if (value)
+          look(name, *value);
+      }
+
+      std::string found;
+    };
+  } // namespace
+
+  std::string
+  first_not_finite(const StepSummary &step)
+  {
+    Finder finder;
+    if (step.solver)
+      finder.look("relative residual", step.solver->relative_residual);
+    for (const InterfaceSummary &interface : step.interfaces)
+      {
+        const std::string name = "interface " + interface.name + ", ";
+        finder.look(name + "slave area", interface.slave_area);
+        finder.look(name + "covered area", interface.covered_area);
+        finder.look(name + "coverage error",
+                    interface.worst_face_coverage_error);
+        finder.look(name + "partition of unity error",
+                    interface.partition_of_unity_error);
+        finder.look(name + "force residual", interface.force_residual);
+        finder.look(name + "moment residual", interface.moment_residual);
+        finder.look(name + "linear completeness error",
+                    interface.linear_completeness_error);
+      }
+    if (step.errors)
+      {
+        finder.look("L2 error of the displacement",
+                    step.errors->displacement_l2);
+        finder.look("H1 error of the displacement",
+                    step.errors->displacement_h1);
+        finder.look("error in energy", step.errors->energy);
+        finder.look("L2 error of the pressure", step.errors->pressure_l2);
+        finder.look("L2 error of the multiplier", step.errors->multiplier_l2);
+      }
+    for (const auto &[name, values] : step.quantities)
+      for (const double value : values)
+        finder.look(name, value);
+    return finder.found;
+  }
+} // namespace mortise

@@ -1,0 +1,122 @@
+// Proves that a result that is no number is found whatever it belongs to, and
+// that loads are scaled without rounding, refused where they cannot be.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/problem/result_checks.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "parameter_checks.h"
+
+using namespace parameter_checks;
+
+namespace
+{
+  /// Results of every kind, all of them numbers.
+  StepSummary
+  results()
+  {
+    StepSummary step;
+    step.solver.emplace();
+    step.errors = ErrorSummary{1., 1., 1., 1., 1.};
+    step.interfaces.resize(2);
+    for (InterfaceSummary &interface : step.interfaces)
+      {
+        interface.name                      = "glue";
+        interface.worst_face_coverage_error = 0.;
+        interface.partition_of_unity_error  = 0.;
+        interface.force_residual            = 0.;
+        interface.moment_residual           = 0.;
+        interface.linear_completeness_error = 0.;
+      }
+    step.quantities = {{"tip", {1., 2., 3.}}, {"outside", {}}};
+    return step;
+  }
+
+  void
+  test_results()
+  {
+    verdict(first_not_finite(results()).empty() &&
+              first_not_finite(StepSummary()).empty(),
+            "results that are numbers, or absent");
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
+    const std::vector<
+      std::pair<std::string, std::function<void(StepSummary &)>>>
+      places = {{"relative residual = nan",
+                 [&](StepSummary &s) { s.solver->relative_residual = nan; }},
+                {"L2 error of the displacement = inf",
+                 [&](StepSummary &s) { s.errors->displacement_l2 = inf; }},
+                {"H1 error of the displacement = inf",
+                 [&](StepSummary &s) { s.errors->displacement_h1 = inf; }},
+                {"error in energy = inf",
+                 [&](StepSummary &s) { s.errors->energy = inf; }},
+                {"L2 error of the pressure = inf",
+                 [&](StepSummary &s) { s.errors->pressure_l2 = inf; }},
+                {"L2 error of the multiplier = nan",
+                 [&](StepSummary &s) { s.errors->multiplier_l2 = nan; }},
+                {"interface glue, slave area = inf",
+                 [&](StepSummary &s) { s.interfaces[1].slave_area = inf; }},
+                {"interface glue, force residual = nan",
+                 [&](StepSummary &s) { s.interfaces[1].force_residual = nan; }},
+                {"interface glue, moment residual = nan",
+                 [&](StepSummary &s) {
+                   s.interfaces[1].moment_residual = nan;
+                 }},
+                {"tip = -inf",
+                 [&](StepSummary &s) { s.quantities[0].second[2] = -inf; }}};
+    for (const auto &[expected, spoil] : places)
+      {
+        StepSummary step = results();
+        spoil(step);
+        verdict(first_not_finite(step) == expected,
+                expected,
+                first_not_finite(step));
+      }
+  }
+
+  void
+  test_loads()
+  {
+    BlockSystem system;
+    system.communicator       = MPI_COMM_SELF;
+    system.owned_displacement = dealii::complete_index_set(3);
+    system.load = Vector(system.owned_displacement, MPI_COMM_SELF);
+    verdict(load_scale(system) == 1. &&
+              message_of([&] { check_loads(system); }) == "(no error)",
+            "no loads");
+    for (const double load : {1e-100, 0.1, 1., 3e7, 1e100})
+      {
+        system.load[1]     = -load;
+        const double scale = load_scale(system);
+        scale_loads(system, scale);
+        const double scaled = -system.load[1];
+        scale_loads(system, 1. / scale);
+        std::ostringstream what;
+        what << "a load of " << load;
+        verdict(scaled >= 0.5 && scaled <= 1. && system.load[1] == -load &&
+                  message_of([&] { check_loads(system); }) == "(no error)",
+                what.str());
+      }
+    for (const double load : {1e-101, 1e-320, 1e101, 1e200})
+      {
+        system.load[1] = load;
+        std::ostringstream what;
+        what << "at most " << load << "; allowed: 0, or from 1e-100 to 1e+100";
+        check_message(what.str(),
+                      [&] { check_loads(system); },
+                      {what.str(), "other units"});
+      }
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  test_results();
+  test_loads();
+  return 0;
+}
