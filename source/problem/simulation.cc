@@ -6,9 +6,10 @@
 #include <mortise/problem/result_checks.h>
 #include <mortise/problem/scene_data.h>
 #include <mortise/problem/simulation.h>
-#include <mortise/solvers/solve.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <sstream>
 
@@ -36,10 +37,11 @@ namespace mortise
     auto stage = log.stage(timers, "mesh");
     exact      = make_exact_solution(parameters, field_checks);
     std::vector<std::vector<std::string>> boundary_names;
-    std::vector<std::set<std::string>>    interfaces(parameters.bodies.size());
+    std::vector<std::set<std::string>>    tied_boundaries(
+      parameters.bodies.size());
     for (const InterfaceParameters &interface : parameters.interfaces)
       for (const SideParameters &side : {interface.slave, interface.master})
-        interfaces[side.body].insert(side.boundary);
+        tied_boundaries[side.body].insert(side.boundary);
     std::uint64_t n_cells = 0;
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
       {
@@ -49,7 +51,7 @@ namespace mortise
         bodies[b]->create_mesh(body.mesh,
                                comm,
                                "Body " + body.name + ", Mesh",
-                               interfaces[b]);
+                               tied_boundaries[b]);
         n_cells += bodies[b]->triangulation().n_global_active_cells();
         boundary_names.emplace_back();
         for (const auto &name : bodies[b]->mesh.names.boundaries)
@@ -133,14 +135,20 @@ namespace mortise
     std::vector<const Body *> scene;
     for (const auto &body : bodies)
       scene.push_back(body.get());
-    const bool nodal = NodalSpace::represents(scene);
-    method           = choose_solver(parameters.solver.method,
+    const bool nodal   = NodalSpace::represents(scene);
+    double     softest = std::numeric_limits<double>::max(), stiffest = 0.;
+    for (const auto &body : bodies)
+      {
+        softest  = std::min(softest, body->material.young_modulus);
+        stiffest = std::max(stiffest, body->material.young_modulus);
+      }
+    choice = choose_solver(parameters.solver.method,
                            {displacement_field.numbering.size(),
-                                      max_degree,
-                                      nodal,
-                                      system.mixed()})
-               .method;
-    if (nodal && method != SolverMethod::direct)
+                            max_degree,
+                            nodal,
+                            system.mixed(),
+                            stiffest / softest});
+    if (nodal && choice.method != SolverMethod::direct)
       {
         nodal_spaces = make_nodal_spaces(scene, comm);
         system.owned_displacement =
@@ -177,8 +185,8 @@ namespace mortise
   void
   Simulation::integrate(Coupling &coupling) const
   {
-    coupling.local =
-      integrate_coupling(*coupling.interface, method != SolverMethod::direct);
+    coupling.local = integrate_coupling(*coupling.interface,
+                                        choice.method != SolverMethod::direct);
   }
 
   void
@@ -274,7 +282,7 @@ namespace mortise
                                 partition,
                                 system.coupling,
                                 system.coupling_rhs);
-            if (method != SolverMethod::direct && nodal_spaces.empty())
+            if (choice.method != SolverMethod::direct && nodal_spaces.empty())
               assemble_jump_penalty(couplings, partition, system.jump_penalty);
           }
         for (unsigned int i = 0; i < couplings.size(); ++i)
@@ -325,7 +333,7 @@ namespace mortise
     if (system.mixed())
       find_free_pressures();
     SolverOptions options;
-    options.method         = parameters.solver.method;
+    options.method         = choice.method;
     options.tolerance      = parameters.solver.tolerance;
     options.max_iterations = parameters.solver.max_iterations;
     options.max_gathered   = parameters.solver.max_gathered;
@@ -340,6 +348,8 @@ namespace mortise
     const double scale = load_scale(system);
     scale_loads(system, scale);
     solve_report = mortise::solve(system, options, solution);
+    if (!choice.reason.empty())
+      solve_report.preconditioner += "; " + choice.reason;
     scale_loads(system, 1. / scale);
     for (Vector *part :
          {&solution.displacement, &solution.pressure, &solution.multiplier})
@@ -358,7 +368,11 @@ namespace mortise
                    solve_report.method + ", " +
                      std::to_string(solve_report.iterations) +
                      " iterations, residual " +
-                     RunLog::number(solve_report.relative_residual));
+                     RunLog::number(solve_report.relative_residual) +
+                     (solve_report.converged && solve_report.attainable > 0. ?
+                        ", all that rounding leaves with moduli and sizes "
+                        "this different" :
+                        ""));
     SolverSummary result;
     result.method               = solve_report.method;
     result.preconditioner       = solve_report.preconditioner;

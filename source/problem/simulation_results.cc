@@ -53,7 +53,11 @@ namespace mortise
         RunLog::number(solve_report.relative_residual) + " after " +
         std::to_string(solve_report.iterations) + " iterations, allowed is " +
         RunLog::number(parameters.solver.tolerance) +
-        ". Results so far are written. Raise Solver/Max iterations or try another Solver/Method");
+        ". Results so far are written. " +
+        (solve_report.relative_residual <= solve_report.attainable ?
+           "Rounding leaves up to " + RunLog::number(solve_report.attainable) +
+             " whatever the method, since moduli or sizes differ too much" :
+           "Raise Solver/Max iterations or try another Solver/Method"));
   }
 
   void

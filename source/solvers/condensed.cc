@@ -52,20 +52,20 @@ namespace mortise
         for (bool first = true; report.iterations < options.max_iterations;
              first      = false)
           {
-            if (projector != nullptr)
+                 if (projector != nullptr)
               projector->project_residual(r, lambda);
             const double reached = residual.norm(all_r);
-            if (!first)
+                 if (!first)
               {
-                report.history.push_back(reached / rhs_norm);
-                if (options.monitor)
+                     report.history.push_back(reached / rhs_norm);
+                     if (options.monitor)
                   options.monitor(report.iterations, reached / rhs_norm);
               }
-            preconditioner.vmult(z, r);
-            if (projector != nullptr)
+                 preconditioner.vmult(z, r);
+                 if (projector != nullptr)
               projector->project(z);
             const double rho = r * z; // estimates the energy of the error
-            if (reached <= target &&
+                 if (reached <= target &&
                 rho <= std::pow(options.energy_tolerance(), 2) *
                          std::max(energy_of_u, residual.least_energy()))
               break;
@@ -74,7 +74,7 @@ namespace mortise
             else
               d.sadd(rho / rho_old, 1., z);
             rho_old = rho;
-            if (!step(u, rho))
+                 if (!step(u, rho))
               break;
             ++report.iterations;
           }
@@ -82,6 +82,24 @@ namespace mortise
           projector->satisfy(u, system.coupling_rhs);
         residual.compute(x, all_r);
         return residual.norm(all_r);
+      }
+
+      /// Note what run() reached.
+      void
+      judge(const SystemSolution &x, SolveReport &report)
+      {
+        const auto relative_error = [&] {
+          SystemSolution rest = all_r;
+          if (projector != nullptr)
+            projector->project_residual(rest.displacement, rest.multiplier);
+          preconditioner.vmult(z, rest.displacement);
+          if (projector != nullptr)
+            projector->project(z);
+          system.apply_stiffness(kd, x.displacement);
+          return std::sqrt((z * rest.displacement) / (kd * x.displacement));
+        };
+        residual.compute(x, all_r);
+        residual.judge(x, all_r, options.tolerance, relative_error, report);
       }
 
     private:
@@ -143,9 +161,9 @@ namespace mortise
                                  report.iterations < options.max_iterations;
          ++start)
       reached = solver.run(x, report);
-    report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
-    report.converged         = reached <= target;
-    report.solve_seconds     = timer.wall_time();
+    solver.judge(x, report);
+    report.converged &= valid;
+    report.solve_seconds = timer.wall_time();
     return report;
   }
 } // namespace mortise

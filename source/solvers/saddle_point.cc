@@ -303,9 +303,18 @@ namespace mortise
             energy_tolerance * energy_tolerance *
               std::max(energy_of(solution, system), residual.least_energy());
       }
-    report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
-    report.converged         = reached <= target;
-    report.solve_seconds     = timer.wall_time();
+    residual.compute(solution, all_r);
+    residual.judge(
+      solution,
+      all_r,
+      options.tolerance,
+      [&] {
+        return std::sqrt(preconditioner.error_energy(all_r) /
+                         energy_of(solution, system));
+      },
+      report);
+    report.converged &= preconditioner.is_valid();
+    report.solve_seconds = timer.wall_time();
     return report;
   }
 } // namespace mortise

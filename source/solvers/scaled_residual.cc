@@ -113,4 +113,55 @@ namespace mortise
       square += weighted_square(r.multiplier, *weight_lambda);
     return std::sqrt(Utilities::MPI::sum(square, system.communicator));
   }
+
+  double
+  ScaledResidual::magnitude(const SystemSolution &x) const
+  {
+    SystemSolution sizes = system.zero_solution();
+    const auto     abs   = [](Vector &to, const Vector &from) {
+      for (unsigned int i = 0; i < to.locally_owned_size(); ++i)
+        to.begin()[i] = std::fabs(from.begin()[i]);
+    };
+    if (interface_present)
+      {
+        Epetra_CrsMatrix B(system.coupling.trilinos_matrix());
+        for (int i = 0; i < B.NumMyRows(); ++i)
+          {
+            const EpetraRow row(B, i);
+            for (int k = 0; k < row.length; ++k)
+              row.values[k] = std::fabs(row.values[k]);
+          }
+        Vector u(x.displacement), lambda(x.multiplier);
+        abs(u, x.displacement);
+        abs(lambda, x.multiplier);
+        Epetra_Vector to_u      = epetra_view(sizes.displacement),
+                      to_lambda = epetra_view(sizes.multiplier);
+        B.Multiply(true, epetra_view(lambda), to_u);
+        B.Multiply(false, epetra_view(u), to_lambda);
+      }
+    for (unsigned int i = 0; i < x.displacement.locally_owned_size(); ++i)
+      sizes.displacement.begin()[i] +=
+        std::fabs(system.load.begin()[i]) +
+        std::fabs(x.displacement.begin()[i]) / (*weight_u)[i];
+    return norm(sizes);
+  }
+
+  void
+  ScaledResidual::judge(const SystemSolution          &x,
+                        const SystemSolution          &r,
+                        const double                   tolerance,
+                        const std::function<double()> &relative_error,
+                        SolveReport                   &report) const
+  {
+    // a step of rounding for each of the terms of a row
+    constexpr double rounding = 1e-14, largest_error = 1e-6;
+    const double     reached = norm(r);
+    report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
+    report.converged         = reached <= tolerance * rhs_norm;
+    if (report.converged || !std::isfinite(reached))
+      return;
+    const double least = rounding * magnitude(x);
+    report.attainable  = least / rhs_norm;
+    report.converged   = reached <= least && relative_error() <= largest_error;
+  }
 } // namespace mortise

@@ -40,7 +40,11 @@ namespace
       const unsigned int max_iterations = 500)
   {
     SolverOptions options;
-    options.method         = solver_method_from_name(method);
+    options.method =
+      choose_solver(
+        solver_method_from_name(method),
+        {system.owned_displacement.size(), system.max_degree, false, false, 1.})
+        .method;
     options.tolerance      = 1e-11;
     options.max_iterations = max_iterations;
     Result         result;

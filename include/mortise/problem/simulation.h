@@ -13,8 +13,8 @@
 #include <mortise/output/summary.h>
 #include <mortise/problem/parameters.h>
 #include <mortise/problem/rigid_motions.h>
+#include <mortise/solvers/solve.h>
 #include <mortise/solvers/solve_report.h>
-#include <mortise/solvers/solver_options.h>
 
 #include <memory>
 #include <vector>
@@ -106,14 +106,14 @@ namespace mortise
     Summary                          summary;
     std::vector<InterfaceParameters> interfaces; ///< sides as they are solved
 
-    FieldChecks field_checks; ///< of what is given
-    std::shared_ptr<const ExactSolution>           exact;
-    Bodies                                         bodies;
+    FieldChecks                          field_checks; ///< of what is given
+    std::shared_ptr<const ExactSolution> exact;
+    Bodies                               bodies;
     std::vector<std::vector<DirichletCondition>>   dirichlet;
     std::vector<dealii::AffineConstraints<double>> body_constraints;
     SceneField                                     displacement_field;
     SceneField                                     pressure_field;
-    SolverMethod method = SolverMethod::automatic; ///< chosen
+    SolverChoice choice{SolverMethod::automatic, ""};
     NodalSpaces  nodal_spaces; ///< for a bulk without a matrix, until assembly
     std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
     std::vector<Coupling>       couplings;

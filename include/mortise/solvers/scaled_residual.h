@@ -3,7 +3,9 @@
 
 #include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
+#include <mortise/solvers/solve_report.h>
 
+#include <functional>
 #include <memory>
 
 namespace mortise
@@ -29,6 +31,19 @@ namespace mortise
     /// The norm above. Collective.
     double
     norm(const SystemSolution &r) const;
+
+    /// Note the residual @p r of @p x in @p report, and whether that is
+    /// converged: the relative residual is at most @p tolerance; or all that is
+    /// left of it is rounding, its backward error against |K| |u| + |B|^T
+    /// |lambda| + |f| (Oettli, Prager 1964), and @p relative_error, an estimate
+    /// of the error in the energy norm over that of the solution, is below
+    /// 1e-6. Collective.
+    void
+    judge(const SystemSolution          &x,
+          const SystemSolution          &r,
+          double                         tolerance,
+          const std::function<double()> &relative_error,
+          SolveReport                   &report) const;
 
     /// Norm of the right hand side, for relative residuals.
     double
@@ -70,6 +85,11 @@ namespace mortise
     }
 
   private:
+    /// The norm of the terms that compute() adds up, with diag(K) for |K|: a
+    /// lower bound.
+    double
+    magnitude(const SystemSolution &x) const;
+
     const BlockSystem             &system;
     std::unique_ptr<Epetra_Vector> weight_u, weight_p, weight_lambda;
     double                         rhs_norm          = 0.;

@@ -1,4 +1,4 @@
-// The one entrance to the solvers: chooses a method and runs it. It never
+// The one entrance to the solvers: chooses a method, and runs one. It never
 // changes the system.
 #pragma once
 
@@ -19,8 +19,9 @@ namespace mortise
   {
     dealii::types::global_dof_index n_displacements;
     unsigned int                    max_degree;
-    bool                            nodal; ///< has a NodalSpace
-    bool                            mixed; ///< has pressures
+    bool                            nodal;    ///< has a NodalSpace
+    bool                            mixed;    ///< has pressures
+    double                          contrast; ///< largest ratio of moduli
   };
 
   /// The method for a scene: what was asked for, else the one that measurements
@@ -28,7 +29,8 @@ namespace mortise
   SolverChoice
   choose_solver(SolverMethod asked, const SceneSize &scene);
 
-  /// Solve the system by the method asked for. Collective.
+  /// Solve the system by the method of the options, which is never automatic.
+  /// Collective.
   ///
   /// @p x is (re)initialised to the owned ranges of the system; what it held is
   /// not used.
