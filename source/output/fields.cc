@@ -11,6 +11,7 @@
 #include <mortise/output/cell_values.h>
 #include <mortise/output/fields.h>
 #include <mortise/output/simplex_fields.h>
+#include <mortise/output/vtu_file.h>
 
 #include <cmath>
 #include <set>
@@ -314,8 +315,9 @@ namespace mortise
                          degree,
                          body.mesh.curved ? DataOut<dim>::curved_inner_cells :
                                             DataOut<dim>::no_curved_cells);
-    output.write_vtu_in_parallel(directory + "/" + body.name + ".vtu",
-                                 body.triangulation().get_communicator());
+    write_vtu_file(output,
+                   directory + "/" + body.name + ".vtu",
+                   body.triangulation().get_communicator());
   }
 
   void
@@ -353,8 +355,8 @@ namespace mortise
     add(gap, "gap");
     add(displacement, "displacement");
     output.build_patches(*slave_body.mapping, degree);
-    output.write_vtu_in_parallel(directory + "/" + coupling.interface->name() +
-                                   ".vtu",
-                                 slave_body.triangulation().get_communicator());
+    write_vtu_file(output,
+                   directory + "/" + coupling.interface->name() + ".vtu",
+                   slave_body.triangulation().get_communicator());
   }
 } // namespace mortise

@@ -1,6 +1,7 @@
 #include <mortise/output/cell_values.h>
 #include <mortise/output/patches.h>
 #include <mortise/output/simplex_fields.h>
+#include <mortise/output/vtu_file.h>
 
 #include <cmath>
 
@@ -89,8 +90,9 @@ namespace mortise
                           body.material,
                           selection));
         }
-    output.write_vtu_in_parallel(directory + "/" + body.name + ".vtu",
-                                 body.triangulation().get_communicator());
+    write_vtu_file(output,
+                   directory + "/" + body.name + ".vtu",
+                   body.triangulation().get_communicator());
   }
 
   namespace
@@ -151,7 +153,8 @@ namespace mortise
           }
         output.add_simplex(positions, data);
       }
-    output.write_vtu_in_parallel(file.directory + "/" + file.name + ".vtu",
-                                 file.comm);
+    write_vtu_file(output,
+                   file.directory + "/" + file.name + ".vtu",
+                   file.comm);
   }
 } // namespace mortise

@@ -2,15 +2,9 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <mortise/base/error.h>
 #include <mortise/output/summary.h>
+#include <mortise/output/whole_file.h>
 #include <nlohmann/json.hpp>
-
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <system_error>
 
 #ifndef MORTISE_VERSION
 #  define MORTISE_VERSION "unknown"
@@ -135,33 +129,6 @@ namespace mortise
         json["quantities"][name] = values;
       return json;
     }
-
-    /// Write @p text to a new file beside @p file, then give it its name; a message if that fails.
-    std::string
-    write_whole(const std::string &text, const std::filesystem::path &file)
-    {
-      const std::string what = "cannot write \"" + file.string() + "\": ";
-      std::error_code   error;
-      if (file.has_parent_path())
-        std::filesystem::create_directories(file.parent_path(), error);
-      if (error)
-        return what + error.message() + "; choose another Output/Directory";
-      std::filesystem::path unfinished = file;
-      unfinished += ".unfinished";
-      errno = 0;
-      std::ofstream stream(unfinished, std::ios::binary | std::ios::trunc);
-      stream << text;
-      stream.close();
-      if (!stream)
-        {
-          const int reason = errno == 0 ? EIO : errno;
-          std::filesystem::remove(unfinished, error);
-          return what + std::strerror(reason) +
-                 "; choose another Output/Directory";
-        }
-      std::filesystem::rename(unfinished, file, error);
-      return error ? what + error.message() : "";
-    }
   } // namespace
 
   std::string
@@ -197,10 +164,9 @@ namespace mortise
                 const std::string &directory,
                 const MPI_Comm     comm)
   {
-    std::string message;
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      message = write_whole(to_json(summary),
-                            std::filesystem::path(directory) / "summary.json");
-    throw_if_any(message, comm);
+    const bool writes = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    write_whole_file(directory + "/summary.json",
+                     writes ? to_json(summary) : "",
+                     comm);
   }
 } // namespace mortise

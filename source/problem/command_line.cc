@@ -136,8 +136,10 @@ namespace mortise
            "run.\n"
            "Exit codes: 0 done; 1 a defect of the program; 2 the input is wrong (the message says "
            "what,\n"
-           "where, what was got, what is allowed); 3 not converged (what was reached is "
-           "written).\n";
+           "where, what was got, what is allowed) or results cannot be written; 3 not converged "
+           "(what was\n"
+           "reached is written); 4 the machine is too small (memory); 128 + signal when "
+           "interrupted.\n";
   }
 
   std::string

@@ -1,8 +1,12 @@
+#include <deal.II/base/exceptions.h>
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/interruption.h>
 #include <mortise/problem/guard.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <new>
 #include <ostream>
@@ -30,6 +34,20 @@ namespace mortise
     }
 
     Outcome
+    out_of_memory()
+    {
+      std::string message =
+        "error: not enough memory for this scene. Take fewer cells, a lower degree, or more "
+        "machines.";
+      rlimit limit;
+      if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+        message += " Each process may have " +
+                   std::to_string(limit.rlim_cur >> 20) +
+                   " MiB (ulimit -v): perhaps this limit can be raised.";
+      return {ExitCode::memory, message};
+    }
+
+    Outcome
     run(const std::function<void()> &program)
     {
       try
@@ -48,10 +66,11 @@ namespace mortise
         }
       catch (const std::bad_alloc &)
         {
-          return {
-            ExitCode::defect,
-            "error: not enough memory for this scene. Take fewer cells, a lower degree, or "
-            "more machines."};
+          return out_of_memory();
+        }
+      catch (const dealii::StandardExceptions::ExcOutOfMemory &)
+        {
+          return out_of_memory();
         }
       catch (const std::exception &e)
         {
@@ -106,10 +125,15 @@ namespace mortise
     MPI_Request   request;
     MPI_Iallreduce(&mine, &reporter, 1, MPI_INT, MPI_MIN, agreement, &request);
 
-    // The lower rank speaks first, so that only one does.
-    if (!wait_for(request, failed ? patience + 0.5 * me : -1.))
+    // The lower rank speaks first, so that only one does; those on other
+    // machines don't know of each other.
+    const double own_patience =
+      (outcome.code == ExitCode::memory ? std::min(1., patience) : patience) +
+      0.5 * std::min(me, 4);
+    if (!wait_for(request, failed ? own_patience : -1.))
       {
-        error << outcome.message << std::endl;
+        if (interruption::speak_first())
+          error << outcome.message << std::endl;
         MPI_Abort(comm, static_cast<int>(outcome.code));
       }
     int code = static_cast<int>(outcome.code);

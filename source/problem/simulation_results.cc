@@ -1,17 +1,35 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/interruption.h>
 #include <mortise/output/fields.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/result_checks.h>
 #include <mortise/problem/simulation.h>
 
 #include <algorithm>
-#include <filesystem>
 
 namespace mortise
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// What cannot be written is put to @p unwritten: the rest can still be.
+    template <typename Write>
+    void
+    try_output(std::vector<OutputError> &unwritten, const Write &write)
+    {
+      try
+        {
+          write();
+        }
+      catch (const OutputError &error)
+        {
+          unwritten.push_back(error);
+        }
+    }
+  } // namespace
 
   void
   Simulation::compute()
@@ -44,8 +62,11 @@ namespace mortise
   {
     check_output_directory(parameters, comm);
     compute();
-    write_results();
+    const auto unwritten = write_results();
     print_table();
+    if (!unwritten.empty())
+      throw InputError(describe(unwritten) + "\n" +
+                       interruption::what_is_complete());
     if (!solve_report.converged)
       throw ConvergenceError(
         "The solver (" + solve_report.method +
@@ -151,45 +172,57 @@ namespace mortise
       }
   }
 
-  void
+  std::vector<OutputError>
+  Simulation::write_fields()
+  {
+    std::vector<OutputError> unwritten;
+    const std::string       &directory = parameters.output.directory;
+    const auto              &fields    = parameters.output.fields;
+    if (fields.empty())
+      return unwritten;
+    auto       stage = log.stage(timers, "output");
+    const auto wants = [&](const std::string &name) {
+      return std::find(fields.begin(), fields.end(), name) != fields.end();
+    };
+    const FieldSelection selection{wants("displacement"),
+                                   wants("stress"),
+                                   wants("pressure"),
+                                   wants("traction")};
+    if (selection.displacement || selection.stress || selection.pressure)
+      for (const auto &body : bodies)
+        try_output(unwritten, [&] {
+          write_body_fields(*body,
+                            solutions[body->index],
+                            selection,
+                            directory);
+        });
+    if (selection.traction)
+      for (unsigned int i = 0; i < couplings.size(); ++i)
+        {
+          const unsigned int slave = interfaces[i].slave.body;
+          try_output(unwritten, [&] {
+            write_interface_fields(*bodies[slave],
+                                   couplings[i],
+                                   tractions[i],
+                                   solutions[slave].displacement,
+                                   directory);
+          });
+        }
+    if (unwritten.empty())
+      stage.details(directory);
+    return unwritten;
+  }
+
+  std::vector<OutputError>
   Simulation::write_results()
   {
-    const std::string &directory = parameters.output.directory;
-    const auto        &fields    = parameters.output.fields;
-    if (!fields.empty())
-      {
-        auto       stage = log.stage(timers, "output");
-        const auto wants = [&](const std::string &name) {
-          return std::find(fields.begin(), fields.end(), name) != fields.end();
-        };
-        const FieldSelection selection{wants("displacement"),
-                                       wants("stress"),
-                                       wants("pressure"),
-                                       wants("traction")};
-        if (Utilities::MPI::this_mpi_process(comm) == 0)
-          std::filesystem::create_directories(directory);
-        MPI_Barrier(comm);
-        if (selection.displacement || selection.stress || selection.pressure)
-          for (const auto &body : bodies)
-            write_body_fields(*body,
-                              solutions[body->index],
-                              selection,
-                              directory);
-        if (selection.traction)
-          for (unsigned int i = 0; i < couplings.size(); ++i)
-            {
-              const unsigned int slave = interfaces[i].slave.body;
-              write_interface_fields(*bodies[slave],
-                                     couplings[i],
-                                     tractions[i],
-                                     solutions[slave].displacement,
-                                     directory);
-            }
-        stage.details(directory);
-      }
+    auto unwritten  = write_fields();
     summary.timings = timers.walls(comm);
     summary.memory  = peak_memory_mib(comm);
-    write_summary(summary, directory, comm);
+    try_output(unwritten, [&] {
+      write_summary(summary, parameters.output.directory, comm);
+    });
+    return unwritten;
   }
 
   void

@@ -2,6 +2,8 @@
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/sparse_factorization.h>
 
+#include <new>
+
 namespace mortise
 {
   namespace
@@ -101,11 +103,23 @@ namespace mortise
               values = std::vector<double>();
               return !negative_pivots;
             }
+          throw_if_out_of_memory();
           if (mumps.infog[0] != workspace_too_small &&
               mumps.infog[0] != estimate_too_small)
             return false;
         }
       return false;
+    }
+
+    /// Numbers of the manual: an allocation of reals or integers in the
+    /// analysis, of anything, of what MUMPS was allowed. All ranks have the
+    /// same.
+    void
+    throw_if_out_of_memory() const
+    {
+      for (const int allocation_failed : {-5, -7, -13, -19})
+        if (mumps.infog[0] == allocation_failed)
+          throw std::bad_alloc();
     }
 
     MPI_Comm               comm;
@@ -142,6 +156,7 @@ namespace mortise
                 0,
                 data.comm);
     const bool solved = data.run(solve_with_the_factors);
+    data.throw_if_out_of_memory();
     MPI_Scatterv(data.on_first.data(),
                  data.counts.data(),
                  data.starts.data(),

@@ -84,7 +84,20 @@ main(int argc, char *argv[])
   check(
     "an exception of any type: 1", [] { throw 1; }, 1, "unknown type");
   check(
-    "out of memory: 1", [] { throw std::bad_alloc(); }, 1, "not enough memory");
+    "out of memory: 4", [] { throw std::bad_alloc(); }, 4, "not enough memory");
+  check(
+    "out of memory in deal.II: 4",
+    [] { AssertThrow(false, dealii::ExcOutOfMemory(1)); },
+    4,
+    "not enough memory");
+  check(
+    "out of memory on the last rank, nothing collective after it: 4",
+    [&] {
+      if (me == n - 1)
+        throw std::bad_alloc();
+    },
+    4,
+    "not enough memory");
   check(
     "a parameter file that is missing: 2",
     [] { read_parameters("missing_file.prm", {}, MPI_COMM_WORLD); },

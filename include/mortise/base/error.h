@@ -17,9 +17,10 @@ namespace mortise
     defect  = 1, ///< a defect of the program
     invalid_input =
       2, ///< the input is wrong: what, where, what was got, what is allowed
-    not_converged =
-      3 ///< the solver did not reach its tolerance; what was reached is written
-  };
+    not_converged = 3, ///< the solver did not reach its tolerance; what was
+                       ///< reached is written
+    memory = 4         ///< the machine is too small
+  };                   // 128 + signal when interrupted
 
   /// Wrong input. The message says what is wrong, where, what was got and what
   /// is allowed.

@@ -121,9 +121,7 @@ namespace mortise
   std::string
   to_json(const Summary &summary);
 
-  /// Write @p directory /summary.json, made with its parents if need be. A reader sees the old
-  /// file or the new one, never half of it. Rank 0 writes. Throws InputError on
-  /// every rank if the directory cannot be made or written. Collective.
+  /// Write @p directory /summary.json as write_whole_file() does. Collective.
   void
   write_summary(const Summary     &summary,
                 const std::string &directory,

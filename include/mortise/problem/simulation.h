@@ -11,6 +11,7 @@
 #include <mortise/operators/scene_system.h>
 #include <mortise/output/errors.h>
 #include <mortise/output/summary.h>
+#include <mortise/output/whole_file.h>
 #include <mortise/problem/parameters.h>
 #include <mortise/problem/rigid_motions.h>
 #include <mortise/solvers/solve.h>
@@ -37,7 +38,8 @@ namespace mortise
     compute();
 
     /// The whole run. Collective; throws InputError before anything is written,
-    /// and ConvergenceError after what was reached has been written.
+    /// or after all that can be written has been if something could not be, and
+    /// ConvergenceError after what was reached has been written.
     void
     run();
 
@@ -88,7 +90,10 @@ namespace mortise
     solve();
     void
     postprocess();
-    void
+    /// Write what was asked for; what could not be written.
+    std::vector<OutputError>
+    write_fields();
+    std::vector<OutputError>
     write_results();
     void
     summarise_interface(unsigned int i);

@@ -25,7 +25,8 @@ namespace mortise
     /// Factorise @p matrix, whose rows must be numbered 0, 1, ... over the
     /// ranks; it is not referred to afterwards. Ranks without rows take part.
     /// False when the factorisation broke down, or when a matrix that was to be
-    /// positive definite is not. Collective.
+    /// positive definite is not; throws std::bad_alloc on every rank when
+    /// memory ran out on one. Collective.
     bool
     initialize(const Epetra_CrsMatrix &matrix, MatrixKind kind);
 

@@ -1,0 +1,41 @@
+// What happens when a signal ends the program: one message that names the
+// complete files, no unfinished file, exit code 128 + signal. It never returns
+// to what was running.
+#pragma once
+
+#include <mpi.h>
+
+#include <string>
+
+// A handler of signals gets no argument: this is the one place of the program
+// whose state is static.
+namespace mortise::interruption
+{
+  /// From now on SIGINT, SIGTERM and their like end the program as said above.
+  /// Of several ranks the first speaks: all of them are ended together. Call
+  /// it before anything else and again when libraries are initialised, which
+  /// may take signals for themselves.
+  void
+  catch_signals();
+
+  /// Let ranks on one machine know from each other who has spoken. Collective.
+  void
+  share_silence(MPI_Comm comm);
+
+  /// True if no rank of this machine has said why the program ends: the caller
+  /// is to say it, and whoever is ended because of it says nothing more.
+  bool
+  speak_first();
+
+  /// The file to be removed; none if empty.
+  void
+  set_unfinished(const std::string &file);
+
+  /// A result is complete.
+  void
+  add_complete(const std::string &file);
+
+  /// "complete are: A, B", or that nothing was written.
+  std::string
+  what_is_complete();
+} // namespace mortise::interruption

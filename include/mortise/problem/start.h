@@ -1,0 +1,13 @@
+// What a process settles before MPI starts: processors, memory, signals. It
+// never reads the command line.
+#pragma once
+
+namespace mortise
+{
+  /// Catch signals, take one BLAS thread and its memory, and look for no
+  /// network in a run without mpirun. Ends the program with a message and
+  /// ExitCode::memory if there is not even room to start. To be called once,
+  /// first of all.
+  void
+  prepare_process();
+} // namespace mortise

@@ -1,0 +1,202 @@
+#include <deal.II/base/mpi.h>
+
+#include <fcntl.h>
+#include <mortise/base/interruption.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace mortise::interruption
+{
+  namespace
+  {
+    struct Signal
+    {
+      int         number;
+      const char *name;
+    };
+    // SIGXCPU: the limit of time of a batch system
+    constexpr std::array<Signal, 4> signals = {{{SIGINT, "SIGINT"},
+                                                {SIGTERM, "SIGTERM"},
+                                                {SIGHUP, "SIGHUP"},
+                                                {SIGXCPU, "SIGXCPU"}}};
+
+    /// A text that a handler may read at any time: it is written where no
+    /// handler looks, then shown.
+    template <std::size_t size>
+    class ShownText
+    {
+    public:
+      void
+      set(const std::string &text)
+      {
+        char *next                      = buffers[shown == buffers[0] ? 1 : 0];
+        next[text.copy(next, size - 1)] = '\0';
+        shown                           = next;
+      }
+
+      const char *
+      get() const
+      {
+        return shown;
+      }
+
+    private:
+      char                      buffers[2][size] = {};
+      std::atomic<const char *> shown            = buffers[0];
+    };
+
+    ShownText<PATH_MAX> unfinished;
+    ShownText<4000>     complete;
+    std::string         complete_files;
+
+    std::atomic<bool>               speaks = true;
+    std::atomic<int>                alone_spoken{0};
+    std::atomic<std::atomic<int> *> spoken = &alone_spoken;
+    static_assert(std::atomic<int>::is_always_lock_free &&
+                    std::atomic<const char *>::is_always_lock_free,
+                  "handlers and other processes read them");
+
+    /// Append @p text to the @p length characters of @p line.
+    template <std::size_t size>
+    void
+    append(char (&line)[size], std::size_t &length, const char *text)
+    {
+      while (*text != '\0' && length < size)
+        line[length++] = *text++;
+    }
+
+    // Only what POSIX allows in a handler.
+    void
+    end(const int number)
+    {
+      if (*unfinished.get() != '\0')
+        unlink(unfinished.get());
+      if (speaks && speak_first())
+        {
+          const char *name = "a signal";
+          for (const Signal &signal : signals)
+            if (signal.number == number)
+              name = signal.name;
+          char        line[4096];
+          std::size_t length = 0;
+          append(line, length, "interrupted by ");
+          append(line, length, name);
+          append(line, length, ": ");
+          append(line, length, complete.get());
+          append(line, length, "\n");
+          // nobody is left to hear of an error
+          [[maybe_unused]] const ssize_t ignored =
+            write(STDERR_FILENO, line, length);
+        }
+      _exit(128 + number);
+    }
+
+    /// An integer that the ranks on one machine share; nullptr on other
+    /// machines than that of the first rank. Plain shared memory: a window of
+    /// MPI needs files of megabytes, which a limit may forbid.
+    std::atomic<int> *
+    shared_integer(const MPI_Comm comm)
+    {
+      const bool  first = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+      std::string name  = "/mortise." + std::to_string(getpid());
+      int         descriptor = -1;
+      if (first)
+        {
+          descriptor = shm_open(name.c_str(), O_RDWR | O_CREAT | O_EXCL, 0600);
+          if (descriptor >= 0 &&
+              posix_fallocate(descriptor, 0, sizeof(int)) != 0)
+            {
+              close(descriptor);
+              shm_unlink(name.c_str());
+              descriptor = -1;
+            }
+          if (descriptor < 0)
+            name.clear();
+        }
+      name = dealii::Utilities::MPI::broadcast(comm, name, 0);
+      if (name.empty())
+        return nullptr;
+      if (!first)
+        descriptor = shm_open(name.c_str(), O_RDWR, 0600);
+      void *memory = MAP_FAILED;
+      if (descriptor >= 0)
+        {
+          memory = mmap(nullptr,
+                        sizeof(int),
+                        PROT_READ | PROT_WRITE,
+                        MAP_SHARED,
+                        descriptor,
+                        0);
+          close(descriptor);
+        }
+      MPI_Barrier(comm); // all have it
+      if (first)
+        shm_unlink(name.c_str());
+      return memory == MAP_FAILED ? nullptr :
+                                    static_cast<std::atomic<int> *>(memory);
+    }
+  } // namespace
+
+  void
+  catch_signals()
+  {
+    for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
+      if (const char *rank = std::getenv(name))
+        speaks = std::strcmp(rank, "0") == 0;
+    complete.set(what_is_complete());
+    struct sigaction action = {};
+    action.sa_handler       = end;
+    sigfillset(&action.sa_mask);
+    for (const Signal &signal : signals)
+      {
+        struct sigaction old;
+        const bool ignored = sigaction(signal.number, nullptr, &old) == 0 &&
+                             old.sa_handler == SIG_IGN;
+        if (!(signal.number == SIGHUP && ignored)) // nohup
+          sigaction(signal.number, &action, nullptr);
+      }
+  }
+
+  void
+  share_silence(const MPI_Comm comm)
+  {
+    speaks = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
+      if (std::atomic<int> *shared = shared_integer(comm))
+        spoken = shared;
+  }
+
+  bool
+  speak_first()
+  {
+    return spoken.load()->exchange(1) == 0;
+  }
+
+  void
+  set_unfinished(const std::string &file)
+  {
+    unfinished.set(file);
+  }
+
+  void
+  add_complete(const std::string &file)
+  {
+    complete_files += (complete_files.empty() ? "" : ", ") + file;
+    complete.set(what_is_complete());
+  }
+
+  std::string
+  what_is_complete()
+  {
+    return complete_files.empty() ? "nothing was written" :
+                                    "complete are: " + complete_files;
+  }
+} // namespace mortise::interruption

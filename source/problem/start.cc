@@ -1,0 +1,148 @@
+#include <mortise/base/error.h>
+#include <mortise/base/interruption.h>
+#include <mortise/problem/start.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+extern "C"
+{
+  void
+  openblas_set_num_threads(int) __attribute__((weak));
+  int
+  openblas_get_num_threads() __attribute__((weak));
+  void
+  dpotrf_(const char *, const int *, double *, const int *, int *);
+}
+
+namespace
+{
+  // Parallelism is between ranks: threads of BLAS would fight with them for the
+  // cores (the assembly of a scene of degree 4 took four times as long).
+  // OpenBLAS starts a thread for each processor that it sees, when it is
+  // loaded, and each of them takes 128 MiB of address space and tries again for
+  // ever if it cannot have them. So it sees one processor: the program's own
+  // .preinit_array is run before any library's constructor. An
+  // OPENBLAS_NUM_THREADS of the user stays.
+  cpu_set_t all_processors;
+  bool      loaded_on_one = false;
+
+  void
+  load_on_one_processor(int, char **, char **environment)
+  {
+    for (char **entry = environment; *entry != nullptr; ++entry)
+      if (std::strncmp(*entry, "OPENBLAS_NUM_THREADS=", 21) == 0)
+        return;
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    const int here = sched_getcpu();
+    if (here < 0 || here >= CPU_SETSIZE ||
+        sched_getaffinity(0, sizeof all_processors, &all_processors) != 0)
+      return; // more processors than a set has room for
+    CPU_SET(here, &one);
+    loaded_on_one = sched_setaffinity(0, sizeof one, &one) == 0;
+  }
+
+  __attribute__((section(".preinit_array"),
+                 used)) void (*const before_libraries)(int, char **, char **) =
+    load_on_one_processor;
+
+  void
+  use_one_blas_thread()
+  {
+    if (loaded_on_one)
+      sched_setaffinity(0, sizeof all_processors, &all_processors);
+    if (openblas_set_num_threads != nullptr &&
+        std::getenv("OPENBLAS_NUM_THREADS") == nullptr)
+      openblas_set_num_threads(1);
+  }
+
+  /// A run without mpirun needs neither a daemon of Open MPI nor a network,
+  /// which take a tenth and a fifth of a second to start and to look for
+  /// (measured); others do not know the variables.
+  void
+  start_alone()
+  {
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    for (const char *name : {"PMIX_RANK", "PMI_RANK", "SLURM_PROCID"})
+      if (std::getenv(name) != nullptr)
+        return; // one of several
+    setenv("OMPI_MCA_pml", "ob1", 0);
+  }
+
+  bool
+  has_room(const std::size_t bytes)
+  {
+    void *memory = mmap(nullptr,
+                        bytes,
+                        PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS,
+                        -1,
+                        0);
+    if (memory == MAP_FAILED)
+      return false;
+    munmap(memory, bytes);
+    return true;
+  }
+
+  [[noreturn]] void
+  end_without_room(const std::size_t bytes)
+  {
+    // Most often all ranks are here: the first ends them all. Another speaks if
+    // it is here alone.
+    for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
+      if (const char *rank = std::getenv(name);
+          rank != nullptr && std::strcmp(rank, "0") != 0)
+        {
+          sleep(3); // mpirun takes one second
+          break;
+        }
+    rlimit limit;
+    std::cerr << "error: not enough memory to start: " << (bytes >> 20)
+              << " MiB of address space are needed beside the program";
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      std::cerr << ", and a process may have " << (limit.rlim_cur >> 20)
+                << " MiB in all (ulimit -v); raise this limit";
+    std::cerr << std::endl;
+    _exit(static_cast<int>(mortise::ExitCode::memory));
+  }
+
+  /// OpenBLAS takes its buffer, at first twice of it, when a function first
+  /// needs one, and tries for ever: let it be now, when there is room.
+  void
+  take_blas_buffer()
+  {
+    constexpr std::size_t buffer = 128 << 20;
+    const std::size_t     n_threads =
+      openblas_get_num_threads != nullptr ? openblas_get_num_threads() : 1;
+    const std::size_t needed = (n_threads + 1) * buffer;
+    if (!has_room(needed))
+      end_without_room(needed);
+    const int n      = 1;
+    double    matrix = 1.;
+    int       info   = 0;
+    dpotrf_("L", &n, &matrix, &n, &info);
+  }
+} // namespace
+
+namespace mortise
+{
+  void
+  prepare_process()
+  {
+    interruption::catch_signals();
+    // a file that grows beyond a limit is an error of write(), which is
+    // reported
+    std::signal(SIGXFSZ, SIG_IGN);
+    use_one_blas_thread();
+    take_blas_buffer();
+    start_alone();
+  }
+} // namespace mortise
