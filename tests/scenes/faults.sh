@@ -6,6 +6,8 @@ set -u
 mortise=$1 prm=$2 top=$3
 work=$(mktemp -d)
 out=$work/out
+export TMPDIR=$work/sessions # of mpirun: in a namespace of users it is somebody else
+mkdir "$TMPDIR"
 trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 FAULTS_TEST=$work
