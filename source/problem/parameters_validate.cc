@@ -121,6 +121,19 @@ namespace mortise
           "a boundary without; exchange slave and master, or drop the displacement");
     }
 
+    /// Files of results are named after bodies and interfaces.
+    void
+    check_names_of_interfaces(const Parameters &parameters)
+    {
+      for (const InterfaceParameters &interface : parameters.interfaces)
+        for (const BodyParameters &body : parameters.bodies)
+          if (interface.name == body.name)
+            fail(parameters,
+                 "Interfaces",
+                 "\"" + interface.name + "\", which is also a body",
+                 "names that no body has: both name files of results");
+    }
+
     /// No two interfaces tie the same two boundaries.
     void
     check_pairs_of_interfaces(const Parameters &parameters)
@@ -191,6 +204,7 @@ namespace mortise
     for (const InterfaceParameters &interface : parameters.interfaces)
       check_interface(parameters, interface);
     check_pairs_of_interfaces(parameters);
+    check_names_of_interfaces(parameters);
     check_exact_solution(parameters);
     check_formulations(parameters);
     const double tolerance = parameters.solver.tolerance;

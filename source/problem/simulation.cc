@@ -343,6 +343,9 @@ namespace mortise
         log.line("    iteration " + std::to_string(iteration) + "  residual " +
                  RunLog::number(residual));
       };
+    // a factorisation gives one of many answers and does not tell
+    if (choice.method == SolverMethod::direct)
+      check_multipliers();
     // The answer is linear in the loads: loads of size 1, scaled without
     // rounding, keep the single precision of preconditioners from its limits.
     const double scale = load_scale(system);
@@ -357,6 +360,8 @@ namespace mortise
         *part *= 1. / scale;
     if (!std::isfinite(solve_report.relative_residual))
       solve_report.converged = false;
+    if (!solve_report.converged)
+      check_multipliers();
 
     timers.add("solver_setup", solve_report.setup_seconds);
     timers.add("solve", solve_report.solve_seconds);

@@ -3,7 +3,9 @@
 #include <mortise/base/error.h>
 #include <mortise/mortar/shared_displacements.h>
 #include <mortise/problem/simulation.h>
+#include <mortise/solvers/dependent_multipliers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -182,5 +184,40 @@ namespace mortise
   Simulation::check_support() const
   {
     check_rigid_motions(bodies, dirichlet, tie_supports());
+  }
+
+  void
+  Simulation::check_multipliers()
+  {
+    if (couplings.size() < 2)
+      return; // those of one interface are independent by their rules
+    const auto dependent = find_dependent_multipliers(system);
+    if (dependent.empty())
+      return;
+    std::vector<unsigned int> counts;
+    auto                      first = system.owned_multiplier.n_elements() > 0 ?
+                                        system.owned_multiplier.nth_index_in_set(0) :
+                                        0;
+    for (const Coupling &coupling : couplings)
+      {
+        const auto end = first + coupling.multipliers->n_owned();
+        counts.push_back(
+          std::count_if(dependent.begin(), dependent.end(), [&](const auto k) {
+            return k >= first && k < end;
+          }));
+        first = end;
+      }
+    Utilities::MPI::sum(counts, comm, counts);
+    std::string names;
+    for (unsigned int i = 0; i < counts.size(); ++i)
+      if (counts[i] > 0)
+        names += (names.empty() ? "" : ", ") + interfaces[i].name + " (" +
+                 std::to_string(counts[i]) + ")";
+    throw InputError(
+      "Interfaces tie the same displacements more than once, so that tractions "
+      "are not determined; multipliers that depend on others: " +
+      names +
+      ". Drop one of the interfaces that meet there, or exchange slave and "
+      "master of one");
   }
 } // namespace mortise

@@ -1,3 +1,5 @@
+#include <deal.II/base/mpi.h>
+
 #include <dmumps_c.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/sparse_factorization.h>
@@ -28,11 +30,13 @@ namespace mortise
   {
     Implementation(const Epetra_CrsMatrix &matrix, const MatrixKind kind)
       : comm(communicator(matrix.RowMap()))
-      , symmetric(kind == MatrixKind::positive_definite)
+      , symmetric(kind != MatrixKind::general)
     {
       mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm));
       mumps.par          = 1;
-      mumps.sym          = symmetric ? 1 : 0;
+      mumps.sym          = kind == MatrixKind::general           ? 0 :
+                           kind == MatrixKind::positive_definite ? 1 :
+                                                                   2;
       run(initialise);
       for (const int stream : {1, 2, 3})
         control(mumps, stream) = -1;
@@ -41,6 +45,14 @@ namespace mortise
       control(mumps, 18) = 3; // each rank has its rows
       if (symmetric)
         control(mumps, 8) = 0; // no scaling
+      if (kind == MatrixKind::positive_semidefinite)
+        {
+          // a pivot is zero below this, where rounding leaves 1e-15 and
+          // independent rows 1e-7
+          mumps.cntl[2]      = -1e-12;
+          control(mumps, 13) = 1; // the last front as all others
+          control(mumps, 24) = 1; // look for them
+        }
 
       MPI_Comm_rank(comm, &rank);
       int n_ranks = 0, mine = matrix.NumMyRows();
@@ -140,6 +152,16 @@ namespace mortise
   {
     implementation = std::make_unique<Implementation>(matrix, kind);
     return implementation->factorise();
+  }
+
+  std::vector<dealii::types::global_dof_index>
+  SparseFactorization::null_rows() const
+  {
+    Implementation                              &data = *implementation;
+    std::vector<dealii::types::global_dof_index> rows;
+    for (int k = 0; data.rank == 0 && k < data.mumps.infog[27]; ++k)
+      rows.push_back(data.mumps.pivnul_list[k] - 1);
+    return dealii::Utilities::MPI::broadcast(data.comm, rows, 0);
   }
 
   bool

@@ -88,6 +88,9 @@ namespace mortise
     find_free_pressures();
     void
     solve();
+    /// Throws InputError where multipliers depend on each other.
+    void
+    check_multipliers();
     void
     postprocess();
     /// Write what was asked for; what could not be written.

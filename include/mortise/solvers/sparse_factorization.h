@@ -2,6 +2,8 @@
 // solves. It never refines and never checks how good a solution is.
 #pragma once
 
+#include <deal.II/base/types.h>
+
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
 
@@ -13,7 +15,8 @@ namespace mortise
   enum class MatrixKind
   {
     general,
-    positive_definite ///< and symmetric: half the work and memory
+    positive_definite,    ///< and symmetric: half the work and memory
+    positive_semidefinite ///< and symmetric, with a diagonal of ones
   };
 
   class SparseFactorization
@@ -34,6 +37,11 @@ namespace mortise
     /// solve failed. Collective.
     bool
     solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+
+    /// Rows of a positive semidefinite matrix that depend on the others, by
+    /// their numbers; the same on all ranks. Collective.
+    std::vector<dealii::types::global_dof_index>
+    null_rows() const;
 
   private:
     struct Implementation;

@@ -1,0 +1,78 @@
+// Proves that multipliers which depend on others are found, exactly as many as
+// there are: none in a tie of springs, and one for each constraint that is
+// added once more, scaled or as the sum of two others.
+#include <mortise/solvers/dependent_multipliers.h>
+#include <verdict.h>
+
+#include "spring_system.h"
+
+using namespace mortise;
+
+namespace
+{
+  /// The system with row k of B replaced by the sum of factor times row source,
+  /// for all given.
+  struct Row
+  {
+    unsigned int                                 k;
+    std::vector<std::pair<unsigned int, double>> sum;
+  };
+
+  unsigned int
+  count(const std::vector<Row> &replaced)
+  {
+    BlockSystem system =
+      springs::Builder(springs::Options(), MPI_COMM_WORLD).build();
+    dealii::DynamicSparsityPattern pattern(system.coupling.m(),
+                                           system.coupling.n());
+    const auto                     for_each = [&](const auto &visit) {
+      for (unsigned int k = 0; k < system.coupling.m(); ++k)
+        {
+          std::vector<std::pair<unsigned int, double>> sum = {{k, 1.}};
+          for (const Row &row : replaced)
+            if (row.k == k)
+              sum = row.sum;
+          for (const auto &[source, factor] : sum)
+            for (auto entry = system.coupling.begin(source);
+                 entry != system.coupling.end(source);
+                 ++entry)
+              visit(k, entry->column(), factor * entry->value());
+        }
+    };
+    for_each([&](const unsigned int k, const auto column, const double) {
+      pattern.add(k, column);
+    });
+    SparseMatrix coupling;
+    coupling.reinit(system.owned_multiplier,
+                    system.owned_displacement,
+                    pattern,
+                    MPI_COMM_WORLD);
+    for_each([&](const unsigned int k, const auto column, const double value) {
+      coupling.add(k, column, value);
+    });
+    coupling.compress(dealii::VectorOperation::add);
+    system.coupling.reinit(coupling);
+    system.coupling.copy_from(coupling);
+    return find_dependent_multipliers(system).size();
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  verdict("independent", count({}), 0);
+  verdict("one twice", std::abs(int(count({{5, {{2, 1.}}}})) - 1), 0);
+  verdict("one twice, scaled by 1e9",
+          std::abs(int(count({{5, {{2, 1e9}}}})) - 1),
+          0);
+  verdict("two sums of others",
+          std::abs(int(count(
+                     {{5, {{2, 1.}, {8, -0.3}}}, {20, {{11, 2.}, {14, 1.}}}})) -
+                   2),
+          0);
+  verdict("a sum of all others in a direction",
+          std::abs(int(count({{0, {{3, 1.}, {6, 1.}, {9, 1.}, {12, 1.}}}})) -
+                   1),
+          0);
+}
