@@ -4,6 +4,7 @@
 #include <mortise/body/boundary_faces.h>
 #include <mortise/problem/formulation.h>
 #include <mortise/problem/result_checks.h>
+#include <mortise/problem/rigid_motions.h>
 #include <mortise/problem/scene_data.h>
 #include <mortise/problem/simulation.h>
 
@@ -272,7 +273,6 @@ namespace mortise
       {
         auto stage = log.stage(timers, "coupling");
         choose_multipliers();
-        check_support();
         const CouplingPartition partition{system.owned_displacement,
                                           system.owned_multiplier,
                                           comm};
@@ -293,7 +293,7 @@ namespace mortise
     else
       {
         system.owned_multiplier.set_size(0);
-        check_support();
+        check_rigid_motions(bodies, dirichlet, {});
       }
     auto               stage = log.stage(timers, "bulk");
     std::vector<Loads> loads;

@@ -2,7 +2,9 @@
 
 #include <mortise/base/error.h>
 #include <mortise/mortar/shared_displacements.h>
+#include <mortise/problem/rigid_motions.h>
 #include <mortise/problem/simulation.h>
+#include <mortise/problem/weak_ties.h>
 #include <mortise/solvers/dependent_multipliers.h>
 
 #include <algorithm>
@@ -142,7 +144,8 @@ namespace mortise
   {
     number_multipliers();
     std::vector<bool> tried(couplings.size(), false);
-    auto              weak = weak_ties(bodies, tie_supports());
+    auto              ties = tie_supports();
+    auto              weak = weak_ties(bodies, dirichlet, ties);
     for (unsigned int k = 0; k < weak.size();)
       {
         const unsigned int   i     = weak[k++];
@@ -157,12 +160,14 @@ namespace mortise
         integrate(other);
         std::swap(couplings[i], other);
         number_multipliers();
-        const auto still = weak_ties(bodies, tie_supports());
+        const auto other_ties = tie_supports();
+        const auto still      = weak_ties(bodies, dirichlet, other_ties);
         if (still.size() < weak.size())
           {
             log.line("  interface " + given.name +
                      ": slave and master exchanged, since too few "
                      "displacements of the slave are left for multipliers");
+            ties = other_ties;
             weak = still;
             k    = 0;
           }
@@ -176,14 +181,9 @@ namespace mortise
     const auto states = partner_states(couplings);
     for (unsigned int i = 0; i < couplings.size(); ++i)
       check_constants(i, states[i]);
+    check_rigid_motions(bodies, dirichlet, ties);
     summary.steps.back().dofs.multiplier = system.owned_multiplier.size();
     summary.steps.back().dofs.total += system.owned_multiplier.size();
-  }
-
-  void
-  Simulation::check_support() const
-  {
-    check_rigid_motions(bodies, dirichlet, tie_supports());
   }
 
   void

@@ -61,8 +61,8 @@ expect 2 'did you mean .inner inside' "$scene" "${file[@]}" --set "Body lower/Me
   --set 'Body lower/Mesh/Curved boundaries=inner insid: sphere'
 expect 2 'zmax' "$scene" --set 'Interface glue/Slave=lower: top'
 expect 2 'same' "$scene" --set 'Interface glue/Master=lower: zmax'
-expect 2 'which is also a body' "$scene" --set 'Interfaces=lower' --set 'Interface lower/Slave=lower: zmax' \
-  --set 'Interface lower/Master=upper: zmin'
+expect 2 'which is also a body' "$scene" --set 'Interfaces=glue, lower' --set 'Interface lower/Slave=lower: xmax' \
+  --set 'Interface lower/Master=upper: xmax'
 # a body that hangs by nothing, and one that a single point of constants would hold
 expect 2 'upper.*can move freely: rotation about x' "$prm/floating.prm" --set 'Body upper/Mesh/Translate=0.99,0,0' \
   --set 'Exact solution/Displacement=x/9; -y/36; -z/36'

@@ -13,7 +13,7 @@
 #include <mortise/output/summary.h>
 #include <mortise/output/whole_file.h>
 #include <mortise/problem/parameters.h>
-#include <mortise/problem/rigid_motions.h>
+#include <mortise/problem/rigid_support.h>
 #include <mortise/solvers/solve.h>
 #include <mortise/solvers/solve_report.h>
 
@@ -66,6 +66,7 @@ namespace mortise
     integrate(Coupling &coupling) const;
     /// The multipliers, with slave and master exchanged where other interfaces
     /// and prescribed displacements leave too few to hold the bodies together.
+    /// Throws InputError where a body can move.
     void
     choose_multipliers();
     void
@@ -76,9 +77,6 @@ namespace mortise
     /// could follow. @p states: of its slave faces.
     void
     check_constants(unsigned int i, const std::vector<PartnerState> &states);
-    /// Throws InputError where a body can move.
-    void
-    check_support() const;
     void
     assemble();
     /// Which constants of the pressure nothing determines; throws InputError

@@ -1,0 +1,121 @@
+// What prescribed displacements and multipliers do against rigid motions of
+// bodies, as sums of squares. It never says which motion is free.
+#pragma once
+
+#include <deal.II/lac/lapack_full_matrix.h>
+
+#include <mortise/body/boundary_conditions.h>
+#include <mortise/mortar/coupling.h>
+#include <mortise/operators/scene_system.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace mortise
+{
+  /// A translation a and a rotation w about the centre of a body, the latter
+  /// times its size.
+  using Motion = std::array<double, 6>;
+
+  struct Extent
+  {
+    dealii::Point<dim> centre;
+    double             size = 0.;
+  };
+
+  /// Of the box around the body. Collective.
+  Extent
+  extent(const Body &body);
+
+  /// Component @p c of a + w x (position - centre), for position / weight.
+  Motion
+  row_of(const Extent                 &where,
+         unsigned int                  c,
+         const dealii::Tensor<1, dim> &position,
+         double                        weight = 1.);
+
+  /// Weighted means of squares of rows, each on @p n_bodies bodies: what is
+  /// prevented.
+  class Support
+  {
+  public:
+    explicit Support(const unsigned int n_bodies = 0)
+      : size(6 * n_bodies)
+      , sums(size * size + 1, 0.)
+    {}
+
+    void
+    add(const std::vector<Motion> &row,
+        const double               factor = 1.,
+        double                     weight = 1.)
+    {
+      for (unsigned int i = 0; i < size; ++i)
+        for (unsigned int j = 0; j < size; ++j)
+          sums[size * i + j] += factor * row[i / 6][i % 6] * row[j / 6][j % 6];
+      sums.back() += factor * weight;
+    }
+
+    /// Over all ranks. Collective.
+    void
+    finish(MPI_Comm comm)
+    {
+      dealii::Utilities::MPI::sum(sums, comm, sums);
+      const double total = sums.back();
+      for (double &sum : sums)
+        sum /= total > 0. ? total : 1.;
+    }
+
+    double
+    operator()(unsigned int i, unsigned int j) const
+    {
+      return sums[size * i + j];
+    }
+
+  private:
+    unsigned int        size;
+    std::vector<double> sums;
+  };
+
+  /// Of the prescribed displacements of one body. Collective.
+  Support
+  support_of(const Body                            &body,
+             const std::vector<DirichletCondition> &dirichlet,
+             const Extent                          &where);
+
+  /// What an interface does against the relative motion of two bodies.
+  struct TieSupport
+  {
+    std::string                   name;
+    unsigned int                  slave, master; ///< bodies
+    std::vector<MultiplierMoment> multipliers;   ///< of this rank
+    double                        coverage;      ///< of the slave surface
+    /// Of this rank: points spread over the covered part of the slave surface,
+    /// and the area that each stands for.
+    std::vector<std::pair<dealii::Point<dim>, double>> places;
+  };
+
+  /// Of the slave, then of the master, translations of all together weighing
+  /// one. Collective.
+  Support
+  support_of(const TieSupport &tie,
+             const Extent     &slave,
+             const Extent     &master,
+             MPI_Comm          comm);
+
+  using RigidMatrix = dealii::LAPACKFullMatrix<double>;
+
+  /// Add the block of bodies @p a, @p b of @p support in the place of @p i, @p j.
+  void
+  add_block(RigidMatrix   &matrix,
+            unsigned int   i,
+            unsigned int   j,
+            const Support &support,
+            unsigned int   a,
+            unsigned int   b);
+
+  /// A basis of the null space of a sum of squares; columns.
+  std::vector<std::vector<double>>
+  null_space(RigidMatrix matrix);
+} // namespace mortise

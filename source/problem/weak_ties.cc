@@ -1,0 +1,124 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/problem/weak_ties.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Centre and radius of the places. Collective.
+    Extent
+    extent(const TieSupport &tie, const MPI_Comm comm)
+    {
+      double         area = 0., square = 0.;
+      Tensor<1, dim> centre;
+      for (const auto &[place, weight] : tie.places)
+        {
+          area += weight;
+          centre += weight * Tensor<1, dim>(place);
+        }
+      area = Utilities::MPI::sum(area, comm);
+      Extent result;
+      result.centre = Point<dim>(Utilities::MPI::sum(centre, comm) / area);
+      for (const auto &[place, weight] : tie.places)
+        square += weight * place.distance_square(result.centre) / area;
+      result.size = std::sqrt(Utilities::MPI::sum(square, comm));
+      return result;
+    }
+
+    /// The smallest x A x / x B x over all x with x B x > 0.
+    double
+    smallest_ratio(const RigidMatrix &A, RigidMatrix B)
+    {
+      const unsigned int     n = A.m();
+      FullMatrix<double>     vectors(n, n);
+      dealii::Vector<double> values(n);
+      B.compute_eigenvalues_symmetric(-1., 1e300, 0., values, vectors);
+      std::vector<unsigned int> range;
+      for (unsigned int a = 0; a < n; ++a)
+        if (values(a) > 1e-10 * values(n - 1))
+          range.push_back(a);
+      if (range.empty())
+        return 1.;
+      RigidMatrix ratios(range.size(), range.size());
+      for (unsigned int a = 0; a < range.size(); ++a)
+        for (unsigned int b = 0; b < range.size(); ++b)
+          {
+            double sum = 0.;
+            for (unsigned int i = 0; i < n; ++i)
+              for (unsigned int j = 0; j < n; ++j)
+                sum += vectors(i, range[a]) * A(i, j) * vectors(j, range[b]);
+            ratios(a, b) = sum / std::sqrt(values(range[a]) * values(range[b]));
+          }
+      ratios.compute_eigenvalues_symmetric(-1., 1e300, 0., values, vectors);
+      return values(0);
+    }
+
+    /// Ratios are 1 where multipliers are dense, .3 for two in a row, and 0 for
+    /// a single constant. Collective.
+    bool
+    is_weak(const TieSupport                                   &tie,
+            const Bodies                                       &bodies,
+            const std::vector<std::vector<DirichletCondition>> &dirichlet,
+            const MPI_Comm                                      comm)
+    {
+      constexpr double least_ratio = 0.02;
+      const Extent     where       = extent(tie, comm);
+      TieSupport       ideal       = tie;
+      ideal.multipliers.clear();
+      double area = 0.;
+      for (const auto &[place, weight] : tie.places)
+        area += weight;
+      area = Utilities::MPI::sum(area, comm);
+      for (const auto &[place, weight] : tie.places)
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            const double root = std::sqrt(weight / area);
+            ideal.multipliers.push_back(
+              {c, root, root * Tensor<1, dim>(place)});
+          }
+      RigidMatrix matrices[2];
+      for (unsigned int m = 0; m < 2; ++m)
+        {
+          matrices[m].reinit(12);
+          const Support support =
+            support_of(m == 0 ? tie : ideal, where, where, comm);
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              const unsigned int b = i == 0 ? tie.slave : tie.master;
+              add_block(matrices[m],
+                        i,
+                        i,
+                        support_of(*bodies[b], dirichlet[b], where),
+                        0,
+                        0);
+              for (unsigned int j = 0; j < 2; ++j)
+                add_block(matrices[m], i, j, support, i, j);
+            }
+        }
+      return !(smallest_ratio(matrices[0], matrices[1]) > least_ratio);
+    }
+  } // namespace
+
+  std::vector<unsigned int>
+  weak_ties(const Bodies                                       &bodies,
+            const std::vector<std::vector<DirichletCondition>> &dirichlet,
+            const std::vector<TieSupport>                      &ties)
+  {
+    const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
+    std::vector<unsigned int> weak;
+    for (unsigned int t = 0; t < ties.size(); ++t)
+      if (ties[t].slave != ties[t].master &&
+          is_weak(ties[t], bodies, dirichlet, comm))
+        weak.push_back(t);
+    std::sort(weak.begin(), weak.end(), [&](const auto a, const auto b) {
+      return ties[a].name < ties[b].name;
+    });
+    return weak;
+  }
+} // namespace mortise
