@@ -102,23 +102,32 @@ namespace mortise
         matrix(6 * i + k, 6 * j + l) += support(6 * a + k, 6 * b + l);
   }
 
-  /// A basis of the null space of a sum of squares; columns.
-  std::vector<std::vector<double>>
-  null_space(RigidMatrix matrix)
+  // Singular values: LAPACK's iteration for eigenvectors fails now and then
+  // where many eigenvalues are equal.
+  Spectrum
+  spectrum(RigidMatrix matrix)
   {
-    const unsigned int     n = matrix.m();
-    FullMatrix<double>     vectors(n, n);
-    dealii::Vector<double> values(n);
-    matrix.compute_eigenvalues_symmetric(-1., 1e300, 0., values, vectors);
-    std::vector<std::vector<double>> result;
-    for (unsigned int k = 0; k < n; ++k)
-      if (!(values(k) > 1e-10 * values(n - 1)))
-        {
-          result.emplace_back(n);
-          for (unsigned int i = 0; i < n; ++i)
-            result.back()[i] = vectors(i, k);
-        }
+    matrix.compute_svd();
+    const RigidMatrix &columns = matrix.get_svd_u();
+    Spectrum           result;
+    for (unsigned int k = 0; k < matrix.m(); ++k)
+      {
+        result.values.push_back(matrix.singular_value(k));
+        result.vectors.emplace_back(matrix.m());
+        for (unsigned int i = 0; i < matrix.m(); ++i)
+          result.vectors.back()[i] = columns(i, k);
+      }
     return result;
   }
 
+  std::vector<std::vector<double>>
+  null_space(RigidMatrix matrix)
+  {
+    Spectrum                         all = spectrum(std::move(matrix));
+    std::vector<std::vector<double>> result;
+    for (unsigned int k = 0; k < all.values.size(); ++k)
+      if (!(all.values[k] > 1e-10 * all.values[0]))
+        result.push_back(std::move(all.vectors[k]));
+    return result;
+  }
 } // namespace mortise

@@ -33,30 +33,26 @@ namespace mortise
 
     /// The smallest x A x / x B x over all x with x B x > 0.
     double
-    smallest_ratio(const RigidMatrix &A, RigidMatrix B)
+    smallest_ratio(const RigidMatrix &A, const RigidMatrix &B)
     {
-      const unsigned int     n = A.m();
-      FullMatrix<double>     vectors(n, n);
-      dealii::Vector<double> values(n);
-      B.compute_eigenvalues_symmetric(-1., 1e300, 0., values, vectors);
-      std::vector<unsigned int> range;
-      for (unsigned int a = 0; a < n; ++a)
-        if (values(a) > 1e-10 * values(n - 1))
-          range.push_back(a);
-      if (range.empty())
+      const unsigned int n     = A.m();
+      const Spectrum     all   = spectrum(B);
+      unsigned int       range = 0;
+      while (range < n && all.values[range] > 1e-10 * all.values[0])
+        ++range;
+      if (range == 0)
         return 1.;
-      RigidMatrix ratios(range.size(), range.size());
-      for (unsigned int a = 0; a < range.size(); ++a)
-        for (unsigned int b = 0; b < range.size(); ++b)
+      RigidMatrix ratios(range, range);
+      for (unsigned int a = 0; a < range; ++a)
+        for (unsigned int b = 0; b < range; ++b)
           {
             double sum = 0.;
             for (unsigned int i = 0; i < n; ++i)
               for (unsigned int j = 0; j < n; ++j)
-                sum += vectors(i, range[a]) * A(i, j) * vectors(j, range[b]);
-            ratios(a, b) = sum / std::sqrt(values(range[a]) * values(range[b]));
+                sum += all.vectors[a][i] * A(i, j) * all.vectors[b][j];
+            ratios(a, b) = sum / std::sqrt(all.values[a] * all.values[b]);
           }
-      ratios.compute_eigenvalues_symmetric(-1., 1e300, 0., values, vectors);
-      return values(0);
+      return spectrum(ratios).values.back();
     }
 
     /// Ratios are 1 where multipliers are dense, .3 for two in a row, and 0 for

@@ -120,7 +120,7 @@ main(int argc, char *argv[])
     }
   const unsigned int n_ranks =
                        dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
-                     share = n_ranks == 1 ? 1 : 5;
+                     share = n_ranks == 1 ? 1 : 15;
   check("2x2x2 cubes", 50 / share, 1, {"condensed"}, false);
   check("2x2x2 cubes", 50 / share, 101, {"saddle point"}, false);
   check("2x2x2 cubes", 50 / share, 201, {"direct"}, false);

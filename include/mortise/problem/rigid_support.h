@@ -104,6 +104,7 @@ namespace mortise
              const Extent     &master,
              MPI_Comm          comm);
 
+  /// Symmetric and positive semidefinite: a sum of squares.
   using RigidMatrix = dealii::LAPACKFullMatrix<double>;
 
   /// Add the block of bodies @p a, @p b of @p support in the place of @p i, @p j.
@@ -115,7 +116,17 @@ namespace mortise
             unsigned int   a,
             unsigned int   b);
 
-  /// A basis of the null space of a sum of squares; columns.
+  /// Eigenvalues, the largest first, and eigenvectors.
+  struct Spectrum
+  {
+    std::vector<double>              values;
+    std::vector<std::vector<double>> vectors; ///< by eigenvalue
+  };
+
+  Spectrum
+  spectrum(RigidMatrix matrix);
+
+  /// A basis of the null space.
   std::vector<std::vector<double>>
   null_space(RigidMatrix matrix);
 } // namespace mortise
