@@ -178,11 +178,13 @@ namespace mortise
             for (const Coupling *other : sharing)
               if (goes_in_front(*other, coupling, s))
                 state.cover = cover_of(covered, false);
-            for (const auto &partner : coupling.local[s].partners)
+            const auto find_free = [&](const FaceTrace &trace) {
               for (unsigned int c = 0; c < dim; ++c)
-                if (has_columns(
-                      coupling.interface->master_traces()[partner.master], c))
-                  state.can_follow[c] = true;
+                state.can_follow[c] |= has_columns(trace, c);
+            };
+            find_free(coupling.interface->slave().traces[s]);
+            for (const auto &partner : coupling.local[s].partners)
+              find_free(coupling.interface->master_traces()[partner.master]);
             all.back().push_back(state);
           }
       }

@@ -21,7 +21,7 @@ namespace mortise
     constexpr double full_above    = 0.9;
 
     /// What only the owner of a cell knows for sure, by face: 12 bits of rims,
-    /// 2 of coverage, 3 of what the partners can follow.
+    /// 2 of coverage, 3 of what can follow.
     using FaceBits = std::array<std::uint32_t, 6>;
 
     class BlockedDofs

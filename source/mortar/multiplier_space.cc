@@ -91,7 +91,7 @@ namespace mortise
     }
 
     /// By dof of the vertices that no other gives a value, those of slivers
-    /// among them: whether the other side can follow a multiplier there.
+    /// among them: whether any displacement can follow a multiplier there.
     std::map<types::global_dof_index, bool>
     find_stranded(const Body                        &body,
                   const std::vector<MultiplierFace> &faces,

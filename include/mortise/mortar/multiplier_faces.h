@@ -29,7 +29,8 @@ namespace mortise
   {
     Cover cover = Cover::none;
     std::array<bool, dim>
-      can_follow{}; ///< by component: some displacement there is free
+      can_follow{}; ///< by component: some displacement there is free, of
+                    ///< the slave or of the master
   };
 
   /// A slave face of an owned or ghost cell. Vertices and edges are numbered as

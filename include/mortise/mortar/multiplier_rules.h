@@ -21,7 +21,7 @@ namespace mortise
     bool made_up      = false; ///< ... and a mode is dropped instead
     bool on_rim       = false; ///< vertices: end of an edge across a rim ...
     bool across_kept  = false; ///< ... that has modes left
-    bool can_follow = false; ///< the other side of some face around it is free
+    bool can_follow = false; ///< some displacement is free on a face around it
     Dofs neighbours; ///< across the rim or from a blocked vertex, off all rims
     Dofs diagonal;   ///< other vertices, off all rims
     Dofs merged;     ///< must have the same value

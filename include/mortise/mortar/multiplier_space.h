@@ -9,7 +9,7 @@
 //   that there are as many multipliers as free displacements and constants stay
 //   representable; at degree 1 the vertex on the rim takes the mean of its
 //   neighbours off the rim; where no vertex of a patch of faces is free, one
-//   constant is left on it, which the other side follows if it can;
+//   constant is left on it, where any displacement of either side is free;
 // - hanging nodes and mixed degrees: the conforming trace space, by the body's
 // constraints;
 // - faces covered in part: those covered by less than nine tenths have only

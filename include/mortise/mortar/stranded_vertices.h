@@ -27,7 +27,7 @@ namespace mortise
                      const std::map<Index, bool>       &may_follow);
 
     /// The dof that carries the constant of the patch that an owned stranded
-    /// dof is in; nothing if the other side cannot follow.
+    /// dof is in; nothing if nothing can follow it.
     std::optional<Index>
     representative(Index dof) const;
 
