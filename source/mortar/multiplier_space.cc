@@ -193,7 +193,7 @@ namespace mortise
             add_mean(dof, {*constant}, reduction);
           if (reduction.is_constrained(dof))
             continue;
-          owned_dofs.push_back(dof);
+            owned_dofs.push_back(dof);
           const auto record = records.find(dof);
           at_vertices.push_back(record == records.end() ||
                                 record->second.vertex);
@@ -224,7 +224,7 @@ namespace mortise
     auto ones = numbers; // coefficients of the constant one
     for (unsigned int i = 0; i < owned_dofs.size(); ++i)
       {
-        numbers(owned_dofs[i]) = first + i;
+      numbers(owned_dofs[i]) = first + i;
         ones(owned_dofs[i])    = at_vertices[i] ? 1. : 0.;
       }
     numbers.update_ghost_values();
@@ -244,23 +244,23 @@ namespace mortise
         };
         const auto &functions = slave.traces[s].basis().functions;
         for (unsigned int c = 0; c < dim; ++c)
-          {
+            {
             rows.hold_constants[c] = true;
             for (unsigned int k = 0; k < dofs[c].size(); ++k)
               {
                 const auto dof = dofs[c][k];
                 sum            = 0.;
-                if (!reduction.is_constrained(dof))
-                  add(dof, 1.);
-                else
+              if (!reduction.is_constrained(dof))
+                add(dof, 1.);
+              else
                   for (const auto &entry :
                        *reduction.get_constraint_entries(dof))
-                    add(entry.first, entry.second);
-                rows.begin.push_back(rows.index.size());
+                  add(entry.first, entry.second);
+              rows.begin.push_back(rows.index.size());
                 if (functions[k].dimension == 0)
                   rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
               }
-          }
+            }
         face_rows.push_back(std::move(rows));
       }
   }

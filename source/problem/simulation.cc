@@ -136,7 +136,7 @@ namespace mortise
     std::vector<const Body *> scene;
     for (const auto &body : bodies)
       scene.push_back(body.get());
-    const bool nodal   = NodalSpace::represents(scene);
+    const bool nodal = NodalSpace::represents(scene);
     double     softest = std::numeric_limits<double>::max(), stiffest = 0.;
     for (const auto &body : bodies)
       {
@@ -144,9 +144,9 @@ namespace mortise
         stiffest = std::max(stiffest, body->material.young_modulus);
       }
     choice = choose_solver(parameters.solver.method,
-                           {displacement_field.numbering.size(),
-                            max_degree,
-                            nodal,
+                                     {displacement_field.numbering.size(),
+                                      max_degree,
+                                      nodal,
                             system.mixed(),
                             stiffest / softest});
     if (nodal && choice.method != SolverMethod::direct)
@@ -164,19 +164,19 @@ namespace mortise
 
   Coupling
   Simulation::make_coupling(const InterfaceParameters &given) const
-  {
-    const auto surface = [&](const SideParameters &side) {
-      const Body &body = *bodies[side.body];
-      return extract_surface(body,
-                             body.boundary_id(side.boundary,
-                                              "Interface " + given.name),
-                             displacement_field.numbering,
-                             displacement_field.constraints,
-                             nodal_spaces);
-    };
-    InterfaceOptions options;
-    options.search_fraction      = given.search_distance;
-    options.points_per_direction = given.quadrature_points;
+      {
+        const auto surface = [&](const SideParameters &side) {
+          const Body &body = *bodies[side.body];
+          return extract_surface(body,
+                                 body.boundary_id(side.boundary,
+                                                  "Interface " + given.name),
+                                 displacement_field.numbering,
+                                 displacement_field.constraints,
+                                 nodal_spaces);
+        };
+        InterfaceOptions options;
+        options.search_fraction      = given.search_distance;
+        options.points_per_direction = given.quadrature_points;
     Coupling coupling;
     coupling.interface = std::make_unique<InterfaceHandler>(
       given.name, surface(given.slave), surface(given.master), options, comm);

@@ -52,20 +52,20 @@ namespace mortise
         for (bool first = true; report.iterations < options.max_iterations;
              first      = false)
           {
-                 if (projector != nullptr)
+            if (projector != nullptr)
               projector->project_residual(r, lambda);
             const double reached = residual.norm(all_r);
-                 if (!first)
+            if (!first)
               {
-                     report.history.push_back(reached / rhs_norm);
-                     if (options.monitor)
+                report.history.push_back(reached / rhs_norm);
+                if (options.monitor)
                   options.monitor(report.iterations, reached / rhs_norm);
               }
-                 preconditioner.vmult(z, r);
-                 if (projector != nullptr)
+            preconditioner.vmult(z, r);
+            if (projector != nullptr)
               projector->project(z);
             const double rho = r * z; // estimates the energy of the error
-                 if (reached <= target &&
+            if (reached <= target &&
                 rho <= std::pow(options.energy_tolerance(), 2) *
                          std::max(energy_of_u, residual.least_energy()))
               break;
@@ -74,7 +74,7 @@ namespace mortise
             else
               d.sadd(rho / rho_old, 1., z);
             rho_old = rho;
-                 if (!step(u, rho))
+            if (!step(u, rho))
               break;
             ++report.iterations;
           }
@@ -163,7 +163,7 @@ namespace mortise
       reached = solver.run(x, report);
     solver.judge(x, report);
     report.converged &= valid;
-    report.solve_seconds = timer.wall_time();
+    report.solve_seconds     = timer.wall_time();
     return report;
   }
 } // namespace mortise

@@ -244,6 +244,7 @@ namespace mortise
     bool           accurate = rhs_norm == 0.;
     BlockVector    x(matrix.weight), r(x);
     SystemSolution all_r = system.zero_solution();
+    residual.compute(solution, all_r);
     // Again from what was reached: rounding makes the recursive residual drift
     // from the true one, and the energy of the error is only looked at here.
     for (unsigned int start = 0;
@@ -251,7 +252,6 @@ namespace mortise
          report.iterations < options.max_iterations;
          ++start)
       {
-        residual.compute(solution, all_r);
         copy(r, all_r);
         r.scale(matrix.weight);
         x = 0.;
@@ -303,7 +303,6 @@ namespace mortise
             energy_tolerance * energy_tolerance *
               std::max(energy_of(solution, system), residual.least_energy());
       }
-    residual.compute(solution, all_r);
     residual.judge(
       solution,
       all_r,
