@@ -112,7 +112,8 @@ namespace mortise
     Json
     json_of(const StepSummary &step)
     {
-      Json json      = {{"step", step.step}, {"cycle", step.cycle}};
+      Json json = {{"step", step.step}, {"cycle", step.cycle}};
+      set(json, "time", step.time);
       json["bodies"] = Json::array();
       for (const BodySummary &body : step.bodies)
         json["bodies"].push_back(json_of(body));

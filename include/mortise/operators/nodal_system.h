@@ -9,12 +9,15 @@
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/held_pressures.h>
 #include <mortise/operators/leading_displacements.h>
+#include <mortise/operators/prescribed_values.h>
 
 #include <memory>
 #include <vector>
 
 namespace mortise
 {
+  struct SceneLoad;
+
   class NodalSystem
   {
   public:
@@ -100,14 +103,13 @@ namespace mortise
       return leading;
     }
 
-    /// int b.v + int t.v less the work of prescribed displacements, zero where
-    /// held, and what these leave to the pressures (not touched without mixed
-    /// bodies). @p loads: by body. Collective.
+    /// Set the right hand side of @p load: int b.v + int t.v less the work of the prescribed
+    /// displacements in it, zero where held, and what these leave to the
+    /// pressures. @p loads: by body. Collective.
     void
     assemble_load(const std::vector<Loads> &loads,
-                  const Scene              &scene,
-                  Vector                   &load,
-                  Vector                   &pressure_load) const;
+                  const FieldNumbering     &numbering,
+                  SceneLoad                &load) const;
 
     /// B without the columns of prescribed components, which hanging nodes
     /// bring in. Collective.
@@ -134,10 +136,10 @@ namespace mortise
                                double value)> &set) const;
 
   private:
+    /// in = the function with these coefficients, and zero for all others.
     void
-    subtract_prescribed(const Scene         &scene,
-                        LevelVector<double> &load,
-                        Vector              &pressure_load) const;
+    set_prescribed(const PrescribedValues &prescribed,
+                   const FieldNumbering   &numbering) const;
 
     /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is held.
     void

@@ -83,8 +83,9 @@ namespace mortise
 
   struct StepSummary
   {
-    unsigned int                  step  = 0;
+    unsigned int step = 0; ///< from 1 on, or 0 in a scene without steps
     unsigned int                  cycle = 0;
+    std::optional<double>         time; ///< in a scene with steps
     std::vector<BodySummary>      bodies;
     DofSummary                    dofs;
     std::vector<InterfaceSummary> interfaces;

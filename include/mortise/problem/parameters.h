@@ -10,6 +10,7 @@
 #include <deal.II/base/point.h>
 
 #include <mortise/body/mesh_source.h>
+#include <mortise/problem/load_steps.h>
 #include <mortise/solvers/solver_options.h>
 #include <mpi.h>
 
@@ -146,6 +147,7 @@ namespace mortise
     std::vector<InterfaceParameters> interfaces;
     ExactSolutionParameters          exact_solution;
     SolverParameters                 solver;
+    StepParameters                   steps;
     OutputParameters                 output;
 
     std::string file; ///< the parameter file, as it was given
