@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <stdexcept>
 
 namespace mortise
 {
@@ -143,7 +144,14 @@ namespace mortise
                        ": it is not a file; allowed: the directory of a run "
                        "that has written a checkpoint");
     file_size = status.st_size;
-    parse_header(read_verified_header());
+    try
+      {
+        parse_header(read_verified_header());
+      }
+    catch (const std::out_of_range &error)
+      {
+        fail_as_damaged(error.what());
+      }
   }
 
   std::string

@@ -133,7 +133,7 @@ namespace mortise
     body_difference(const SceneDescription::OfBody &then,
                     const SceneDescription::OfBody &now)
     {
-      // cells of one refinement on several numbers of ranks: 1e-15
+      // on other numbers of ranks it differs by rounding, up to 1e-16
       constexpr double   allowed = 1e-11;
       std::ostringstream text;
       if (then.shape != now.shape)

@@ -2,10 +2,9 @@
 // knows what they mean.
 #pragma once
 
-#include <mortise/base/error.h>
-
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 
@@ -28,7 +27,7 @@ namespace mortise
   }
 
   /// Reads from the front what the functions above have appended; throws
-  /// InputError where it is less than asked for.
+  /// std::out_of_range where it is less than asked for.
   class ByteReader
   {
   public:
@@ -70,9 +69,9 @@ namespace mortise
     take(const std::size_t size)
     {
       if (size > left())
-        throw InputError("there are " + std::to_string(left()) +
-                         " bytes where " + std::to_string(size) +
-                         " are expected");
+        throw std::out_of_range("there are " + std::to_string(left()) +
+                                " bytes where " + std::to_string(size) +
+                                " are expected");
       const char *const start = next;
       next += size;
       return start;

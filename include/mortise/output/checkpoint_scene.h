@@ -50,7 +50,7 @@ namespace mortise
   std::string
   pack(const SceneDescription &scene);
 
-  /// Throws InputError if @p bytes are not those of pack().
+  /// Throws std::out_of_range if @p bytes are not those of pack().
   SceneDescription
   unpack_scene(const std::string &bytes);
 
