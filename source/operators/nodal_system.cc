@@ -230,7 +230,10 @@ namespace mortise
     if (Utilities::MPI::max(load.prescribed.empty() ? 0 : 1,
                             level.layout->get_mpi_communicator()) == 1)
       {
-        set_prescribed(load.prescribed, numbering);
+        interpolate([&](const unsigned int body, const auto dof) {
+          const auto found = load.prescribed.find(numbering(body, dof));
+          return found == load.prescribed.end() ? 0. : found->second;
+        });
         if (pressures)
           {
             p_in = 0.;
@@ -247,8 +250,7 @@ namespace mortise
   }
 
   void
-  NodalSystem::set_prescribed(const PrescribedValues &prescribed,
-                              const FieldNumbering   &numbering) const
+  NodalSystem::interpolate(const Coefficients &coefficient) const
   {
     const NodalLevel &level = all_levels.front();
     in                      = 0.;
@@ -265,10 +267,8 @@ namespace mortise
             bool present = false;
             for (unsigned int i = 0; i < order.values.size(); ++i)
               {
-                const auto found = prescribed.find(
-                  numbering(body.index, dofs[order.modes[c][i]]));
                 order.values[i] =
-                  found == prescribed.end() ? 0. : found->second;
+                  coefficient(body.index, dofs[order.modes[c][i]]);
                 present = present || order.values[i] != 0.;
               }
             if (!present)
@@ -281,6 +281,43 @@ namespace mortise
                   order.values[i];
           }
       });
+  }
+
+  void
+  NodalSystem::set_displacement(const Coefficients &coefficient,
+                                Vector             &displacement) const
+  {
+    interpolate(coefficient);
+    stiffness->clear_held(in);
+    copy(displacement, in);
+  }
+
+  void
+  NodalSystem::set_pressure(const Coefficients &coefficient,
+                            Vector             &pressure) const
+  {
+    p_in             = 0.;
+    const auto nodes = pressures->nodes();
+    std::vector<types::global_dof_index> dofs;
+    std::vector<double>                  values;
+    nodes.space.for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &of_cell) {
+        const auto         own    = body.pressure->cell(cell);
+        const unsigned int degree = own->get_fe().degree;
+        const auto         order  = cell_dof_indices(degree);
+        dofs.resize(order.size());
+        own->get_dof_indices(dofs);
+        values.resize(order.size());
+        for (unsigned int i = 0; i < order.size(); ++i)
+          values[i] = coefficient(body.index, dofs[order[i]]);
+        transform_along_lines(modes_to_nodes(degree), values);
+        for (unsigned int i = 0; i < order.size(); ++i)
+          if (const auto node = of_cell[order[i]];
+              nodes.layout.in_local_range(node) &&
+              !nodes.space.hanging_nodes().is_constrained(node))
+            p_in.local_element(nodes.layout.global_to_local(node)) = values[i];
+      });
+    copy(pressure, p_in);
   }
 
   void

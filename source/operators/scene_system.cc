@@ -294,6 +294,64 @@ namespace mortise
     return result;
   }
 
+  SystemVector
+  system_vector(const Bodies                    &bodies,
+                const SceneFields               &fields,
+                const BlockSystem               &system,
+                const std::vector<BodySolution> &solutions)
+  {
+    SystemVector x = system.zero_vector();
+    if (system.nodal)
+      {
+        system.nodal->set_displacement(
+          [&](const auto body, const auto dof) {
+            return solutions[body].displacement(dof);
+          },
+          x.displacement);
+        if (system.mixed())
+          system.nodal->set_pressure(
+            [&](const auto body, const auto dof) {
+              return solutions[body].pressure(dof);
+            },
+            x.pressure);
+        return x;
+      }
+    const auto insert = [](const unsigned int body,
+                           const BodyVector  &from,
+                           const SceneField  &field,
+                           Vector            &to) {
+      for (const auto dof : from.locally_owned_elements())
+        if (const auto index = field.numbering(body, dof);
+            !field.constraints.is_constrained(index))
+          to[index] = from(dof);
+    };
+    for (const auto &body : bodies)
+      {
+        const BodySolution &own = solutions[body->index];
+        insert(
+          body->index, own.displacement, fields.displacement, x.displacement);
+        if (body->pressure)
+          insert(body->index, own.pressure, fields.pressure, x.pressure);
+        // interiors were eliminated
+        std::vector<types::global_dof_index> dofs;
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              dofs.resize(cell->get_fe().n_dofs_per_cell());
+              cell->get_dof_indices(dofs);
+              for (unsigned int i = cell->get_fe().get_first_hex_index();
+                   i < dofs.size();
+                   ++i)
+                x.displacement[fields.displacement.numbering(body->index,
+                                                             dofs[i])] = 0.;
+            }
+      }
+    x.displacement.compress(VectorOperation::insert);
+    if (system.mixed())
+      x.pressure.compress(VectorOperation::insert);
+    return x;
+  }
+
   namespace
   {
     /// Collects blocks of owned dofs, each dof once.

@@ -1,6 +1,7 @@
 // Proves that the three methods give the same solution and multipliers, in any
 // units, with prescribed jumps, floating bodies, contrast, without an interface
-// and on ranks without dofs; and that failure is reported.
+// and on ranks without dofs; that later solves start from earlier ones; and that
+// failure is reported.
 #include <mortise/base/error.h>
 #include <mortise/solvers/solve.h>
 
@@ -135,6 +136,57 @@ namespace
       }
   }
 
+  /// A later load that is a combination of earlier ones is solved at the start; one that is not
+  /// is solved as by a new solver; other numbers are taken after update().
+  void
+  check_later_solves(const std::string &method)
+  {
+    springs::Options options;
+    options.gap = 0.3;
+    Scene scene(options);
+    options.load = 0.;
+    const Scene   jump(options);
+    SolverOptions solver_options;
+    solver_options.method     = solver_method_from_name(method);
+    solver_options.tolerance  = 1e-11;
+    solver_options.successive = 3;
+    const auto   solver = make_linear_solver(scene.system, solver_options);
+    SystemVector x, other;
+    solver->solve(scene.rhs, x);
+    solver->solve(jump.rhs, other);
+    SystemVector rhs = scene.rhs;
+    scale(rhs, -2.5);
+    add_scaled(rhs, 7., jump.rhs);
+    const auto   report = solver->solve(rhs, x);
+    SystemVector y;
+    make_linear_solver(scene.system, solver_options)->solve(rhs, y);
+    verdict(method + ": a combination of loads is solved at once",
+            method == "direct" ? 0. : report.iterations,
+            0.);
+    verdict(method + ": it is that of a new solver, 1e-8",
+            difference(x.displacement, y.displacement) +
+              difference(x.multiplier, y.multiplier),
+            1e-8);
+    verdict(method + ": no setup for later loads", report.setup_seconds, 0.);
+
+    rhs.displacement = 0.;
+    rhs.multiplier   = 0.;
+    solver->solve(rhs, x);
+    verdict(method + ": no load after loads, no displacement",
+            x.displacement.l2_norm() + x.multiplier.l2_norm(),
+            0.);
+
+    scene.system.stiffness *= 2.;
+    scene.system.jump_penalty *= 2.;
+    solver->update();
+    const auto again = solver->solve(scene.rhs, x);
+    make_linear_solver(scene.system, solver_options)->solve(scene.rhs, y);
+    verdict(method + ": after update() that of the new numbers, 1e-8",
+            difference(x.displacement, y.displacement) +
+              (again.converged ? 0. : 1.),
+            1e-8);
+  }
+
   void
   check_failures()
   {
@@ -202,5 +254,7 @@ main(int argc, char **argv)
   scene.first_ranks = 1;
   check_agreement("one rank owns all", scene);
   check_units();
+  for (const std::string method : {"direct", "condensed", "saddle point"})
+    check_later_solves(method);
   check_failures();
 }

@@ -108,4 +108,12 @@ namespace mortise
   multiplier_on_faces(const Coupling &coupling,
                       const Vector   &multiplier,
                       MPI_Comm        comm);
+
+  /// What undoes multiplier_on_faces(): sets the multipliers of @p coupling that stand alone in
+  /// some coefficient; others are left as they are. The caller compresses
+  /// (insert).
+  void
+  set_multiplier(const Coupling                         &coupling,
+                 const std::vector<std::vector<double>> &coefficients,
+                 Vector                                 &multiplier);
 } // namespace mortise

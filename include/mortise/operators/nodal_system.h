@@ -116,6 +116,20 @@ namespace mortise
     void
     drop_held_columns(SparseMatrix &coupling) const;
 
+    /// A hierarchical coefficient, by body and dof.
+    using Coefficients =
+      std::function<double(unsigned int, dealii::types::global_dof_index)>;
+
+    /// What undoes for_each_coefficient(): the values at nodes, zero where held. Collective.
+    void
+    set_displacement(const Coefficients &coefficient,
+                     Vector             &displacement) const;
+
+    /// What undoes for_each_pressure_coefficient(): zero where nodes hang.
+    /// Collective.
+    void
+    set_pressure(const Coefficients &coefficient, Vector &pressure) const;
+
     /// Hierarchical coefficients in the numbering of the scene's bodies, one
     /// per dof of each owned cell: calls set(body, dof, value). Prescribed ones
     /// are left out. @p displacement: values at nodes. Collective.
@@ -136,10 +150,9 @@ namespace mortise
                                double value)> &set) const;
 
   private:
-    /// in = the function with these coefficients, and zero for all others.
+    /// in = the function whose coefficients @p coefficient(body, dof) gives.
     void
-    set_prescribed(const PrescribedValues &prescribed,
-                   const FieldNumbering   &numbering) const;
+    interpolate(const Coefficients &coefficient) const;
 
     /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is held.
     void

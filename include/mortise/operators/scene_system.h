@@ -75,6 +75,14 @@ namespace mortise
                  const SceneLoad                  &load,
                  const SystemVector               &solution);
 
+  /// What undoes body_solutions(), for displacements and pressures: @p solutions without what is
+  /// prescribed, as unknowns of @p system; multipliers are zero. Collective.
+  SystemVector
+  system_vector(const Bodies                    &bodies,
+                const SceneFields               &fields,
+                const BlockSystem               &system,
+                const std::vector<BodySolution> &solutions);
+
   /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
   void
   describe_structure(const Bodies         &bodies,

@@ -122,6 +122,14 @@ namespace mortise
   std::string
   to_json(const Summary &summary);
 
+  /// The entries of "steps" in it, on one line.
+  std::string
+  steps_to_json(const std::vector<StepSummary> &steps);
+
+  /// What steps_to_json() wrote.
+  std::vector<StepSummary>
+  steps_from_json(const std::string &text);
+
   /// Write @p directory /summary.json as write_whole_file() does. Collective.
   void
   write_summary(const Summary     &summary,
