@@ -298,6 +298,7 @@ namespace mortise
   system_vector(const Bodies                    &bodies,
                 const SceneFields               &fields,
                 const BlockSystem               &system,
+                const PrescribedValues          &prescribed,
                 const std::vector<BodySolution> &solutions)
   {
     SystemVector x = system.zero_vector();
@@ -305,7 +306,9 @@ namespace mortise
       {
         system.nodal->set_displacement(
           [&](const auto body, const auto dof) {
-            return solutions[body].displacement(dof);
+            return solutions[body].displacement(dof) -
+                   value_of(fields.displacement.numbering(body, dof),
+                            prescribed);
           },
           x.displacement);
         if (system.mixed())

@@ -211,6 +211,24 @@ namespace mortise
       spaces.bodies, assembled, spaces.fields, system, load, solution);
   }
 
+  SystemVector
+  Discretisation::system_vector(const Checkpoint &checkpoint,
+                                const SceneLoad  &load) const
+  {
+    SystemVector x = mortise::system_vector(spaces.bodies,
+                                            spaces.fields,
+                                            system,
+                                            load.prescribed,
+                                            checkpoint.solutions);
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      set_multiplier(couplings.all()[i],
+                     checkpoint.multipliers[i],
+                     x.multiplier);
+    if (x.multiplier.size() > 0)
+      x.multiplier.compress(VectorOperation::insert);
+    return x;
+  }
+
   void
   Discretisation::check_multipliers() const
   {

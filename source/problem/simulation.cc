@@ -2,12 +2,14 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
+#include <mortise/output/checkpoint.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/result_checks.h>
 #include <mortise/problem/run_table.h>
 #include <mortise/problem/simulation.h>
 
 #include <cmath>
+#include <filesystem>
 
 namespace mortise
 {
@@ -22,6 +24,17 @@ namespace mortise
   {
     summary.program = program_info(Utilities::MPI::n_mpi_processes(comm));
     summary.title   = parameters.title;
+  }
+
+  void
+  Simulation::resume(const RunCheckpoint &checkpoint,
+                     const std::string   &directory)
+  {
+    restart       = directory;
+    state.time    = checkpoint.time;
+    summary.steps = checkpoint.steps;
+    steps.resume(checkpoint.time, checkpoint.n_steps, checkpoint.longest_step);
+    files.resume(checkpoint.files);
   }
 
   void
@@ -57,6 +70,21 @@ namespace mortise
     // a factorisation gives one of many answers and does not tell
     if (options.method == SolverMethod::direct)
       discretisation->check_multipliers();
+  }
+
+  void
+  Simulation::restore(const std::string &directory)
+  {
+    const Checkpoint checkpoint =
+      read_checkpoint(directory,
+                      bodies,
+                      discretisation->interfaces().all(),
+                      context.comm);
+    const SceneData data(context.parameters, state.time, field_checks);
+    const SceneLoad load = discretisation->load(data);
+    state.solution       = discretisation->system_vector(checkpoint, load);
+    solver->remember(load.rhs, state.solution);
+    context.log.line("continued from t = " + RunLog::number(state.time));
   }
 
   SystemVector
@@ -144,12 +172,53 @@ namespace mortise
     }
     state = std::move(next);
     steps.accept(report.converged);
-    if (writes && (steps.output_due() || !report.converged))
-      for (const OutputError &error :
-           files.write(steps.n_done(), time, *discretisation, fields))
-        unwritten.push_back(error);
+    if (writes)
+      write_results(fields);
     if (context.parameters.steps.given)
       print_progress();
+  }
+
+  void
+  Simulation::write_results(const StepFields &fields)
+  {
+    if (steps.output_due() || !report.converged)
+      for (const OutputError &error : files.write(
+             steps.n_done(), steps.time(), *discretisation, fields))
+        unwritten.push_back(error);
+    const unsigned int every = context.parameters.output.checkpoint_every;
+    if (every > 0 && report.converged &&
+        (steps.n_done() % every == 0 || steps.finished()))
+      write_checkpoint(fields);
+  }
+
+  void
+  Simulation::write_checkpoint(const StepFields &fields)
+  {
+    const auto        stage = context.log.stage(context.timers, "checkpoint");
+    const Parameters &parameters = context.parameters;
+    const RunCheckpoint checkpoint{
+      std::filesystem::absolute(parameters.file).string(),
+      parameters.assignments,
+      steps.time(),
+      steps.longest(),
+      steps.n_done(),
+      summary.steps,
+      files.written()};
+    try
+      {
+        mortise::write_checkpoint(
+          parameters.output.directory,
+          {to_text(checkpoint), fields.solutions, fields.tractions},
+          bodies,
+          discretisation->interfaces().all(),
+          context.comm);
+      }
+    catch (const OutputError &error)
+      {
+        unwritten.push_back(error);
+      }
+    summary.status = "running";
+    write_summary();
   }
 
   void
@@ -168,10 +237,16 @@ namespace mortise
   void
   Simulation::march(const bool writes)
   {
-    discretise();
-    do
+    report.converged = true;
+    if (steps.finished()) // of a run that was continued
+      context.log.line("the end at t = " + RunLog::number(steps.time()) +
+                       " was reached before; another Steps/End time goes on");
+    else
+      discretise();
+    if (!steps.finished() && !restart.empty())
+      restore(restart);
+    while (!steps.finished() && report.converged)
       step(writes);
-    while (!steps.finished() && report.converged);
     summary.status = report.converged ? "done" : "not converged";
   }
 

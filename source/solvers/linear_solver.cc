@@ -86,6 +86,8 @@ namespace mortise
   void
   LinearSolver::remember(const SystemVector &rhs, const SystemVector &x)
   {
+    if (!residual)
+      update();
     earlier.add(rhs, x, *residual);
   }
 } // namespace mortise

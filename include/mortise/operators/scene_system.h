@@ -75,12 +75,13 @@ namespace mortise
                  const SceneLoad                  &load,
                  const SystemVector               &solution);
 
-  /// What undoes body_solutions(), for displacements and pressures: @p solutions without what is
-  /// prescribed, as unknowns of @p system; multipliers are zero. Collective.
+  /// What undoes body_solutions(), for displacements and pressures: @p solutions less what is
+  /// @p prescribed in them, as unknowns of @p system; multipliers are zero. Collective.
   SystemVector
   system_vector(const Bodies                    &bodies,
                 const SceneFields               &fields,
                 const BlockSystem               &system,
+                const PrescribedValues          &prescribed,
                 const std::vector<BodySolution> &solutions);
 
   /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.

@@ -2,7 +2,7 @@
 // stand while loads change. Other meshes need another one.
 #pragma once
 
-#include <mortise/base/field_checks.h>
+#include <mortise/output/checkpoint.h>
 #include <mortise/problem/scene_couplings.h>
 #include <mortise/problem/scene_spaces.h>
 #include <mortise/solvers/find_free_pressures.h>
@@ -29,6 +29,10 @@ namespace mortise
     /// The solution by body. Collective.
     std::vector<BodySolution>
     solutions(const SceneLoad &load, const SystemVector &solution) const;
+
+    /// The unknowns in a checkpoint of the time of @p load. Collective.
+    SystemVector
+    system_vector(const Checkpoint &checkpoint, const SceneLoad &load) const;
 
     /// Throws InputError where multipliers depend on each other. Collective.
     void

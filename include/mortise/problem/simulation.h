@@ -5,12 +5,14 @@
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/field_files.h>
 #include <mortise/problem/load_steps.h>
+#include <mortise/problem/run_checkpoint.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/state.h>
 #include <mortise/problem/step_results.h>
 #include <mortise/solvers/solve.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mortise
@@ -24,6 +26,10 @@ namespace mortise
     /// Collective; throws InputError.
     void
     create_meshes();
+
+    /// Go on from @p checkpoint, in @p directory: run() and compute() do the steps behind it.
+    void
+    resume(const RunCheckpoint &checkpoint, const std::string &directory);
 
     /// All steps up to errors and functionals; writes nothing. Collective;
     /// throws InputError.
@@ -53,12 +59,19 @@ namespace mortise
     /// One step, or half of it if it does not converge and may be halved.
     void
     step(bool writes);
+    /// Set the state to that of the checkpoint in @p directory.
+    void
+    restore(const std::string &directory);
     SystemVector
     solve(const SceneLoad &load);
     StepSummary
     summarise(const SolvedStep &solved, const StepFields &fields);
     void
     print_progress();
+    void
+    write_results(const StepFields &fields);
+    void
+    write_checkpoint(const StepFields &fields);
     void
     write_summary();
 
@@ -67,6 +80,7 @@ namespace mortise
     FieldChecks      field_checks; ///< of what is given
 
     LoadSteps                       steps;
+    std::string                     restart; ///< directory of a checkpoint
     Bodies                          bodies;
     std::unique_ptr<Discretisation> discretisation;
     std::unique_ptr<LinearSolver>   solver;
