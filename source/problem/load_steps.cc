@@ -11,10 +11,7 @@ namespace mortise
     , smallest_share(parameters.smallest_step)
     , divisible(divisible)
     , length(std::numeric_limits<double>::infinity())
-  {
-    if (times.empty())
-      times = {parameters.end_time};
-  }
+  {}
 
   double
   LoadSteps::next() const

@@ -8,9 +8,8 @@ namespace mortise
   /// Subsection Steps of a parameter file.
   struct StepParameters
   {
-    bool   given    = false; ///< else one step to the end
-    double end_time = 1.;
-    std::vector<double> times; ///< ascending, the last is the end; empty: one step
+    bool                given = false; ///< else one step, at time 1
+    std::vector<double> times = {1.};  ///< at which steps end, ascending from 0
     unsigned int        output_every = 1; ///< of the planned times
     double smallest_step = 1e-3; ///< of the planned one, before a nonlinear run gives up
   };
