@@ -60,8 +60,12 @@ namespace mortise
     reached    = time;
     n_accepted = n_steps;
     length     = longest;
+    // another end may give the planned times other roundings
+    const double rounding = 1e-9 * times.back();
     n_planned =
-      std::upper_bound(times.begin(), times.end(), time) - times.begin();
-    at_planned = n_planned > 0 && times[n_planned - 1] == time;
+      std::upper_bound(times.begin(), times.end(), time + rounding) -
+      times.begin();
+    at_planned =
+      n_planned > 0 && times[n_planned - 1] > time - rounding;
   }
 } // namespace mortise

@@ -84,6 +84,15 @@ namespace
     verdict(n == 3 && thirds.time() == 0.3, "three thirds, exactly at the end");
   }
 
+  /// 3 * 0.1 is not 0.3: no step is left between them.
+  void
+  check_rounding()
+  {
+    LoadSteps steps(planned({0.1, 2 * 0.1, 3 * 0.1, 0.4}), false);
+    steps.resume(0.3, 3, 1.);
+    verdict(steps.next() == 0.4, "a planned time with another rounding");
+  }
+
   void
   check_resume()
   {
@@ -122,5 +131,6 @@ main()
 {
   check_planned();
   check_halving();
+  check_rounding();
   check_resume();
 }
