@@ -140,8 +140,8 @@ namespace mortise
     double     softest = std::numeric_limits<double>::max(), stiffest = 0.;
     for (const auto &body : bodies)
       {
-        softest  = std::min(softest, body->material.young_modulus);
-        stiffest = std::max(stiffest, body->material.young_modulus);
+        softest  = std::min(softest, body->material.softest_modulus());
+        stiffest = std::max(stiffest, body->material.stiffest_modulus());
       }
     choice = choose_solver(parameters.solver.method,
                                      {displacement_field.numbering.size(),

@@ -41,7 +41,7 @@ namespace mortise
     for (const auto &group : tied_groups(parameters))
       {
         if (!std::all_of(group.begin(), group.end(), [&](const auto b) {
-              return bodies[b]->material.mixed &&
+              return bodies[b]->material.mixed() &&
                      bodies[b]->material.incompressible();
             }))
           continue;

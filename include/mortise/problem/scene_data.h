@@ -15,7 +15,7 @@
 namespace mortise
 {
   /// Material of each body.
-  std::vector<LinearElastic>
+  std::vector<Material>
   materials(const Parameters &parameters);
 
   /// The exact solution that the parameters name; null if there is none. The
