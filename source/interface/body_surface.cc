@@ -71,7 +71,7 @@ namespace mortise
       trace.shape =
         body.mesh.tetrahedra ? FaceShape::triangle : FaceShape::quadrilateral;
       trace.degree    = body.degree(cell);
-      trace.modulus   = body.material.young_modulus;
+      trace.modulus   = body.material.modulus();
       trace.depth     = depth(cell, CellFace(cell, f));
       const auto dofs = face_dofs(cell, f);
       trace.begin     = {0};

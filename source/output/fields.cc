@@ -27,7 +27,7 @@ namespace mortise
     class StressPostprocessor : public DataPostprocessor<dim>
     {
     public:
-      StressPostprocessor(const LinearElastic  &material,
+      StressPostprocessor(const Material       &material,
                           const FieldSelection &selection)
         : material(material)
         , selection(selection)
@@ -76,10 +76,8 @@ namespace mortise
             Tensor<2, dim> gradient;
             for (unsigned int c = 0; c < dim; ++c)
               gradient[c] = input.solution_gradients[q][c];
-            const SymmetricTensor<2, dim> stress =
-              material.stress(symmetrize(gradient),
-                              material.mixed ? input.solution_values[q][dim] :
-                                               0.);
+            const SymmetricTensor<2, dim> stress = material.stress(
+              gradient, material.mixed() ? input.solution_values[q][dim] : 0.);
             unsigned int next = 0;
             if (selection.stress)
               {
@@ -94,7 +92,7 @@ namespace mortise
       }
 
     private:
-      const LinearElastic  material;
+      const Material       material;
       const FieldSelection selection;
     };
 

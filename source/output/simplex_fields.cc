@@ -17,7 +17,7 @@ namespace mortise
     evaluate_cell(const FEValues<dim>                        &values,
                   const std::array<std::vector<double>, dim> &coefficients,
                   const std::vector<double>                  &pressures,
-                  const LinearElastic                        &material,
+                  const Material                             &material,
                   const FieldSelection                       &selection)
     {
       std::vector<std::vector<double>> data(values.n_quadrature_points);
@@ -31,8 +31,7 @@ namespace mortise
           if (!selection.stress && !selection.pressure)
             continue;
           const auto stress =
-            material.stress(symmetrize(gradient(values, coefficients, q)),
-                            pressures[q]);
+            material.stress(gradient(values, coefficients, q), pressures[q]);
           if (selection.stress)
             {
               for (unsigned int i = 0; i < dim; ++i)

@@ -132,7 +132,7 @@ namespace mortise
     for (const auto &group : tied_groups(couplings.sides(), bodies.size()))
       {
         if (!std::all_of(group.begin(), group.end(), [&](const auto b) {
-              return bodies[b]->material.mixed &&
+              return bodies[b]->material.mixed() &&
                      bodies[b]->material.incompressible();
             }))
           continue;

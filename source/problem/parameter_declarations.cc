@@ -59,18 +59,48 @@ namespace mortise
       declare_mesh({declared, {section, "Mesh"}});
 
       Declare material(declared, {section, "Material"});
-      material.choice("Law",
-                      body.material.law,
-                      "Material law.",
-                      {"linear elastic"});
-      material.number("Young modulus",
-                      body.material.young_modulus,
-                      "Young's modulus [force per area].",
-                      "a positive number");
+      material.choice(
+        "Law",
+        body.material.law,
+        "Material law; each takes its own of the constants below.",
+        law_names());
+      material.number(
+        "Young modulus",
+        body.material.young_modulus,
+        "Young's modulus of Law = linear elastic [force per area].",
+        "a positive number");
       material.number("Poisson ratio",
                       body.material.poisson_ratio,
-                      "Poisson's ratio [-].",
+                      "Poisson's ratio of Law = linear elastic [-].",
                       "a number above -1 and not above 0.5");
+      const Orthotropic &orthotropic = body.material.orthotropic;
+      material.numbers(
+        "Young moduli",
+        text_of(orthotropic.young_moduli),
+        "E_x, E_y, E_z of Law = orthotropic, along the axes of the material "
+        "[force per area].",
+        "3 positive numbers",
+        3);
+      material.numbers(
+        "Poisson ratios",
+        text_of(orthotropic.poisson_ratios),
+        "nu_xy, nu_yz, nu_zx of Law = orthotropic [-]; nu_ij is the contraction along j per "
+        "extension along i under tension along i, nu_ij / E_i = nu_ji / E_j.",
+        "3 numbers with which the stiffness is positive definite",
+        3);
+      material.numbers(
+        "Shear moduli",
+        text_of(orthotropic.shear_moduli),
+        "G_xy, G_yz, G_zx of Law = orthotropic [force per area].",
+        "3 positive numbers",
+        3);
+      material.numbers(
+        "Axes",
+        text_of(orthotropic.axes),
+        "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
+        "[degrees]. They do not follow the Rotate of the mesh.",
+        "3 numbers",
+        3);
       for (const std::string &boundary : boundaries)
         declare_boundary({declared, {section, "Boundary " + boundary}});
     }

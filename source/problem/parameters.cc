@@ -145,6 +145,10 @@ namespace mortise
       body.material.law           = material.text("Law");
       body.material.young_modulus = material.number("Young modulus");
       body.material.poisson_ratio = material.number("Poisson ratio");
+      body.material.orthotropic   = {material.array<3>("Young moduli"),
+                                     material.array<3>("Poisson ratios"),
+                                     material.array<3>("Shear moduli"),
+                                     material.array<3>("Axes")};
       for (const std::string &boundary : boundaries)
         body.boundaries[boundary] = read_boundary(ParameterReader(
           schema, parameters, {section, "Boundary " + boundary}));

@@ -10,14 +10,15 @@ namespace mortise
 {
   using namespace dealii;
 
-  std::vector<LinearElastic>
+  std::vector<Material>
   materials(const Parameters &parameters)
   {
-    std::vector<LinearElastic> result;
+    std::vector<Material> result;
     for (const BodyParameters &body : parameters.bodies)
-      result.push_back({body.material.young_modulus,
-                        body.material.poisson_ratio,
-                        is_mixed(body)});
+      result.push_back(make_material(
+        body.material, is_mixed(body), [&](const std::string &name) {
+          return parameters.where("Body " + body.name + "/Material/" + name);
+        }));
     return result;
   }
 
@@ -64,8 +65,16 @@ namespace mortise
               where + ": the named solution needs bodies of Source = " +
               source + "; body " + in_quotes(parameters.bodies[b].name, '\'') +
               " has Source = " + mesh.source);
+          const Material material = materials(parameters)[b];
+          if (material.isotropic() == nullptr)
+            throw InputError(
+              where +
+              ": the named solution needs bodies of Law = linear "
+              "elastic; body " +
+              in_quotes(parameters.bodies[b].name, '\'') +
+              " has Law = " + parameters.bodies[b].material.law);
           layers.push_back(
-            {mesh.extent[0], mesh.extent[1], materials(parameters)[b]});
+            {mesh.extent[0], mesh.extent[1], *material.isotropic()});
           if (mesh.extent[0] < layers[innermost].inner_radius)
             innermost = b;
           if (mesh.extent[1] > layers[outermost].outer_radius)

@@ -105,8 +105,8 @@ namespace mortise
       for (const auto &body : spaces.bodies)
         {
           scene.push_back(body.get());
-          softest    = std::min(softest, body->material.young_modulus);
-          stiffest   = std::max(stiffest, body->material.young_modulus);
+          softest    = std::min(softest, body->material.softest_modulus());
+          stiffest   = std::max(stiffest, body->material.stiffest_modulus());
           max_degree = std::max(max_degree, body->statistics().degree_max);
         }
       const bool nodal = NodalSpace::represents(scene);

@@ -80,7 +80,7 @@ main(int argc, char **argv)
   mesh.subdivisions = {static_cast<unsigned int>(std::atoi(argv[2])),
                        static_cast<unsigned int>(std::atoi(argv[3]))};
 
-  Body body("shell", 0, {10., 0.3});
+  Body body("shell", 0, LinearElastic{10., 0.3});
   body.create_mesh(mesh, MPI_COMM_SELF, "Mesh");
   body.mesh.curved = std::string(argv[4]) == "curved";
   body.create_space(std::atoi(argv[1]), {}, "Body");

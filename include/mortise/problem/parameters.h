@@ -10,6 +10,7 @@
 #include <deal.II/base/point.h>
 
 #include <mortise/body/mesh_source.h>
+#include <mortise/material/factory.h>
 #include <mortise/problem/load_steps.h>
 #include <mortise/problem/parameter_file.h>
 #include <mortise/solvers/solver_options.h>
@@ -31,13 +32,6 @@ namespace mortise
   /// "ex; ey; ez", as VectorExpression takes it.
   std::string
   joined(const Components &components);
-
-  struct MaterialParameters
-  {
-    std::string law           = "linear elastic";
-    double      young_modulus = 1.;  ///< force per area
-    double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
-  };
 
   /// What acts on one named boundary. Nothing at all: free of traction.
   struct BoundaryParameters

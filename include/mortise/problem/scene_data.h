@@ -14,7 +14,7 @@
 namespace mortise
 {
   /// Material of each body.
-  std::vector<LinearElastic>
+  std::vector<Material>
   materials(const Parameters &parameters);
 
   /// What acts on a scene at one time. Both arguments of the constructor must
