@@ -90,7 +90,9 @@ namespace mortise
                 trace.column.push_back(dof);
                 trace.weight.push_back(1.);
               }
-            trace.constant.push_back(constraints.get_inhomogeneity(dof));
+            trace.prescribed.push_back(constraints.is_constrained(dof) ?
+                                         dof :
+                                         numbers::invalid_dof_index);
             trace.begin.push_back(trace.column.size());
           }
       return trace;

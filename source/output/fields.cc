@@ -286,10 +286,10 @@ namespace mortise
   write_body_fields(const Body           &body,
                     const BodySolution   &solution,
                     const FieldSelection &selection,
-                    const std::string    &directory)
+                    const std::string    &file)
   {
     if (body.mesh.tetrahedra)
-      return write_tetrahedra(body, solution, selection, directory);
+      return write_tetrahedra(body, solution, selection, file);
     const unsigned int          degree = body.max_degree();
     const StressPostprocessor   stress(body.material, selection);
     std::unique_ptr<MixedField> mixed;
@@ -316,7 +316,7 @@ namespace mortise
                          body.mesh.curved ? DataOut<dim>::curved_inner_cells :
                                             DataOut<dim>::no_curved_cells);
     write_vtu_file(output,
-                   directory + "/" + body.name + ".vtu",
+                   file,
                    body.triangulation().get_communicator());
   }
 
@@ -325,12 +325,11 @@ namespace mortise
                          const Coupling                         &coupling,
                          const std::vector<std::vector<double>> &coefficients,
                          const BodyVector                       &displacement,
-                         const std::string                      &directory)
+                         const std::string                      &file)
   {
     const BodySurface &surface = coupling.interface->slave();
     if (slave_body.mesh.tetrahedra)
-      return write_triangles({coupling.interface->name(),
-                              directory,
+      return write_triangles({file,
                               slave_body.triangulation().get_communicator()},
                              surface,
                              coefficients,
@@ -356,7 +355,7 @@ namespace mortise
     add(displacement, "displacement");
     output.build_patches(*slave_body.mapping, degree);
     write_vtu_file(output,
-                   directory + "/" + coupling.interface->name() + ".vtu",
+                   file,
                    slave_body.triangulation().get_communicator());
   }
 } // namespace mortise

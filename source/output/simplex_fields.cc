@@ -51,7 +51,7 @@ namespace mortise
   write_tetrahedra(const Body           &body,
                    const BodySolution   &solution,
                    const FieldSelection &selection,
-                   const std::string    &directory)
+                   const std::string    &file)
   {
     SimplexPatches<dim> output(body.max_degree());
     if (selection.displacement)
@@ -91,7 +91,7 @@ namespace mortise
                           selection));
         }
     write_vtu_file(output,
-                   directory + "/" + body.name + ".vtu",
+                   file,
                    body.triangulation().get_communicator());
   }
 
@@ -153,8 +153,6 @@ namespace mortise
           }
         output.add_simplex(positions, data);
       }
-    write_vtu_file(output,
-                   file.directory + "/" + file.name + ".vtu",
-                   file.comm);
+    write_vtu_file(output, file.name, file.comm);
   }
 } // namespace mortise

@@ -143,7 +143,13 @@ namespace mortise
                      solver.print_iterations,
                      "A line for each.");
 
+      Declare steps(declared, {"Steps"});
+      steps.text("End time", "", "End of the last step [time]; it begins at 0. Empty: that of Step, or 1.", "a positive number");
+      steps.text("Step", "", "Length of the steps, or the times at which they end [time]. Empty: one step.", "a positive number, or several, ascending, separated by commas");
+      steps.integer("Output every", 1, "Fields are written after every so many of these times, and at the end.", 1);
+      steps.number("Smallest step", 1e-3, "A nonlinear scene gives up when halved steps come below this share of the planned one [-].", "a positive number");
       Declare output(declared, {"Output"});
+      output.integer("Checkpoint every", 0, "After so many steps the run is written to DIRECTORY/checkpoint.bin, from which --restart goes on. 0: never.", 0);
       output.text(
         "Directory",
         "",

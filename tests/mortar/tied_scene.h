@@ -120,17 +120,14 @@ namespace mortise::testing
       return couplings[0];
     }
 
-    /// B with these columns, those of the numbering or of nodes; what is
-    /// prescribed is zero, so that nothing moves to the right hand side.
+    /// B with these columns, those of the numbering or of nodes.
     void
     assemble(SparseMatrix           &matrix,
              const dealii::IndexSet &owned_displacement) const
     {
-      mortise::Vector rhs;
       assemble_constraint(couplings,
                           {owned_displacement, owned_multiplier, comm},
-                          matrix,
-                          rhs);
+                          matrix);
     }
 
     /// Coefficients of @p function on the tied surface of body @p b, zero

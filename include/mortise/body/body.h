@@ -47,8 +47,8 @@ namespace mortise
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
     /// of a cell; mapping of the largest degree on curved meshes; conformity
     /// constraints; pressures if the material is mixed, which needs degrees
-    /// above one. Collective; throws InputError for a region that the mesh does
-    /// not have.
+    /// above one. Replaces those of an earlier call. Collective; throws
+    /// InputError for a region that the mesh does not have.
     void
     create_space(
       unsigned int                                          degree,
