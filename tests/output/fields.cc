@@ -157,7 +157,7 @@ namespace mortise::testing
       all.displacement = all.stress = all.pressure = true;
       const std::string place =
         directory() + (comm == MPI_COMM_SELF ? "/alone" : "");
-      write_body_fields(body, solution, all, place);
+      write_body_fields(body, solution, all, place + "/body.vtu");
     }
 
     Body body;
@@ -303,7 +303,8 @@ namespace mortise::testing
                            multiplier_on_faces(scene.coupling(), lambda, comm),
                            interpolate(*scene.bodies[0], Polynomial{1}),
                            directory() +
-                             (comm == MPI_COMM_SELF ? "/alone" : ""));
+                             (comm == MPI_COMM_SELF ? "/alone" : "") +
+                             "/glue.vtu");
   }
 
   void
@@ -353,7 +354,7 @@ namespace mortise::testing
         write_body_fields(body,
                           {interpolate(body, Polynomial{2}), {}},
                           selection,
-                          directory());
+                          directory() + "/body.vtu");
         if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
           {
             std::string got;
