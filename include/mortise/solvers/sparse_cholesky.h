@@ -1,5 +1,5 @@
 // A sparse Cholesky factorisation by dense blocks for the many solves of a
-// preconditioner, several times faster in these than a general library. Its
+// preconditioner; beside general libraries: doc/sparse_cholesky.md. Its
 // subtrees are dealt out to the ranks; of what is above them each rank treats
 // one component; the matrix, while it is factorised, is on all.
 // Sources: Duff, Reid (1983); Liu (1992), "The multifrontal method".

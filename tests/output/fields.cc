@@ -1,0 +1,393 @@
+// Proves that the VTU files say what was solved for: that their points have the
+// values of the finite element field and the stress of the law, for p = 1..6 on
+// hexahedra and tetrahedra, mixed degrees, hanging nodes and curved cells, and
+// in mixed form; that their cells fill the body; that the file of an interface
+// has the traction that the slave bears, the gap and the displacement; which
+// arrays there are; and that one file of several ranks has what that of one
+// rank has. Files hold single precision.
+#include <mortar/tied_scene.h>
+#include <mortise/output/fields.h>
+#include <scenes/scene.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+#include "polynomial_field.h"
+#include "vtu_content.h"
+
+namespace mortise::testing
+{
+  using namespace dealii;
+
+  constexpr double single = 3e-6;
+
+  /// The directory of this run, the same on all ranks.
+  std::string
+  directory()
+  {
+    static const std::string path = [] {
+      const auto pid = Utilities::MPI::broadcast(MPI_COMM_WORLD, int(getpid()));
+      const auto made = std::filesystem::temp_directory_path() /
+                        ("mortise_fields_" + std::to_string(pid));
+      std::filesystem::create_directories(made / "alone");
+      return made.string();
+    }();
+    return path;
+  }
+
+  double
+  pressure_at(const unsigned int p, const Point<dim> &x)
+  {
+    return std::pow(1. + 0.3 * x[0] - 0.2 * x[1] + 0.1 * x[2], p - 1);
+  }
+
+  struct Expected
+  {
+    unsigned int cells, points, type;
+    double       size; ///< of all cells; 0: not known
+    std::string  names;
+  };
+
+  /// On the first rank, what does not depend on the values; @p alone: as one
+  /// rank writes it.
+  void
+  check_shape(const std::string &what,
+              const VtuContent  &file,
+              const VtuContent  &alone,
+              const Expected    &expected)
+  {
+    const auto off = [](const double a, const double b) {
+      return std::fabs(a - b);
+    };
+    verdict(what + ": cells", off(file.cells.size(), expected.cells), 0);
+    verdict(what + ": points", off(file.points.size(), expected.points), 0);
+    double total = 0., others = 0.;
+    for (unsigned int c = 0; c < file.cells.size(); ++c)
+      {
+        others += file.types[c] == expected.type ? 0. : 1.;
+        if (expected.size > 0.)
+          total += size_of(file, c);
+      }
+    verdict(what + ": cells of other types", others, 0);
+    if (expected.size > 0.)
+      verdict(what + ": cells fill the body",
+              off(total / expected.size, 1.),
+              single);
+    std::string names;
+    for (const std::string &name : file.names)
+      names += (names.empty() ? "" : " ") + name;
+    verdict(what + ": arrays " + expected.names,
+            names == expected.names ? 0 : 1,
+            0);
+
+    // the same points, each as often
+    const auto sorted = [](const VtuContent &content) {
+      std::vector<std::array<long, 3>> keys;
+      for (const auto &x : content.points)
+        keys.push_back({{std::lround(x[0] * 1e4),
+                         std::lround(x[1] * 1e4),
+                         std::lround(x[2] * 1e4)}});
+      std::sort(keys.begin(), keys.end());
+      return keys;
+    };
+    const auto got = sorted(file), wanted = sorted(alone);
+    double     moved = off(got.size(), wanted.size());
+    for (unsigned int i = 0; i < std::min(got.size(), wanted.size()); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        moved = std::max(moved, double(std::labs(got[i][d] - wanted[i][d])));
+    verdict(what + ": points of one rank's file", moved, 1);
+  }
+
+  /// The largest difference of an array from a field, over the field's size.
+  void
+  check_array(
+    const std::string                                            &what,
+    const VtuContent                                             &file,
+    const std::string                                            &name,
+    const std::function<std::vector<double>(const Point<dim> &)> &field)
+  {
+    double      error = 0., size = 0.;
+    const auto &got = file.data.at(name);
+    if (got.size() != file.points.size())
+      error = size = 1.;
+    for (unsigned int i = 0; i < got.size(); ++i)
+      {
+        const auto expected = field(file.points[i]);
+        if (expected.size() != got[i].size())
+          error = std::numeric_limits<double>::infinity();
+        for (unsigned int k = 0; k < expected.size(); ++k)
+          {
+            error = std::max(error, std::fabs(got[i].at(k) - expected[k]));
+            size  = std::max(size, std::fabs(expected[k]));
+          }
+      }
+    verdict(what + ": " + name, error / size, single);
+  }
+
+  std::vector<double>
+  entries(const Tensor<1, dim> &value)
+  {
+    return {value[0], value[1], value[2]};
+  }
+
+  /// A body with a polynomial displacement and, in mixed form, pressure.
+  struct Written
+  {
+    Written(const MeshParameters                             &mesh,
+            const unsigned int                                p,
+            const std::map<types::material_id, unsigned int> &by_region,
+            const bool                                        mixed,
+            const unsigned int                                degree_of_field,
+            const MPI_Comm                                    comm)
+      : body("body", 0, LinearElastic{2., 0.3, mixed})
+    {
+      body.create_mesh(mesh, comm, "");
+      body.create_space(p, by_region, "");
+      BodySolution solution;
+      solution.displacement = interpolate(body, Polynomial{degree_of_field});
+      if (mixed)
+        solution.pressure =
+          interpolate(body,
+                      body.pressure->dof_handler,
+                      body.pressure->relevant_dofs,
+                      [&](const unsigned int, const Point<dim> &x) {
+                        return pressure_at(degree_of_field, x);
+                      });
+      FieldSelection all;
+      all.displacement = all.stress = all.pressure = true;
+      const std::string place =
+        directory() + (comm == MPI_COMM_SELF ? "/alone" : "");
+      write_body_fields(body, solution, all, place + "/body.vtu");
+    }
+
+    Body body;
+  };
+
+  /// @p volume 0: not by the corners of cells.
+  void
+  check_body(const std::string                                &what,
+             const MeshParameters                             &mesh,
+             const unsigned int                                p,
+             const double                                      volume,
+             const bool                                        mixed = false,
+             const std::map<types::material_id, unsigned int> &by_region = {},
+             const unsigned int degree_of_field                          = 0)
+  {
+    const unsigned int degree = degree_of_field > 0 ? degree_of_field : p;
+    const Written together(mesh, p, by_region, mixed, degree, MPI_COMM_WORLD);
+    const Body   &body   = together.body;
+    const unsigned int n = body.triangulation().n_global_active_cells(),
+                       q = body.max_degree();
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        const Written    one(mesh, p, by_region, mixed, degree, MPI_COMM_SELF);
+        const VtuContent file(directory() + "/body.vtu"),
+          alone(directory() + "/alone/body.vtu");
+        const bool tets = body.mesh.tetrahedra;
+        check_shape(what,
+                    file,
+                    alone,
+                    {tets ? n * q * q * q : n,
+                     tets ? 4 * n * q * q * q : n * (q + 1) * (q + 1) * (q + 1),
+                     tets  ? 10u :
+                     q > 1 ? 72u :
+                             12u,
+                     volume,
+                     "displacement stress von_mises pressure"});
+        const Polynomial u{degree};
+        const auto       stress = [&](const Point<dim> &x) {
+          const auto strain = symmetrize(u.gradient(x));
+          return mixed ? body.material.stress(strain, pressure_at(degree, x)) :
+                               body.material.stress(strain);
+        };
+        check_array(what, file, "displacement", [&](const auto &x) {
+          return entries(u(x));
+        });
+        check_array(what, file, "stress", [&](const auto &x) {
+          std::vector<double> all;
+          for (unsigned int i = 0; i < dim; ++i)
+            for (unsigned int j = 0; j < dim; ++j)
+              all.push_back(stress(x)[i][j]);
+          return all;
+        });
+        check_array(what, file, "von_mises", [&](const auto &x) {
+          const auto s = stress(x);
+          return std::vector<double>{std::sqrt(
+            (std::pow(s[0][0] - s[1][1], 2) + std::pow(s[1][1] - s[2][2], 2) +
+             std::pow(s[2][2] - s[0][0], 2)) /
+              2. +
+            3. * (s[0][1] * s[0][1] + s[1][2] * s[1][2] + s[2][0] * s[2][0]))};
+        });
+        check_array(what, file, "pressure", [&](const auto &x) {
+          const auto s = stress(x);
+          return std::vector<double>{-(s[0][0] + s[1][1] + s[2][2]) / 3.};
+        });
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  MeshParameters
+  box(const bool tetrahedra)
+  {
+    MeshParameters mesh =
+      box_mesh({0., 0., 0., 1., 0.8, 0.6}, {2, 2, 2}, tetrahedra);
+    mesh.rotate = {{20., -30., 40.}};
+    return mesh;
+  }
+
+  void
+  check_bodies()
+  {
+    constexpr double volume = 0.48;
+    for (const bool tetrahedra : {false, true})
+      {
+        const std::string kind = tetrahedra ? "tetrahedra" : "hexahedra";
+        for (const unsigned int p : {1, 2, 3, 4, 5, 6})
+          check_body(kind + ", p = " + std::to_string(p),
+                     box(tetrahedra),
+                     p,
+                     volume);
+        check_body(kind + " in mixed form", box(tetrahedra), 3, volume, true);
+        check_body(kind + " of degrees 2, 3, 4",
+                   box(tetrahedra),
+                   2,
+                   volume,
+                   false,
+                   {{1, 3}, {2, 4}, {7, 3}},
+                   2);
+      }
+    MeshParameters hanging = box(false);
+    hanging.rotate         = {};
+    hanging.refine_near    = "0, 0, 0, 0.1, 2";
+    check_body("hanging nodes", hanging, 3, volume);
+    MeshParameters curved;
+    curved.source       = "shell octant";
+    curved.extent       = {1., 2.};
+    curved.subdivisions = {2, 1};
+    check_body("curved hexahedra", curved, 3, 0., false, {}, 1);
+    curved.cells = "tetrahedra";
+    check_body("curved tetrahedra", curved, 3, 0., false, {}, 1);
+  }
+
+  /// A wedge of air between the two: the gap is linear.
+  double
+  gap(const Point<dim> &x)
+  {
+    return 0.02 + 0.03 * x[0];
+  }
+
+  void
+  write_interface(const bool         tetrahedra,
+                  const unsigned int p,
+                  const MPI_Comm     comm)
+  {
+    TiedBody master{
+      box_mesh({0., 0., 1.02, 1., 1., 2.}, {2, 3, 1}), "zmin", 1, {}, {}};
+    master.mesh.bottom_slope = {{0.03, 0.}};
+    const TiedScene scene(
+      {box_mesh({0., 0., 0., 1., 1., 1.}, {3, 2, 1}, tetrahedra),
+       "zmax",
+       p,
+       {},
+       {}},
+      master,
+      comm);
+    mortise::Vector lambda = scene.multiplier(), u = scene.displacement();
+    scene.interpolate(0, Polynomial{p}, u);
+    const auto &dofs = scene.coupling().multipliers->slave_dofs();
+    for (unsigned int i = 0; i < dofs.size(); ++i)
+      lambda(scene.owned_multiplier.nth_index_in_set(i)) =
+        u(scene.field.numbering(0, dofs[i]));
+    write_interface_fields(*scene.bodies[0],
+                           scene.coupling(),
+                           multiplier_on_faces(scene.coupling(), lambda, comm),
+                           interpolate(*scene.bodies[0], Polynomial{1}),
+                           directory() +
+                             (comm == MPI_COMM_SELF ? "/alone" : "") +
+                             "/glue.vtu");
+  }
+
+  void
+  check_interface(const bool tetrahedra, const unsigned int p)
+  {
+    const std::string what =
+      std::string(tetrahedra ? "triangles" : "quadrilaterals") +
+      ", p = " + std::to_string(p);
+    write_interface(tetrahedra, p, MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        write_interface(tetrahedra, p, MPI_COMM_SELF);
+        const VtuContent file(directory() + "/glue.vtu"),
+          alone(directory() + "/alone/glue.vtu");
+        check_shape(what,
+                    file,
+                    alone,
+                    {tetrahedra ? 12 * p * p : 6,
+                     tetrahedra ? 36 * p * p : 6 * (p + 1) * (p + 1),
+                     tetrahedra ? 5u :
+                     p > 1      ? 70u :
+                                  9u,
+                     1.,
+                     "traction gap displacement"});
+        check_array(what, file, "traction", [&](const auto &x) {
+          return entries(-Polynomial{p}(x));
+        });
+        check_array(what, file, "gap", [&](const auto &x) {
+          return std::vector<double>{0., 0., gap(x)};
+        });
+        check_array(what, file, "displacement", [&](const auto &x) {
+          return entries(Polynomial{1}(x));
+        });
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  /// Only the arrays that were asked for.
+  void
+  check_selection(const FieldSelection &selection, const std::string &names)
+  {
+    for (const bool tetrahedra : {false, true})
+      {
+        Body body("body", 0, LinearElastic{2., 0.3});
+        body.create_mesh(box(tetrahedra), MPI_COMM_WORLD, "");
+        body.create_space(2, {}, "");
+        write_body_fields(body,
+                          {interpolate(body, Polynomial{2}), {}},
+                          selection,
+                          directory() + "/body.vtu");
+        if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+          {
+            std::string got;
+            for (const auto &name : VtuContent(directory() + "/body.vtu").names)
+              got += (got.empty() ? "" : " ") + name;
+            verdict(std::string(tetrahedra ? "tetrahedra" : "hexahedra") +
+                      ": only " + names,
+                    got == names ? 0 : 1,
+                    0);
+          }
+        MPI_Barrier(MPI_COMM_WORLD);
+      }
+  }
+} // namespace mortise::testing
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  using namespace mortise::testing;
+  check_bodies();
+  for (const bool tetrahedra : {false, true})
+    for (const unsigned int p : {1, 2, 3, 5})
+      check_interface(tetrahedra, p);
+  mortise::FieldSelection selection;
+  selection.displacement = true;
+  check_selection(selection, "displacement");
+  selection.stress = true;
+  check_selection(selection, "displacement stress von_mises");
+  selection.stress       = false;
+  selection.displacement = false;
+  selection.pressure     = true;
+  check_selection(selection, "pressure");
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+    std::filesystem::remove_all(directory());
+}

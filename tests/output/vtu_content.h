@@ -1,0 +1,184 @@
+// What a VTU file says, read back for tests: the format that the program
+// writes, binary and compressed. It never judges.
+#pragma once
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/utilities.h>
+
+#include <zlib.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace mortise::testing
+{
+  /// The pieces of a file one after the other.
+  struct VtuContent
+  {
+    explicit VtuContent(const std::string &file)
+    {
+      std::ostringstream all;
+      all << std::ifstream(file).rdbuf();
+      const std::string text = all.str();
+      for (std::size_t at = text.find("<Piece "); at != std::string::npos;
+           at             = text.find("<Piece ", at + 1))
+        add_piece(text.substr(at, text.find("</Piece>", at) - at));
+    }
+
+    std::vector<dealii::Point<3>>          points;
+    std::vector<std::vector<unsigned int>> cells; ///< numbers of points
+    std::vector<unsigned int>              types;
+    std::vector<std::string>               names; ///< of point data
+    std::map<std::string, std::vector<std::vector<double>>>
+                 data; ///< by name and point: components
+    unsigned int n_pieces = 0;
+
+  private:
+    static std::string
+    attribute(const std::string &tag, const std::string &name)
+    {
+      const std::size_t at = tag.find(" " + name + "=\"");
+      if (at == std::string::npos)
+        return "";
+      const std::size_t begin = at + name.size() + 3;
+      return tag.substr(begin, tag.find('"', begin) - begin);
+    }
+
+    /// Number of blocks, sizes of whole ones and of the last, compressed sizes,
+    /// all in base 64; the blocks in base 64.
+    static std::string
+    uncompressed(const std::string &text)
+    {
+      const auto number = [](const std::vector<unsigned char> &bytes,
+                             const unsigned int                i) {
+        std::uint32_t value;
+        std::memcpy(&value, &bytes[4 * i], 4);
+        return value;
+      };
+      const std::size_t begin = text.find_first_not_of(" \n");
+      const std::size_t end   = text.find_last_not_of(" \n") + 1;
+      const auto        start =
+        dealii::Utilities::decode_base64(text.substr(begin, 24));
+      AssertThrow(number(start, 0) == 1, dealii::ExcNotImplemented());
+      const auto compressed = dealii::Utilities::decode_base64(
+        text.substr(begin + 24, end - begin - 24));
+      AssertThrow(compressed.size() == number(start, 3),
+                  dealii::ExcMessage("the compressed size is another"));
+      std::string result(number(start, 1), '\0');
+      uLongf      size = result.size();
+      AssertThrow(uncompress(reinterpret_cast<Bytef *>(&result[0]),
+                             &size,
+                             compressed.data(),
+                             compressed.size()) == Z_OK &&
+                    size == result.size(),
+                  dealii::ExcMessage("the data are broken"));
+      return result;
+    }
+
+    template <typename Number>
+    static std::vector<double>
+    numbers(const std::string &bytes)
+    {
+      std::vector<double> result;
+      for (std::size_t i = 0; i < bytes.size(); i += sizeof(Number))
+        {
+          Number value;
+          std::memcpy(&value, &bytes[i], sizeof(Number));
+          result.push_back(value);
+        }
+      return result;
+    }
+
+    void
+    add_array(const std::string &tag, const std::string &content)
+    {
+      const std::string bytes = uncompressed(content);
+      const std::string type  = attribute(tag, "type"),
+                        name  = attribute(tag, "Name");
+      const std::vector<double> values =
+        type == "Float32" ? numbers<float>(bytes) :
+        type == "Float64" ? numbers<double>(bytes) :
+        type == "Int32"   ? numbers<std::int32_t>(bytes) :
+                            numbers<std::uint8_t>(bytes);
+      if (name == "connectivity")
+        connectivity = values;
+      else if (name == "offsets")
+        for (unsigned int c = 0; c < values.size(); ++c)
+          {
+            cells.emplace_back();
+            for (unsigned int i = c == 0 ? 0 : values[c - 1]; i < values[c];
+                 ++i)
+              cells.back().push_back(first_point + connectivity.at(i));
+          }
+      else if (name == "types")
+        types.insert(types.end(), values.begin(), values.end());
+      else if (name.empty())
+        for (unsigned int i = 0; i < values.size(); i += 3)
+          points.emplace_back(values[i], values[i + 1], values[i + 2]);
+      else
+        {
+          const std::string  given = attribute(tag, "NumberOfComponents");
+          const unsigned int n     = given.empty() ? 1 : std::stoi(given);
+          if (n_pieces == 1)
+            names.push_back(name);
+          for (unsigned int i = 0; i < values.size(); i += n)
+            data[name].emplace_back(&values[i], &values[i] + n);
+        }
+    }
+
+    void
+    add_piece(const std::string &text)
+    {
+      ++n_pieces;
+      first_point = points.size();
+      for (std::size_t at = text.find("<DataArray "); at != std::string::npos;
+           at             = text.find("<DataArray ", at + 1))
+        {
+                      const std::size_t begin = text.find('>', at) + 1;
+                      add_array(text.substr(at, begin - at),
+                    text.substr(begin, text.find('<', begin) - begin));
+        }
+      AssertThrow(points.size() - first_point ==
+                    std::stoul(attribute(text, "NumberOfPoints")),
+                  dealii::ExcMessage("the number of points is another"));
+    }
+
+    unsigned int        first_point = 0;
+    std::vector<double> connectivity;
+  };
+
+  /// Volume or area of a cell by its corners: parallelepipeds and simplices.
+  inline double
+  size_of(const VtuContent &file, const unsigned int cell)
+  {
+    const auto edge = [&](const unsigned int v) {
+      return file.points[file.cells[cell].at(v)] -
+             file.points[file.cells[cell][0]];
+    };
+    switch (file.types[cell])
+      {
+        case 5:
+          return dealii::cross_product_3d(edge(1), edge(2)).norm() / 2.;
+        case 9:
+        case 70:
+          return dealii::cross_product_3d(edge(1), edge(3)).norm();
+        case 10:
+          return std::fabs(dealii::cross_product_3d(edge(1), edge(2)) *
+                           edge(3)) /
+                 6.;
+        case 12:
+        case 72:
+          return dealii::cross_product_3d(edge(1), edge(3)) * edge(4);
+        default:
+          return std::numeric_limits<double>::quiet_NaN();
+      }
+  }
+} // namespace mortise::testing
