@@ -31,7 +31,7 @@ namespace mortise
   std::string
   FieldFiles::file_name(const std::string &name, const unsigned int step) const
   {
-    if (!run.parameters.steps.given)
+    if (!run.parameters.steps.given())
       return name + ".vtu";
     std::ostringstream number;
     number << std::setw(4) << std::setfill('0') << step;
@@ -41,7 +41,7 @@ namespace mortise
   void
   FieldFiles::write_collection(const std::string &name) const
   {
-    if (!run.parameters.steps.given)
+    if (!run.parameters.steps.given())
       return;
     std::vector<std::pair<double, std::string>> entries;
     for (const auto &[step, time] : steps)

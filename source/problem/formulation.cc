@@ -1,4 +1,3 @@
-#include <mortise/base/error.h>
 #include <mortise/base/expression.h>
 #include <mortise/base/quotes.h>
 #include <mortise/problem/formulation.h>
@@ -26,14 +25,6 @@ namespace mortise
       return least;
     }
 
-    [[noreturn]] void
-    fail(const std::string &where,
-         const std::string &got,
-         const std::string &allowed)
-    {
-      throw InputError(where + ": got " + got + "; allowed: " + allowed);
-    }
-
     /// That of all directions in the mean, from the average that yields most.
     double
     poisson_ratio(const MaterialParameters &material)
@@ -52,24 +43,24 @@ namespace mortise
       std::ostringstream got;
       got << (body.formulation == Formulation::mixed ? "\"mixed\"" : "\"auto\"")
           << " with Law = " << body.material.law;
-      const std::string where =
-        parameters.where("Body " + body.name + "/Formulation");
+      const std::string path = "Body " + body.name + "/Formulation";
       if (body.formulation == Formulation::mixed)
-        fail(where,
-             got.str(),
-             "displacement or auto: the mixed form is for Law = " +
-               std::string(isotropic_law) + " alone");
+        parameters.fail(path,
+                        got.str(),
+                        "displacement or auto: the mixed form is for Law = " +
+                          std::string(isotropic_law) + " alone");
       if (body.formulation == Formulation::automatic &&
           nu >= nearly_incompressible)
         {
           got << " and constants that are nearly incompressible (in the mean "
                  "over directions Poisson ratio "
               << nu << ")";
-          fail(where,
-               got.str(),
-               "displacement, which locks at low degrees: the mixed form is "
-               "for Law = " +
-                 std::string(isotropic_law) + " alone");
+          parameters.fail(
+            path,
+            got.str(),
+            "displacement, which locks at low degrees: the mixed form is "
+            "for Law = " +
+              std::string(isotropic_law) + " alone");
         }
     }
 
@@ -83,46 +74,31 @@ namespace mortise
       std::ostringstream with_nu;
       with_nu << " with Poisson ratio " << nu;
       if (nu == 0.5 && body.formulation == Formulation::displacement)
-        fail(parameters.where(section + "/Formulation"),
-             "\"displacement\"" + with_nu.str() +
-               ", where a displacement form does not exist",
-             "mixed or auto");
+        parameters.fail(section + "/Formulation",
+                        "\"displacement\"" + with_nu.str() +
+                          ", where a displacement form does not exist",
+                        "mixed or auto");
       if (!is_mixed(body))
         return;
       if (!(nu > 0.))
-        fail(parameters.where(section + "/Formulation"),
-             "\"mixed\"" + with_nu.str() + ", where no pressure is needed",
-             "displacement or auto for a Poisson ratio of 0 or less");
+        parameters.fail(
+          section + "/Formulation",
+          "\"mixed\"" + with_nu.str() + ", where no pressure is needed",
+          "displacement or auto for a Poisson ratio of 0 or less");
       if (least_degree(body) < 2)
-        fail(parameters.where(
-               section + (body.degree < 2 ? "/Degree" : "/Degree by region")),
-             "degree 1 in mixed form" + with_nu.str(),
-             "degrees from 2 to " + std::to_string(max_degree) +
-               " (the pressure has one less, and is continuous)");
+        parameters.fail(section +
+                          (body.degree < 2 ? "/Degree" : "/Degree by region"),
+                        "degree 1 in mixed form" + with_nu.str(),
+                        "degrees from 2 to " + std::to_string(max_degree) +
+                          " (the pressure has one less, and is continuous)");
       if (parameters.solver.method == SolverMethod::condensed)
-        fail(parameters.where("Solver/Method"),
-             "\"condensed\" with body " + in_quotes(body.name) +
-               " in mixed form, which conjugate gradients cannot solve",
-             "auto, saddle point, direct");
+        parameters.fail(
+          "Solver/Method",
+          "\"condensed\" with body " + in_quotes(body.name) +
+            " in mixed form, which conjugate gradients cannot solve",
+          "auto, saddle point, direct");
     }
   } // namespace
-
-  std::vector<std::string>
-  formulation_names()
-  {
-    return {"auto", "displacement", "mixed"};
-  }
-
-  Formulation
-  formulation_from_name(const std::string &name)
-  {
-    const auto names = formulation_names();
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end())
-      throw InputError("Formulation: got " + in_quotes(name) +
-                       "; allowed: " + join_names(names));
-    return static_cast<Formulation>(found - names.begin());
-  }
 
   bool
   is_mixed(const BodyParameters &body)
@@ -156,18 +132,19 @@ namespace mortise
                              body.material.poisson_ratio == 0.5);
       }
     const ExactSolutionParameters &exact = parameters.exact_solution;
-    const std::string where = parameters.where("Exact solution/Pressure");
-    const bool        by_expressions = exact.kind == ExactKind::expressions;
+    const std::string              path  = "Exact solution/Pressure";
+    const bool by_expressions            = exact.kind == ExactKind::expressions;
     if (exact.pressure && !(by_expressions && incompressible))
-      fail(where,
-           in_quotes(*exact.pressure),
-           "nothing, unless Displacement holds expressions and a body has "
-           "Poisson ratio 0.5: it follows from the rest");
+      parameters.fail(
+        path,
+        in_quotes(*exact.pressure),
+        "nothing, unless Displacement holds expressions and a body has "
+        "Poisson ratio 0.5: it follows from the rest");
     if (!exact.pressure && by_expressions && incompressible)
-      fail(where,
-           "nothing in a scene with Poisson ratio 0.5",
-           "an expression in x, y, z for the mean pressure");
+      parameters.fail(path,
+                      "nothing in a scene with Poisson ratio 0.5",
+                      "an expression in x, y, z for the mean pressure");
     if (exact.pressure)
-      Expression(*exact.pressure, where);
+      Expression(*exact.pressure, parameters.where(path));
   }
 } // namespace mortise

@@ -1,12 +1,30 @@
 #include <mortise/problem/load_steps.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace mortise
 {
+  std::vector<double>
+  StepParameters::times() const
+  {
+    if (step.size() > 1)
+      return step;
+    const double end = end_time.value_or(1.);
+    if (step.empty())
+      return {end};
+    // a rest that rounding leaves is no step of its own
+    const double        n = std::max(1., std::ceil(end / step[0] * (1. - 1e-9)));
+    std::vector<double> times;
+    for (double i = 1.; i < n; ++i)
+      times.push_back(i * step[0]);
+    times.push_back(end);
+    return times;
+  }
+
   LoadSteps::LoadSteps(const StepParameters &parameters, const bool divisible)
-    : times(parameters.times)
+    : times(parameters.times())
     , output_every(parameters.output_every)
     , smallest_share(parameters.smallest_step)
     , divisible(divisible)

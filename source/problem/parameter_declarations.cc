@@ -1,228 +1,415 @@
-#include <mortise/problem/formulation.h>
-#include <mortise/problem/parameters.h>
+#include <mortise/base/error.h>
+#include <mortise/base/numbers.h>
+#include <mortise/base/quotes.h>
+#include <mortise/problem/parameter_schema.h>
 
-#include "declare.h"
+#include <algorithm>
+#include <filesystem>
 
 namespace mortise
 {
   namespace
   {
-    void
-    declare_boundary(Declare declare)
+    /// Names of @p items, bodies or interfaces.
+    template <typename Items>
+    std::vector<std::string>
+    names_of(const Items &items)
     {
-      declare.text(
-        "Pressure",
-        "",
-        "Pressure, acting against the outward normal [force per area]. Empty: none.",
-        "an expression in x, y, z; or exact");
-      declare.text(
-        "Traction",
-        "",
-        "Force on the surface, added to Pressure [force per area]. Empty: none.",
-        "three expressions \"tx; ty; tz\"; or exact");
-      declare.text(
-        "Displacement",
-        "",
-        "Prescribed displacement [length]; - leaves a component free. Empty: all free.",
-        "three of: an expression, -, or exact, as in \"-, -, 0\"; or exact for all three");
+      std::vector<std::string> names;
+      for (const auto &item : items)
+        names.push_back(item.name);
+      return names;
+    }
+
+    /// Index of the body called @p name, as @p value says.
+    unsigned int
+    body_index(const Parameters     &parameters,
+               const ParameterValue &value,
+               const std::string    &name)
+    {
+      const auto names    = names_of(parameters.bodies);
+      const auto position = std::find(names.begin(), names.end(), name);
+      if (position == names.end())
+        throw InputError(value.where + ": there is no body " + in_quotes(name) +
+                         did_you_mean(name, names) +
+                         "; bodies are: " + join_names(names));
+      return position - names.begin();
     }
 
     void
-    declare_body(std::vector<ParameterDeclaration> &declared,
-                 const std::string                 &section,
-                 const std::vector<std::string>    &boundaries)
+    set_degrees_by_region(BodyParameters &body, const ParameterValue &value)
     {
-      const BodyParameters body;
-      Declare              declare(declared, {section});
-      declare.integer("Degree",
-                      body.degree,
-                      "Polynomial degree of the displacement.",
-                      min_degree,
-                      max_degree);
-      declare.text(
+      body.degree_by_region.clear();
+      for (const auto &record : value.records(2))
+        {
+          const unsigned int id     = value.integer(record[0]),
+                             degree = value.integer(record[1]);
+          if (degree < min_degree || degree > max_degree)
+            value.fail("degree " + std::to_string(degree));
+          if (!body.degree_by_region.emplace(id, degree).second)
+            value.fail(in_quotes(record[0] + ": " + record[1]),
+                       "each material id only once");
+        }
+    }
+
+    void
+    declare_boundary(const ParameterSection &section,
+                     BoundaryParameters     &boundary)
+    {
+      section.add(
+        "Pressure",
+        boundary.pressure,
+        "Pressure, acting against the outward normal [force per area]. Empty: none.",
+        {"an expression in x, y, z, t; or exact"});
+      section.add(
+        "Traction",
+        boundary.traction,
+        "Force on the surface, added to Pressure [force per area]. Empty: none.",
+        {"three expressions \"tx; ty; tz\"; or exact"});
+      section.add(
+        "Displacement",
+        boundary.displacement,
+        "Prescribed displacement [length]; - leaves a component free. Empty: all free.",
+        {"three of: an expression, -, or exact, as in \"-, -, 0\"; or exact for all three"});
+    }
+
+    void
+    declare_material(const ParameterSection &section,
+                     MaterialParameters     &material)
+    {
+      section.add("Law",
+                  material.law,
+                  "Material law; each takes its own of the constants below.",
+                  Allowed::one_of(law_names()));
+      section.add("Young modulus",
+                  material.young_modulus,
+                  "Young's modulus of Law = linear elastic [force per area].",
+                  {"a positive number"});
+      section.add("Poisson ratio",
+                  material.poisson_ratio,
+                  "Poisson's ratio of Law = linear elastic [-].",
+                  {"a number above -1 and not above 0.5"});
+      Orthotropic &orthotropic = material.orthotropic;
+      section.add(
+        "Young moduli",
+        orthotropic.young_moduli,
+        "E_x, E_y, E_z of Law = orthotropic, along the axes of the material "
+        "[force per area].",
+        {"3 positive numbers"});
+      section.add(
+        "Poisson ratios",
+        orthotropic.poisson_ratios,
+        "nu_xy, nu_yz, nu_zx of Law = orthotropic [-]; nu_ij is the contraction along j per "
+        "extension along i under tension along i, nu_ij / E_i = nu_ji / E_j.",
+        {"3 numbers with which the stiffness is positive definite"});
+      section.add("Shear moduli",
+                  orthotropic.shear_moduli,
+                  "G_xy, G_yz, G_zx of Law = orthotropic [force per area].",
+                  {"3 positive numbers"});
+      section.add(
+        "Axes",
+        orthotropic.axes,
+        "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
+        "[degrees]. They do not follow the Rotate of the mesh.",
+        {"3 numbers"});
+    }
+
+    void
+    declare_body(const ParameterSection &section, BodyParameters &body)
+    {
+      section.add("Degree",
+                  body.degree,
+                  "Polynomial degree of the displacement.",
+                  Allowed::integer(min_degree, max_degree));
+      section.add(
         "Degree by region",
         "",
         "Other degrees for cells with the given material ids of the mesh.",
-        "\"material id: degree; ...\"");
-      declare.choice(
+        {"\"material id: degree; ...\", degrees from " +
+         std::to_string(min_degree) + " to " + std::to_string(max_degree)},
+        [&body](const ParameterValue &value) {
+          set_degrees_by_region(body, value);
+        });
+      section.add(
         "Formulation",
-        formulation_names().front(),
+        body.formulation,
         "Unknowns: the displacement, or (mixed) displacement and pressure, one degree lower, "
         "which neither locks nor ends where nu comes to 0.5. auto: mixed from nu = 0.49 on.",
-        formulation_names());
-      declare.text(
+        Allowed::one_of({"auto", "displacement", "mixed"}));
+      section.add(
         "Body force",
         "auto",
         "Force on the volume [force per volume]. auto: what balances the exact solution "
         "if that is given by expressions, else zero.",
-        "three expressions \"bx; by; bz\" in x, y, z; exact; or auto");
-      declare_mesh({declared, {section, "Mesh"}});
-
-      Declare material(declared, {section, "Material"});
-      material.choice(
-        "Law",
-        body.material.law,
-        "Material law; each takes its own of the constants below.",
-        law_names());
-      material.number(
-        "Young modulus",
-        body.material.young_modulus,
-        "Young's modulus of Law = linear elastic [force per area].",
-        "a positive number");
-      material.number("Poisson ratio",
-                      body.material.poisson_ratio,
-                      "Poisson's ratio of Law = linear elastic [-].",
-                      "a number above -1 and not above 0.5");
-      const Orthotropic &orthotropic = body.material.orthotropic;
-      material.numbers(
-        "Young moduli",
-        text_of(orthotropic.young_moduli),
-        "E_x, E_y, E_z of Law = orthotropic, along the axes of the material "
-        "[force per area].",
-        "3 positive numbers",
-        3);
-      material.numbers(
-        "Poisson ratios",
-        text_of(orthotropic.poisson_ratios),
-        "nu_xy, nu_yz, nu_zx of Law = orthotropic [-]; nu_ij is the contraction along j per "
-        "extension along i under tension along i, nu_ij / E_i = nu_ji / E_j.",
-        "3 numbers with which the stiffness is positive definite",
-        3);
-      material.numbers(
-        "Shear moduli",
-        text_of(orthotropic.shear_moduli),
-        "G_xy, G_yz, G_zx of Law = orthotropic [force per area].",
-        "3 positive numbers",
-        3);
-      material.numbers(
-        "Axes",
-        text_of(orthotropic.axes),
-        "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
-        "[degrees]. They do not follow the Rotate of the mesh.",
-        "3 numbers",
-        3);
-      for (const std::string &boundary : boundaries)
-        declare_boundary({declared, {section, "Boundary " + boundary}});
+        {"three expressions \"bx; by; bz\" in x, y, z, t; exact; or auto"},
+        [&body](const ParameterValue &value) {
+          body.body_force.reset();
+          if (value.text != "auto")
+            value.read(body.body_force);
+        });
+      declare_mesh(section.subsection("Mesh"), body.mesh);
+      declare_material(section.subsection("Material"), body.material);
+      for (auto &[name, boundary] : body.boundaries)
+        declare_boundary(section.subsection("Boundary " + name), boundary);
     }
 
     void
-    declare_interface(Declare declare)
+    declare_side(const ParameterSection &section,
+                 const std::string      &name,
+                 SideParameters         &side,
+                 const std::string      &meaning,
+                 const Parameters       &parameters)
     {
-      const InterfaceParameters interface;
-      declare.text("Slave",
-                   "",
+      section.add(name,
+                  "",
+                  meaning,
+                  {"\"body: boundary\""},
+                  [&](const ParameterValue &value) {
+                    const auto sides = value.records(2);
+                    if (sides.size() != 1)
+                      value.fail(in_quotes(value.text));
+                    side.body     = body_index(parameters, value, sides[0][0]);
+                    side.boundary = sides[0][1];
+                  });
+    }
+
+    void
+    declare_interface(const ParameterSection &section,
+                      InterfaceParameters    &interface,
+                      const Parameters       &parameters)
+    {
+      const Allowed few = Allowed::integer(1, 100);
+      declare_side(section,
+                   "Slave",
+                   interface.slave,
                    "Side of the multiplier: the finer mesh or the softer body.",
-                   "\"body: boundary\"");
-      declare.text("Master", "", "The other side.", "\"body: boundary\"");
-      declare.choice("Law", interface.law, "What the interface does.", {"tie"});
-      declare.choice("Multiplier",
-                     interface.multiplier,
-                     "Space of the Lagrange multiplier (the traction).",
-                     {"standard"});
-      declare.number(
+                   parameters);
+      declare_side(
+        section, "Master", interface.master, "The other side.", parameters);
+      section.add("Law",
+                  interface.law,
+                  "What the interface does.",
+                  Allowed::one_of({"tie"}));
+      section.add("Multiplier",
+                  interface.multiplier,
+                  "Space of the Lagrange multiplier (the traction).",
+                  Allowed::one_of({"standard"}));
+      section.add(
         "Search distance",
         interface.search_distance,
         "Largest gap or penetration that is bridged, as a fraction of the size of the "
         "larger face [-].",
-        "a positive number");
-      declare.text("Quadrature points",
-                   "auto",
-                   "Points per direction on a cell. auto: as many as needed.",
-                   "auto, or an integer of 1 or more");
+        Allowed::positive_number());
+      section.add("Quadrature points",
+                  "auto",
+                  "Points per direction on a cell. auto: as many as needed.",
+                  {"auto, or " + few.words, few.contains},
+                  [&interface](const ParameterValue &value) {
+                    interface.quadrature_points = 0;
+                    if (value.text != "auto")
+                      value.read(interface.quadrature_points);
+                  });
     }
 
     void
-    declare_rest(std::vector<ParameterDeclaration> &declared)
+    set_exact_displacement(ExactSolutionParameters &exact,
+                           const ParameterValue    &value)
     {
-      Declare exact(declared, {"Exact solution"});
-      exact.text(
+      const std::string &text = value.text;
+      exact.kind              = ExactKind::none;
+      if (text == "thick sphere")
+        exact.kind = ExactKind::thick_sphere;
+      else if (text == "thick cylinder")
+        exact.kind = ExactKind::thick_cylinder;
+      else if (!text.empty())
+        {
+          if (text.find_first_of(";,") == std::string::npos)
+            value.fail(in_quotes(text) +
+                       did_you_mean(text, {"thick sphere", "thick cylinder"}));
+          exact.kind = ExactKind::expressions;
+          value.read(exact.displacement);
+        }
+    }
+
+    void
+    declare_exact_solution(const ParameterSection  &section,
+                           ExactSolutionParameters &exact)
+    {
+      section.add(
         "Displacement",
         "",
         "Exact displacement [length]: relative errors are computed when it is given.",
-        "three expressions \"ux; uy; uz\" in x, y, z; thick sphere; or thick cylinder "
-        "(which take pressure, radii and materials from the scene)");
-      exact.text(
+        {"three expressions \"ux; uy; uz\" in x, y, z, t; thick sphere; or thick cylinder "
+         "(which take pressure, radii and materials from the scene)"},
+        [&exact](const ParameterValue &value) {
+          set_exact_displacement(exact, value);
+        });
+      section.add(
         "Pressure",
-        "",
+        exact.pressure,
         "Exact mean pressure, minus a third of the trace of the stress [force per area], for "
         "expressions in a scene with nu = 0.5, where it does not follow from the displacement.",
-        "an expression in x, y, z");
+        {"an expression in x, y, z, t"});
+    }
 
-      const SolverParameters solver;
-      Declare                declare(declared, {"Solver"});
-      declare.choice("Method",
-                     "auto",
-                     "Solver. auto: by size.",
-                     solver_method_names());
-      declare.number(
+    void
+    declare_solver(const ParameterSection &section, SolverParameters &solver)
+    {
+      section.add("Method",
+                  solver.method,
+                  "Solver. auto: by size.",
+                  Allowed::one_of(solver_method_names()));
+      section.add(
         "Tolerance",
         solver.tolerance,
         "Residual relative to the right hand side at which the solver stops [-].",
-        "a number between 0 and 1, both excluded");
-      declare.integer("Max iterations",
-                      solver.max_iterations,
-                      "After so many iterations the run ends with exit code 3.",
-                      1);
-      declare.integer(
+        {"a number between 0 and 1, both excluded",
+         [](double tolerance) { return tolerance > 0. && tolerance < 1.; }});
+      section.add("Max iterations",
+                  solver.max_iterations,
+                  "After so many iterations the run ends with exit code 3.",
+                  Allowed::integer(1));
+      section.add(
         "Multipliers on all ranks",
         solver.max_gathered,
         "Up to so many multipliers every rank helps to factorise what couples "
         "them; of more it knows its own and their neighbours.",
-        0);
-      declare.yes_no("Print iterations",
-                     solver.print_iterations,
-                     "A line for each.");
+        Allowed::integer(0));
+      section.add("Print iterations",
+                  solver.print_iterations,
+                  "A line for each.",
+                  {"true or false", {}, {"false", "true"}});
+    }
 
-      Declare steps(declared, {"Steps"});
-      steps.text("End time", "", "End of the last step [time]; it begins at 0. Empty: that of Step, or 1.", "a positive number");
-      steps.text("Step", "", "Length of the steps, or the times at which they end [time]. Empty: one step.", "a positive number, or several, ascending, separated by commas");
-      steps.integer("Output every", 1, "Fields are written after every so many of these times, and at the end.", 1);
-      steps.number("Smallest step", 1e-3, "A nonlinear scene gives up when halved steps come below this share of the planned one [-].", "a positive number");
-      Declare output(declared, {"Output"});
-      output.integer("Checkpoint every", 0, "After so many steps the run is written to DIRECTORY/checkpoint.bin, from which --restart goes on. 0: never.", 0);
-      output.text(
+    void
+    declare_steps(const ParameterSection &section, StepParameters &steps)
+    {
+      section.add("End time",
+                  steps.end_time,
+                  "End of the last step [time]; the first begins at 0. Empty: the last of Step, or 1.",
+                  Allowed::positive_number());
+      section.add("Step",
+                  steps.step,
+                  "Length of all steps, or the times at which they end [time]. Empty: one step.",
+                  {"a positive number, or ascending ones separated by commas",
+                   [](double length) { return length > 0.; }});
+      section.add("Output every",
+                  steps.output_every,
+                  "Fields are written after every so many of these times, and at the end.",
+                  Allowed::integer(1));
+      section.add(
+        "Smallest step",
+        steps.smallest_step,
+        "A nonlinear scene halves steps that fail, down to this share of the step that is asked for [-].",
+        Allowed::positive_number());
+    }
+
+    std::vector<PointQuantity>
+    points_of(const ParameterValue &value, const Parameters &parameters)
+    {
+      std::vector<PointQuantity> points;
+      for (const auto &record : value.records(3))
+        {
+          const auto x = split_outside_parentheses(record[2], ',');
+          if (x.size() != 3)
+            value.fail(in_quotes(record[2]));
+          points.push_back(
+            {record[0],
+             body_index(parameters, value, record[1]),
+             {value.number(x[0]), value.number(x[1]), value.number(x[2])}});
+        }
+      return points;
+    }
+
+    void
+    declare_output(const ParameterSection &section, Parameters &parameters)
+    {
+      namespace fs             = std::filesystem;
+      OutputParameters &output = parameters.output;
+      section.add(
         "Directory",
         "",
         "Where summary.json and the files of fields go; made when the first is written. "
         "Empty: results/NAME for a parameter file NAME.prm.",
-        "name of a directory");
-      output.text(
+        {"name of a directory"},
+        [&](const ParameterValue &value) {
+          output.directory =
+            value.text.empty() ?
+              (fs::path("results") / fs::path(parameters.file).stem())
+                .string() :
+              value.text;
+        });
+      section.add(
         "Fields",
         "",
         "Fields to write for ParaView (.vtu), a file for each body and, with traction (and "
         "gap), for each interface. Empty: no files of fields.",
-        "a list of: " + join_names(field_names()));
-      output.text(
+        {"a list of: " + join_names(field_names()), {}, field_names()},
+        [&](const ParameterValue &value) {
+          output.fields = split_outside_parentheses(value.text, ',');
+          for (const std::string &field : output.fields)
+            value.choice(field);
+        });
+      section.add("Checkpoint every",
+                  output.checkpoint_every,
+                  "After so many steps the state goes to DIRECTORY/checkpoint.bin, from which "
+                  "--restart DIRECTORY goes on. 0: never.",
+                  Allowed::integer(0));
+      section.add(
         "Points",
         "",
         "Displacements to report in the summary, at points of bodies [length].",
-        "\"name: body: x, y, z; ...\"");
-      output.text("Resultants",
+        {"\"name: body: x, y, z; ...\""},
+        [&](const ParameterValue &value) {
+          output.points = points_of(value, parameters);
+        });
+      section.add("Resultants",
                   "",
                   "Forces to report in the summary, on boundaries of bodies.",
-                  "\"name: body: boundary; ...\"");
+                  {"\"name: body: boundary; ...\""},
+                  [&](const ParameterValue &value) {
+                    output.resultants.clear();
+                    for (const auto &record : value.records(3))
+                      output.resultants.push_back(
+                        {record[0],
+                         body_index(parameters, value, record[1]),
+                         record[2]});
+                  });
     }
   } // namespace
 
-  std::vector<ParameterDeclaration>
-  declare_parameters(const SceneNames &names)
+  std::vector<ParameterEntry>
+  declare_parameters(Parameters &parameters)
   {
-    std::vector<ParameterDeclaration> declared;
-    Declare                           declare(declared, {});
-    declare.text("Title", "", "Title of the scene, for people.", "any text");
-    declare.text("Bodies",
-                 "",
-                 "Names of the bodies; each has a subsection \"Body NAME\".",
-                 "names separated by commas");
-    declare.text("Interfaces",
-                 "",
-                 "Names of interfaces; each has an \"Interface NAME\".",
-                 "names separated by commas");
-    for (unsigned int b = 0; b < names.bodies.size(); ++b)
-      declare_body(declared, "Body " + names.bodies[b], names.boundaries[b]);
-    for (const std::string &name : names.interfaces)
-      declare_interface({declared, {"Interface " + name}});
-    declare_rest(declared);
-    return declared;
+    std::vector<ParameterEntry> entries;
+    const ParameterSection      scene(entries);
+    // names come first: they make the subsections
+    const auto known = [](const ParameterValue &) {};
+    scene.add("Title",
+              parameters.title,
+              "Title of the scene, for people.",
+              {"any text"});
+    scene.add("Bodies",
+              join_names(names_of(parameters.bodies)),
+              "Names of the bodies; each has a subsection \"Body NAME\".",
+              {"names separated by commas"},
+              known);
+    scene.add("Interfaces",
+              join_names(names_of(parameters.interfaces)),
+              "Names of interfaces; each has an \"Interface NAME\".",
+              {"names separated by commas"},
+              known);
+    for (BodyParameters &body : parameters.bodies)
+      declare_body(scene.subsection("Body " + body.name), body);
+    for (InterfaceParameters &interface : parameters.interfaces)
+      declare_interface(scene.subsection("Interface " + interface.name),
+                        interface,
+                        parameters);
+    declare_exact_solution(scene.subsection("Exact solution"),
+                           parameters.exact_solution);
+    declare_solver(scene.subsection("Solver"), parameters.solver);
+    declare_steps(scene.subsection("Steps"), parameters.steps);
+    declare_output(scene.subsection("Output"), parameters);
+    return entries;
   }
 } // namespace mortise

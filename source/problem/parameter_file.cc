@@ -13,13 +13,12 @@
 namespace mortise
 {
   std::string
-  Assignment::path() const
+  path_of(const std::vector<std::string> &sections, const std::string &name)
   {
     std::string path;
     for (const std::string &section : sections)
-      path += section + "/";
-    return opens_section() && !path.empty() ? path.substr(0, path.size() - 1) :
-                                              path + name;
+      path += (path.empty() ? "" : "/") + section;
+    return path + (path.empty() || name.empty() ? "" : "/") + name;
   }
 
   std::string

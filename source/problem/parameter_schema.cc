@@ -9,145 +9,109 @@ namespace mortise
 {
   namespace
   {
-    std::string
-    path_of(const std::vector<std::string> &sections)
-    {
-      std::string path;
-      for (const std::string &section : sections)
-        path += (path.empty() ? "" : "/") + section;
-      return path;
-    }
+    using Strings = std::vector<std::string>;
 
     bool
     starts_with(const std::string &text, const std::string &start)
     {
       return text.compare(0, start.size(), start) == 0;
     }
-  } // namespace
+    /// Subsections that stand in @p parent, in order.
+    Strings
+    subsections(const std::vector<ParameterEntry> &entries,
+                const Strings                     &parent)
+    {
+      Strings known;
+      for (const ParameterEntry &entry : entries)
+        if (entry.sections.size() > parent.size() &&
+            std::equal(parent.begin(), parent.end(), entry.sections.begin()) &&
+            std::find(known.begin(),
+                      known.end(),
+                      entry.sections[parent.size()]) == known.end())
+          known.push_back(entry.sections[parent.size()]);
+      return known;
+    }
 
-  ParameterSchema::ParameterSchema(const SceneNames &names)
-    : names(names)
-    , declared(declare_parameters(names))
-  {
-    for (const ParameterDeclaration &p : declared)
-      {
-        for (const std::string &section : p.sections)
-          handler.enter_subsection(section);
-        handler.declare_entry(p.name, p.default_value, *p.pattern, p.meaning);
-        for (unsigned int i = 0; i < p.sections.size(); ++i)
-          handler.leave_subsection();
-      }
-  }
+    /// Why there is no subsection "Body NAME" among the @p known ones, @p what being "body" and
+    /// @p list "Bodies"; empty for other subsections.
+    std::string
+    not_named(const std::string &section,
+              const Strings     &known,
+              const std::string &start,
+              const std::string &list)
+    {
+      if (!starts_with(section, start))
+        return "";
+      Strings names;
+      for (const std::string &name : known)
+        if (starts_with(name, start))
+          names.push_back(name.substr(start.size()));
+      const std::string what = start == "Body " ? "body" : "interface";
+      return ": \"set " + list + " = " + join_names(names) +
+             "\" does not name this " + what;
+    }
 
-  void
-  ParameterSchema::check_sections(const Assignment &assignment) const
-  {
-    std::vector<std::string> parent;
-    for (const std::string &section : assignment.sections)
-      {
-        std::vector<std::string> known; // subsections of the parent, in order
-        for (const ParameterDeclaration &p : declared)
-          if (p.sections.size() > parent.size() &&
-              std::equal(parent.begin(), parent.end(), p.sections.begin()) &&
-              std::find(known.begin(),
-                        known.end(),
-                        p.sections[parent.size()]) == known.end())
-            known.push_back(p.sections[parent.size()]);
-        if (std::find(known.begin(), known.end(), section) == known.end())
-          {
-            std::vector<std::string> near = known;
-            if (parent.size() == 1 && starts_with(parent[0], "Body "))
-              {
-                known.push_back("Boundary NAME");
-                near.push_back(
-                  "Boundary" +
-                  section.substr(std::min(section.find(' '), section.size())));
-              }
-            std::string why;
-            if (parent.empty() && starts_with(section, "Body "))
-              why = ": \"set Bodies = " + join_names(names.bodies) +
-                    "\" does not name this body";
-            else if (parent.empty() && starts_with(section, "Interface "))
-              why = ": \"set Interfaces = " + join_names(names.interfaces) +
-                    "\" does not name this interface";
-            throw InputError(
-              "unknown subsection " + in_quotes(section) +
-              (parent.empty() ? "" : " in " + in_quotes(path_of(parent))) +
-              " (" + assignment.origin + ")" + why +
-              did_you_mean(section, near) +
-              "; allowed here: " + join_names(known));
-          }
-        parent.push_back(section);
-      }
-  }
+    void
+    check_sections(const std::vector<ParameterEntry> &entries,
+                   const Assignment                  &assignment)
+    {
+      Strings parent;
+      for (const std::string &section : assignment.sections)
+        {
+          Strings known = subsections(entries, parent);
+          if (std::find(known.begin(), known.end(), section) == known.end())
+            {
+              Strings     near = known;
+              std::string why;
+              if (parent.empty())
+                why = not_named(section, known, "Body ", "Bodies") +
+                      not_named(section, known, "Interface ", "Interfaces");
+              else if (parent.size() == 1 && starts_with(parent[0], "Body "))
+                {
+                  known.push_back("Boundary NAME");
+                  near.push_back("Boundary" +
+                                 section.substr(std::min(section.find(' '),
+                                                         section.size())));
+                }
+              throw InputError(
+                "unknown subsection " + in_quotes(section) +
+                (parent.empty() ? "" : " in " + in_quotes(path_of(parent))) +
+                " (" + assignment.origin + ")" + why +
+                did_you_mean(section, near) +
+                "; allowed here: " + join_names(known));
+            }
+          parent.push_back(section);
+        }
+    }
 
-  const ParameterDeclaration &
-  ParameterSchema::find(const Assignment &assignment) const
-  {
-    std::vector<std::string> here, elsewhere;
-    for (const ParameterDeclaration &p : declared)
-      {
-        if (p.sections == assignment.sections && p.name == assignment.name)
-          return p;
-        if (p.sections == assignment.sections)
-          here.push_back(p.name);
-        else if (p.name == assignment.name)
-          elsewhere.push_back(path_of(p.sections));
-      }
-    std::string              hint   = did_you_mean(assignment.name, here);
-    std::vector<std::string> itself = assignment.sections;
-    itself.push_back(assignment.name);
-    const bool is_section =
-      std::any_of(declared.begin(), declared.end(), [&](const auto &p) {
-        return p.sections.size() >= itself.size() &&
-               std::equal(itself.begin(), itself.end(), p.sections.begin());
-      });
-    if (is_section)
-      hint = " (it is a subsection)";
-    else if (!elsewhere.empty())
-      hint = " (it belongs into: " + join_names(elsewhere) + ")";
-    throw InputError("unknown parameter " + in_quotes(assignment.name) +
-                     (assignment.sections.empty() ?
-                        "" :
-                        " in " + in_quotes(path_of(assignment.sections))) +
-                     " (" + assignment.origin + ")" + hint +
-                     "; allowed here: " + join_names(here));
-  }
+    ParameterEntry &
+    find(std::vector<ParameterEntry> &entries, const Assignment &assignment)
+    {
+      Strings here, elsewhere;
+      for (ParameterEntry &entry : entries)
+        {
+          if (entry.sections == assignment.sections &&
+              entry.name == assignment.name)
+            return entry;
+          if (entry.sections == assignment.sections)
+            here.push_back(entry.name);
+          else if (entry.name == assignment.name)
+            elsewhere.push_back(path_of(entry.sections));
+        }
+      std::string   hint  = did_you_mean(assignment.name, here);
+      const Strings below = subsections(entries, assignment.sections);
+      if (std::find(below.begin(), below.end(), assignment.name) != below.end())
+        hint = " (it is a subsection)";
+      else if (!elsewhere.empty())
+        hint = " (it belongs into: " + join_names(elsewhere) + ")";
+      throw InputError("unknown parameter " + in_quotes(assignment.name) +
+                       (assignment.sections.empty() ?
+                          "" :
+                          " in " + in_quotes(path_of(assignment.sections))) +
+                       " (" + assignment.origin + ")" + hint +
+                       "; allowed here: " + join_names(here));
+    }
 
-  void
-  ParameterSchema::assign(const Assignment &assignment)
-  {
-    check_sections(assignment);
-    if (assignment.opens_section())
-      return;
-    const ParameterDeclaration &p = find(assignment);
-    if (!p.pattern->match(assignment.value))
-      throw InputError(
-        path_of(p.sections) + (p.sections.empty() ? "" : "/") + p.name + " (" +
-        assignment.origin + "): got " + in_quotes(assignment.value) +
-        did_you_mean(assignment.value, p.choices) + "; allowed: " + p.allowed);
-    for (const std::string &section : p.sections)
-      handler.enter_subsection(section);
-    handler.set(p.name, assignment.value);
-    for (unsigned int i = 0; i < p.sections.size(); ++i)
-      handler.leave_subsection();
-  }
-
-  std::string
-  ParameterSchema::get(const std::vector<std::string> &sections,
-                       const std::string              &name) const
-  {
-    return handler.get(sections, name);
-  }
-
-  const std::vector<ParameterDeclaration> &
-  ParameterSchema::declarations() const
-  {
-    return declared;
-  }
-
-  namespace
-  {
     /// @p text in comment lines of at most 100 characters.
     std::string
     comment(const std::string &text, const std::string &indent)
@@ -178,34 +142,51 @@ namespace mortise
       "#   mortise --set \"Body NAME/Mesh/Source=box\" FILE.prm\n";
   } // namespace
 
+  void
+  assign(std::vector<ParameterEntry> &entries,
+         const Assignment            &assignment,
+         const std::string           &where)
+  {
+    check_sections(entries, assignment);
+    if (assignment.opens_section())
+      return;
+    ParameterEntry &entry = find(entries, assignment);
+    entry.value           = assignment.value;
+    entry.where           = where;
+  }
+
   std::string
   parameter_reference()
   {
-    std::string              text = reference_heading;
-    std::vector<std::string> open;
-    const auto indent = [&open] { return std::string(2 * open.size(), ' '); };
-    const auto close  = [&] {
+    Parameters parameters;
+    parameters.bodies.resize(1);
+    parameters.bodies[0].name = "NAME";
+    parameters.bodies[0].boundaries["NAME"];
+    parameters.interfaces.resize(1);
+    parameters.interfaces[0].name = "NAME";
+
+    std::string text = reference_heading;
+    Strings     open;
+    const auto  indent = [&open] { return std::string(2 * open.size(), ' '); };
+    const auto  close  = [&] {
       open.pop_back();
       text += indent() + "end\n";
     };
-    for (const ParameterDeclaration &p :
-         declare_parameters({{"NAME"}, {{"NAME"}}, {"NAME"}}))
+    for (const ParameterEntry &entry : declare_parameters(parameters))
       {
-        while (open.size() > p.sections.size() ||
-               !std::equal(open.begin(), open.end(), p.sections.begin()))
+        while (open.size() > entry.sections.size() ||
+               !std::equal(open.begin(), open.end(), entry.sections.begin()))
           close();
-        while (open.size() < p.sections.size())
+        while (open.size() < entry.sections.size())
           {
-            const std::string section = p.sections[open.size()];
+            const std::string section = entry.sections[open.size()];
             text += "\n" + indent() + "subsection " + section + "\n";
             open.push_back(section);
           }
-        const bool names =
-          p.sections.empty() && (p.name == "Bodies" || p.name == "Interfaces");
-        const std::string value = names ? "NAME" : p.default_value;
-        text += "\n" + comment(p.meaning, indent()) +
-                comment("Allowed: " + p.allowed + ".", indent()) + indent() +
-                "set " + p.name + " =" + (value.empty() ? "" : " " + value) +
+        text += "\n" + comment(entry.meaning, indent()) +
+                comment("Allowed: " + entry.allowed.words + ".", indent()) +
+                indent() + "set " + entry.name + " =" +
+                (entry.default_value.empty() ? "" : " " + entry.default_value) +
                 "\n";
       }
     while (!open.empty())

@@ -1,8 +1,7 @@
-#include "parameters_validate.h"
-
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/base/expression.h>
 #include <mortise/base/numbers.h>
 #include <mortise/base/quotes.h>
 #include <mortise/problem/formulation.h>
@@ -13,39 +12,142 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <set>
+#include <sstream>
 
 namespace mortise
 {
   namespace
   {
+    /// @p text parses; if it is the same everywhere, a run can use the number.
+    /// What varies is watched while it is evaluated (FieldChecks).
     void
-    check_degree(const Parameters  &parameters,
-                 const std::string &path,
-                 const unsigned int degree)
+    check_expression(const std::string &where, const std::string &text)
     {
-      if (degree < min_degree || degree > max_degree)
-        fail(parameters,
-             path,
-             "degree " + std::to_string(degree),
-             "a degree from " + std::to_string(min_degree) + " to " +
-               std::to_string(max_degree));
+      const Expression expression(text, where);
+      if (!expression.is_constant() || expression.depends_on_time())
+        return;
+      const double value = expression.value(dealii::Point<3>());
+      const double size  = std::fabs(value);
+      if (value == 0. || (size >= smallest_number && size <= largest_number))
+        return;
+      std::ostringstream message;
+      message << where << ": got " << in_quotes(text) << ", which is " << value
+              << "; allowed: " << allowed_numbers();
+      throw InputError(message.str());
     }
 
+    /// @p text is "exact" in a scene with an exact solution, or an expression.
+    /// @p component: ", component x" or "".
+    void
+    check_field(const Parameters  &parameters,
+                const std::string &path,
+                const std::string &text,
+                const std::string &component = "")
+    {
+      if (text != "exact")
+        check_expression(parameters.where(path) + component, text);
+      else if (parameters.exact_solution.kind == ExactKind::none)
+        parameters.fail(path,
+                        "\"exact\" in a scene without an exact solution",
+                        "an expression, or give Exact solution/Displacement");
+    }
+
+    /// Components, if there are any, are fields, or "-" if @p may_be_free.
+    void
+    check_components(const Parameters                &parameters,
+                     const std::string               &path,
+                     const std::optional<Components> &components,
+                     const bool                       may_be_free = false)
+    {
+      static const char *const names[] = {"x", "y", "z"};
+      for (unsigned int d = 0; components && d < 3; ++d)
+        {
+          const std::string &text = (*components)[d];
+          if (text == "-" && may_be_free)
+            continue;
+          if (text == "-" || text.empty())
+            parameters.fail(
+              path,
+              in_quotes(text) + " as component " + names[d],
+              may_be_free ?
+                "an expression in x, y, z, - (free), or exact" :
+                "an expression in x, y, z, or exact; 0 for nothing");
+          check_field(parameters,
+                      path,
+                      text,
+                      std::string(", component ") + names[d]);
+        }
+    }
+
+    /// The named exact solutions take the pressures of the scene: they cannot
+    /// give them.
+    void
+    check_loads_of_named_solution(const Parameters         &parameters,
+                                  const std::string        &section,
+                                  const BoundaryParameters &boundary)
+    {
+      const std::string allowed =
+        "a constant Pressure, from which the named exact solution follows";
+      if (boundary.pressure == "exact")
+        parameters.fail(section + "/Pressure", "\"exact\"", allowed);
+      if (boundary.traction)
+        parameters.fail(section + "/Traction",
+                        in_quotes(joined(*boundary.traction)),
+                        allowed);
+    }
+
+    void
+    check_boundary(const Parameters         &parameters,
+                   const std::string        &section,
+                   const BoundaryParameters &boundary,
+                   const std::string        &name)
+    {
+      check_components(parameters, section + "/Traction", boundary.traction);
+      check_components(parameters,
+                       section + "/Displacement",
+                       boundary.displacement,
+                       true);
+      if (boundary.pressure)
+        check_field(parameters, section + "/Pressure", *boundary.pressure);
+      const ExactKind kind = parameters.exact_solution.kind;
+      if ((kind == ExactKind::thick_sphere ||
+           kind == ExactKind::thick_cylinder) &&
+          (name == "inside" || name == "outside"))
+        check_loads_of_named_solution(parameters, section, boundary);
+    }
+
+    /// Body force, tractions, pressures and displacements.
     void
     check_body(const Parameters &parameters, const BodyParameters &body)
     {
       const std::string section = "Body " + body.name;
-      check_degree(parameters, section + "/Degree", body.degree);
-      for (const auto &[region, degree] : body.degree_by_region)
-        check_degree(parameters, section + "/Degree by region", degree);
       validate(body.mesh, parameters.where(section + "/Mesh"));
       make_material(body.material,
                     is_mixed(body),
                     [&](const std::string &name) {
                       return parameters.where(section + "/Material/" + name);
                     });
-      check_fields(parameters, body);
+      check_components(parameters, section + "/Body force", body.body_force);
+      for (const auto &[name, boundary] : body.boundaries)
+        check_boundary(parameters,
+                       section + "/Boundary " + name,
+                       boundary,
+                       name);
+    }
+
+    void
+    check_exact_solution(const Parameters &parameters)
+    {
+      const ExactSolutionParameters &exact = parameters.exact_solution;
+      const std::string              path  = "Exact solution/Displacement";
+      if (exact.kind != ExactKind::expressions)
+        return;
+      for (const std::string &text : exact.displacement)
+        if (text == "exact" || text == "-" || text.empty())
+          parameters.fail(path, in_quotes(text), "an expression in x, y, z");
+      check_components(parameters, path, exact.displacement);
     }
 
     std::string
@@ -68,33 +170,14 @@ namespace mortise
       const std::string     section = "Interface " + interface.name;
       const SideParameters &slave = interface.slave, &master = interface.master;
       if (same(slave, master))
-        fail(parameters,
-             section + "/Master",
-             side_text(parameters, master) + ", which is the slave",
-             "another boundary than the slave's, of the same or another body");
-      if (interface.law != "tie")
-        fail(parameters, section + "/Law", in_quotes(interface.law), "tie");
-      if (interface.multiplier != "standard")
-        fail(parameters,
-             section + "/Multiplier",
-             in_quotes(interface.multiplier),
-             "standard");
-      if (!(interface.search_distance > 0.) ||
-          !std::isfinite(interface.search_distance))
-        fail(parameters,
-             section + "/Search distance",
-             interface.search_distance,
-             "a positive number");
-      if (interface.quadrature_points > 100)
-        fail(parameters,
-             section + "/Quadrature points",
-             interface.quadrature_points,
-             "auto, or an integer from 1 to 100");
+        parameters.fail(
+          section + "/Master",
+          side_text(parameters, master) + ", which is the slave",
+          "another boundary than the slave's, of the same or another body");
       const auto &boundaries = parameters.bodies[slave.body].boundaries;
       const auto  slave_side = boundaries.find(slave.boundary);
       if (slave_side != boundaries.end() && slave_side->second.displacement)
-        fail(
-          parameters,
+        parameters.fail(
           section + "/Slave",
           side_text(parameters, slave) +
             ", which has a prescribed displacement",
@@ -108,10 +191,10 @@ namespace mortise
       for (const InterfaceParameters &interface : parameters.interfaces)
         for (const BodyParameters &body : parameters.bodies)
           if (interface.name == body.name)
-            fail(parameters,
-                 "Interfaces",
-                 "\"" + interface.name + "\", which is also a body",
-                 "names that no body has: both name files of results");
+            parameters.fail(
+              "Interfaces",
+              "\"" + interface.name + "\", which is also a body",
+              "names that no body has: both name files of results");
     }
 
     /// No two interfaces tie the same two boundaries.
@@ -123,10 +206,10 @@ namespace mortise
           if (&a < &b &&
               ((same(a.slave, b.slave) && same(a.master, b.master)) ||
                (same(a.slave, b.master) && same(a.master, b.slave))))
-            fail(parameters,
-                 "Interface " + b.name + "/Slave",
-                 "the same two boundaries as those of interface " + a.name,
-                 "each pair of boundaries once");
+            parameters.fail("Interface " + b.name + "/Slave",
+                            "the same two boundaries as those of interface " +
+                              a.name,
+                            "each pair of boundaries once");
     }
 
     void
@@ -136,10 +219,9 @@ namespace mortise
       const auto            check_name = [&](const std::string &parameter,
                                   const std::string &name) {
         if (!names.insert(name).second)
-          fail(parameters,
-               "Output/" + parameter,
-               "the name " + in_quotes(name) + " a second time",
-               "names that differ among Points and Resultants");
+          parameters.fail("Output/" + parameter,
+                          "the name " + in_quotes(name) + " a second time",
+                          "names that differ among Points and Resultants");
       };
       for (const PointQuantity &point : output.points)
         check_name("Points", point.name);
@@ -172,13 +254,32 @@ namespace mortise
         return it + "is not writable by this user";
       return {};
     }
+
+    void
+    check_steps(const Parameters &parameters)
+    {
+      constexpr double             most  = 1e6;
+      const StepParameters        &given = parameters.steps;
+      const std::vector<double>   &step  = given.step;
+      if (!std::is_sorted(step.begin(), step.end(), std::less_equal<double>()))
+        parameters.fail("Steps/Step",
+                        "times that do not ascend",
+                        "a positive number, or ascending ones");
+      if (step.size() > 1 && given.end_time && *given.end_time != step.back())
+        parameters.fail(
+          "Steps/End time",
+          "another time than the last one of Step",
+          "none, or that one; it may be left out beside a list of times");
+      if (step.size() == 1 && given.end_time.value_or(1.) / step[0] > most)
+        parameters.fail("Steps/Step",
+                        "more than a million steps",
+                        "a length of a millionth of End time or more");
+    }
   } // namespace
 
   void
   validate(const Parameters &parameters)
   {
-    if (parameters.bodies.empty())
-      fail(parameters, "Bodies", "no body", "at least one name");
     for (const BodyParameters &body : parameters.bodies)
       check_body(parameters, body);
     for (const InterfaceParameters &interface : parameters.interfaces)
@@ -187,14 +288,7 @@ namespace mortise
     check_names_of_interfaces(parameters);
     check_exact_solution(parameters);
     check_formulations(parameters);
-    const double tolerance = parameters.solver.tolerance;
-    if (!(tolerance > 0. && tolerance < 1.))
-      fail(parameters,
-           "Solver/Tolerance",
-           tolerance,
-           "a number between 0 and 1, both excluded");
-    if (parameters.solver.max_iterations == 0)
-      fail(parameters, "Solver/Max iterations", 0, "an integer of 1 or more");
+    check_steps(parameters);
     check_output(parameters.output, parameters);
   }
 

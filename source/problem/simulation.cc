@@ -59,7 +59,7 @@ namespace mortise
     options.tolerance      = given.tolerance;
     options.max_iterations = given.max_iterations;
     options.max_gathered   = given.max_gathered;
-    options.successive     = context.parameters.steps.given ? 4 : 0;
+    options.successive     = context.parameters.steps.given() ? 4 : 0;
     if (given.print_iterations)
       options.monitor = [&](const unsigned int iteration,
                             const double       residual) {
@@ -124,7 +124,7 @@ namespace mortise
   Simulation::summarise(const SolvedStep &solved, const StepFields &fields)
   {
     StepSummary result = discretisation->summary();
-    if (context.parameters.steps.given)
+    if (context.parameters.steps.given())
       {
         result.step = steps.n_done() + 1;
         result.time = steps.next();
@@ -150,7 +150,7 @@ namespace mortise
   {
     const double    time = steps.next();
     const SceneData data(context.parameters, time, field_checks);
-    if (context.parameters.steps.given)
+    if (context.parameters.steps.given())
       context.log.line("step " + std::to_string(steps.n_done() + 1) +
                        ", t = " + RunLog::number(time));
     const SceneLoad load = discretisation->load(data);
@@ -174,7 +174,7 @@ namespace mortise
     steps.accept(report.converged);
     if (writes)
       write_results(fields);
-    if (context.parameters.steps.given)
+    if (context.parameters.steps.given())
       print_progress();
   }
 

@@ -127,7 +127,7 @@ main()
   check("two of three moduli",
         "0.3",
         with({outer + "Young moduli=10, 1"}),
-        {outer + "Young moduli (--set", "3 numbers"});
+        {outer + "Young moduli (--set", "3 positive numbers"});
   check("a stiffness that is not positive definite",
         "0.3",
         with({outer + "Poisson ratios=0.3, 1.2, 0"}),

@@ -21,9 +21,28 @@ namespace
   planned(const std::vector<double> &times)
   {
     StepParameters parameters;
-    parameters.given = true;
-    parameters.times = times;
+    parameters.step = times;
     return parameters;
+  }
+
+  void
+  check_times()
+  {
+    StepParameters parameters;
+    verdict(!parameters.given() &&
+              parameters.times() == std::vector<double>{1.},
+            "nothing given: one step to 1");
+    parameters.step = {0.3};
+    verdict(parameters.given() && parameters.times().size() == 4 &&
+              parameters.times()[2] == 3 * 0.3 && parameters.times()[3] == 1.,
+            "a length that does not divide the end: a shorter last step");
+    parameters.step     = {0.1};
+    parameters.end_time = 0.7;
+    verdict(parameters.times().size() == 7 && parameters.times()[6] == 0.7,
+            "a length that divides it but for rounding");
+    parameters.step = {5.};
+    verdict(parameters.times() == std::vector<double>{0.7},
+            "a length beyond the end: one step");
   }
 
   void
@@ -40,7 +59,7 @@ namespace
         if (steps.output_due())
           written.push_back(steps.time());
       }
-    verdict(reached == parameters.times, "planned times exactly");
+    verdict(reached == parameters.step, "planned times exactly");
     verdict(written == std::vector<double>({0.3, 1.5, 2.}),
             "output at every second one and the last");
     verdict(steps.share() == 1. && steps.n_done() == 5, "all is done");
@@ -66,7 +85,7 @@ namespace
     steps.accept(true);
     verdict(steps.finished() && steps.n_done() == 4, "four steps");
 
-    StepParameters parameters = planned({1.});
+    StepParameters parameters = planned({});
     parameters.smallest_step  = 0.2;
     LoadSteps    coarse(parameters, true);
     unsigned int halvings = 0;
@@ -76,7 +95,9 @@ namespace
             "no step below the smallest");
 
     // thirds of a step leave no sliver
-    LoadSteps thirds(planned({0.3}), true);
+    StepParameters short_one;
+    short_one.end_time = 0.3;
+    LoadSteps thirds(short_one, true);
     thirds.resume(0., 0, 0.1);
     unsigned int n = 0;
     for (; !thirds.finished() && n < 10; ++n)
@@ -98,7 +119,7 @@ namespace
   {
     StepParameters parameters = planned({});
     for (unsigned int i = 1; i <= 10; ++i)
-      parameters.times.push_back(0.1 * i);
+      parameters.step.push_back(0.1 * i);
     for (unsigned int stop = 1; stop <= 12; ++stop)
       {
         LoadSteps           whole(parameters, true);
@@ -129,6 +150,7 @@ namespace
 int
 main()
 {
+  check_times();
   check_planned();
   check_halving();
   check_rounding();

@@ -128,12 +128,11 @@ namespace
             "an absent subsection has the defaults");
     const std::string all = parameter_reference();
     unsigned int      n = 0, found = 0;
-    for (const auto &declaration :
-         declare_parameters({{"NAME"}, {{"NAME"}}, {"NAME"}}))
+    Parameters        named = p;
+    for (const ParameterEntry &entry : declare_parameters(named))
       {
         ++n;
-        found +=
-          all.find("set " + declaration.name + " =") != std::string::npos;
+        found += all.find("set " + entry.name + " =") != std::string::npos;
       }
     verdict(n == found && n > 40, "every parameter is printed");
   }
@@ -182,15 +181,12 @@ namespace
                   {"NAME=VALUE"});
     unsigned int n     = 0,
                  found = 0; // every parameter of the scene by its own path
-    for (const auto &declaration : declare_parameters(
-           {{"inner", "outer"}, {{"inside", "xmin"}, {}}, {"glue"}}))
+    Parameters named   = p;
+    for (const ParameterEntry &entry : declare_parameters(named))
       {
-        if (declaration.name == "Bodies" || declaration.name == "Interfaces")
+        if (entry.name == "Bodies" || entry.name == "Interfaces")
           continue; // they make subsections
-        std::string path;
-        for (const std::string &section : declaration.sections)
-          path += section + "/";
-        path += declaration.name;
+        const std::string path    = path_of(entry.sections, entry.name);
         const std::string message = message_of(
           [&] { parse_parameters(scene, "a.prm", {path + "=\x01"}); });
         ++n;

@@ -37,51 +37,37 @@ namespace mortise
   /// Material ids: box 0..7, the octant of the coarse cell, (x half) + 2 (y
   /// half) + 4 (z half); shell octant 0..2, the patch around x, y, z; cylinder
   /// sector 0; curved block 0 lower, 1 upper half; file: the physical volumes.
+  ///
+  /// Meaning and units of the rest are what --parameters prints of them.
   struct MeshParameters
   {
-    std::string source = "box";
-    /// hexahedra, tetrahedra, or auto: what a file has, hexahedra from
-    /// generators
-    std::string               cells = "auto";
+    std::string               source = "box";
+    std::string               cells  = "auto";
     std::vector<double>       extent;
     std::vector<unsigned int> subdivisions;
     unsigned int              refinements = 0;
-    std::string
-      refine_near; ///< "x, y, z, radius, times; ...", moved coordinates
-    /// file, .msh or a geometry that gmsh meshes; "Part": the physical volume
-    /// to take, empty for all; "Mesh size": longest edge where gmsh meshes, 0
-    /// for what the geometry says; "Curved boundaries": see boundary_shapes.h.
+    std::string               refine_near;
+
+    /// Of Source = file; see curved_boundaries.h for "Curved boundaries".
     std::string           file;
     std::string           part;
     double                mesh_size = 0.;
     std::string           curved_boundaries;
     std::string           directory; ///< where a relative File may be, too
-    std::array<double, 3> rotate{};  ///< degrees about x, then y, then z; then
+    std::array<double, 3> rotate{};
     std::array<double, 3> translate{};
 
-    /// box, "Bottom slope" and "Top slope" = sx, sy: the faces zmin and zmax
-    /// are the planes z = z0 + sx (x - x0) + sy (y - y0), and the same with z1.
+    /// Of Source = box. Boundary faces stay in their planes where distort > 0.
     std::array<double, 2> bottom_slope{};
     std::array<double, 2> top_slope{};
+    double                distort = 0.;
 
-    /// box, "Distort": largest shift of a vertex as a fraction of its cell's
-    /// edges, 0 to 0.3; the same on every run and rank. Boundary faces stay in
-    /// their planes.
-    double distort = 0.;
-
-    /// curved block, "Half" = lower | upper | both; "Surface" = bump | saddle | wave: with s, t
-    /// in [-1, 1] across the block, the halves meet at z = z_middle + Amplitude
-    /// f(s, t),
-    ///   bump:   f = cos(pi s/2) cos(pi t/2)            a dome, flat on the
-    ///   block's sides saddle: f = (s^2 - t^2 + s/2) / 1.5 curvatures of
-    ///   opposite sign wave:   f = sin(pi s/2 + 1/2) cos(pi t/2)      both
-    ///   kinds, no symmetry in s
-    /// with z_middle = z0 + Middle (z1 - z0).
-    std::string half    = "both";
-    std::string surface = "bump";
-    double      amplitude =
-      0.; ///< length, below 0.9 times the height of the thinner half
-    double middle = 0.5;
+    /// Of Source = curved block. The amplitude is below 0.9 times the height of
+    /// the thinner half.
+    std::string half      = "both";
+    std::string surface   = "bump";
+    double      amplitude = 0.;
+    double      middle    = 0.5;
   };
 
   /// What the ids on a mesh mean.

@@ -4,19 +4,8 @@
 
 #include <mortise/problem/parameters.h>
 
-#include <string>
-#include <vector>
-
 namespace mortise
 {
-  /// "auto", "displacement", "mixed"
-  std::vector<std::string>
-  formulation_names();
-
-  /// Throws InputError listing the names.
-  Formulation
-  formulation_from_name(const std::string &name);
-
   /// Is the body in mixed form? As asked; by itself from nu = 0.49 on, but
   /// below 0.5 only if all its degrees are above one, which the form needs.
   bool

@@ -1,6 +1,7 @@
 // Which time a run goes to next.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 namespace mortise
@@ -8,10 +9,21 @@ namespace mortise
   /// Subsection Steps of a parameter file.
   struct StepParameters
   {
-    bool                given = false; ///< else one step, at time 1
-    std::vector<double> times = {1.};  ///< at which steps end, ascending from 0
-    unsigned int        output_every = 1; ///< of the planned times
-    double smallest_step = 1e-3; ///< of the planned one, before a nonlinear run gives up
+    std::optional<double> end_time;
+    std::vector<double>   step; ///< one length, or the times at which steps end
+    unsigned int          output_every  = 1; ///< of these times
+    double                smallest_step = 1e-3;
+
+    /// Else there is one step, at time 1, and no word of time in the results.
+    bool
+    given() const
+    {
+      return end_time || !step.empty();
+    }
+
+    /// The times at which steps end, ascending; the first begins at 0.
+    std::vector<double>
+    times() const;
   };
 
   /// The planned times, and smaller steps to them where one fails: a step that

@@ -8,6 +8,11 @@
 
 namespace mortise
 {
+  /// "Body inner/Mesh/Source"
+  std::string
+  path_of(const std::vector<std::string> &sections,
+          const std::string              &name = "");
+
   /// "set name = value" within nested subsections, or the opening of a
   /// subsection (no name).
   struct Assignment
@@ -23,9 +28,12 @@ namespace mortise
       return name.empty();
     }
 
-    /// "Body inner/Mesh/Source"
-    std::string
-    path() const;
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &sections &name &value &origin;
+    }
   };
 
   /// Lines of @p text: comments (#) and continuations (\ at the end of a line) are understood,

@@ -1,72 +1,31 @@
-// Which parameters exist, with default, unit, meaning and what is allowed. It
-// never interprets values beyond their type.
+// All parameters of a scene, the values that they are assigned, and how they
+// are printed for people.
 #pragma once
 
-#include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/patterns.h>
-
+#include <mortise/problem/parameter_entry.h>
 #include <mortise/problem/parameter_file.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
 namespace mortise
 {
-  /// The names that make the subsections of a scene.
-  struct SceneNames
-  {
-    std::vector<std::string> bodies;
-    std::vector<std::vector<std::string>>
-      boundaries; ///< of each body, those that the file names
-    std::vector<std::string> interfaces;
-  };
+  /// The entries of all parameters, section by section. They set members of
+  /// @p parameters, which must outlive them, and whose bodies, boundaries and interfaces have their
+  /// names already.
+  std::vector<ParameterEntry>
+  declare_parameters(Parameters &parameters);
 
-  struct ParameterDeclaration
-  {
-    std::vector<std::string> sections;
-    std::string              name;
-    std::string              default_value;
-    std::string              meaning; ///< with the unit
-    std::string              allowed; ///< in words
-    std::vector<std::string> choices; ///< of a selection, for the nearest name
-    std::shared_ptr<const dealii::Patterns::PatternBase> pattern;
-  };
+  /// The part of them in a body's subsection Mesh.
+  void
+  declare_mesh(const ParameterSection &section, MeshParameters &mesh);
 
-  /// All parameters of a scene with these names, section by section.
-  std::vector<ParameterDeclaration>
-  declare_parameters(const SceneNames &names);
-
-  /// The declared parameters of one scene and the values they got.
-  class ParameterSchema
-  {
-  public:
-    explicit ParameterSchema(const SceneNames &names);
-
-    /// Check that the parameter exists and that the value has its type, then
-    /// store it. Throws InputError with what, where, what was got, and what is
-    /// allowed or nearest.
-    void
-    assign(const Assignment &assignment);
-
-    /// The value of a parameter.
-    std::string
-    get(const std::vector<std::string> &sections,
-        const std::string              &name) const;
-
-    const std::vector<ParameterDeclaration> &
-    declarations() const;
-
-  private:
-    void
-    check_sections(const Assignment &assignment) const;
-    const ParameterDeclaration &
-    find(const Assignment &assignment) const;
-
-    SceneNames                        names;
-    std::vector<ParameterDeclaration> declared;
-    dealii::ParameterHandler          handler;
-  };
+  /// Note the value, and @p where it stands, in the entry that @p assignment names. Throws InputError
+  /// if there is none, with the nearest.
+  void
+  assign(std::vector<ParameterEntry> &entries,
+         const Assignment            &assignment,
+         const std::string           &where);
 
   /// A parameter file with every parameter at its default, each with its unit,
   /// meaning and what is allowed as a comment: what --parameters prints.

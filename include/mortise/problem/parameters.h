@@ -1,10 +1,10 @@
 // What a parameter file says, as plain data: one struct per subsection, with
-// the defaults. It never opens a mesh, and nothing here knows how a parameter
-// is used.
+// the defaults. Meaning and units stand in the entries, as --parameters prints
+// them.
 //
 // Files have the syntax of dealii::ParameterHandler. `parameter_file.h` reads
 // the lines, `parameter_schema.h` declares the parameters (and prints them for
-// people).
+// people): a new one is a member here and an entry there.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -33,13 +33,12 @@ namespace mortise
   std::string
   joined(const Components &components);
 
-  /// What acts on one named boundary. Nothing at all: free of traction.
+  /// What acts on one named boundary; what is absent does not.
   struct BoundaryParameters
   {
-    std::optional<std::string>
-      pressure; ///< acts against the outward normal; or "exact"
-    std::optional<Components> traction;     ///< force per area; or "exact"
-    std::optional<Components> displacement; ///< "-": free; or "exact"
+    std::optional<std::string> pressure;
+    std::optional<Components>  traction;
+    std::optional<Components>  displacement;
   };
 
   /// Unknowns of a body: displacement, or displacement and pressure.
@@ -52,13 +51,12 @@ namespace mortise
 
   struct BodyParameters
   {
-    std::string  name;
-    unsigned int degree = 1;
-    std::map<unsigned int, unsigned int>
-                       degree_by_region; ///< material id of the mesh -> degree
-    Formulation        formulation = Formulation::automatic;
-    MeshParameters     mesh;
-    MaterialParameters material;
+    std::string                          name;
+    unsigned int                         degree = 1;
+    std::map<unsigned int, unsigned int> degree_by_region; ///< by material id
+    Formulation                          formulation = Formulation::automatic;
+    MeshParameters                       mesh;
+    MaterialParameters                   material;
     /// Force per volume. Absent ("auto"): from the exact solution if that is
     /// given by expressions, else zero.
     std::optional<Components>                 body_force;
@@ -77,12 +75,10 @@ namespace mortise
     std::string    name;
     SideParameters slave; ///< carries the multiplier
     SideParameters master;
-    std::string    law        = "tie";
-    std::string    multiplier = "standard";
-    double         search_distance =
-      0.5; ///< largest gap or overlap that is bridged, in face sizes
-    unsigned int quadrature_points =
-      0; ///< per direction and integration cell; 0 ("auto"): by the degrees
+    std::string    law               = "tie";
+    std::string    multiplier        = "standard";
+    double         search_distance   = 0.5;
+    unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
   };
 
   enum class ExactKind
@@ -95,18 +91,17 @@ namespace mortise
 
   struct ExactSolutionParameters
   {
-    ExactKind  kind = ExactKind::none;
-    Components displacement; ///< for ExactKind::expressions
-    /// Mean pressure, for ExactKind::expressions with nu = 0.5.
-    std::optional<std::string> pressure;
+    ExactKind                  kind = ExactKind::none;
+    Components                 displacement; ///< for ExactKind::expressions
+    std::optional<std::string> pressure;     ///< mean; the same, with nu = 0.5
   };
 
   struct SolverParameters
   {
     SolverMethod method           = SolverMethod::automatic;
-    double       tolerance        = 1e-10; ///< residual over right hand side
+    double       tolerance        = 1e-10;
     unsigned int max_iterations   = 1000;
-    unsigned int max_gathered     = 30000; ///< multipliers
+    unsigned int max_gathered     = 30000; ///< "Multipliers on all ranks"
     bool         print_iterations = false;
   };
 
@@ -128,10 +123,9 @@ namespace mortise
 
   struct OutputParameters
   {
-    std::string directory; ///< for summary.json and the files of fields
-    std::vector<std::string>
-      fields; ///< of field_names(); empty: no files of fields
-    unsigned int checkpoint_every = 0; ///< steps; 0: no checkpoints
+    std::string                    directory;
+    std::vector<std::string>       fields; ///< of field_names()
+    unsigned int checkpoint_every = 0;     ///< steps; 0: no checkpoints
     std::vector<PointQuantity>     points;
     std::vector<ResultantQuantity> resultants;
   };
@@ -148,17 +142,19 @@ namespace mortise
 
     std::string file; ///< the parameter file, as it was given
     std::vector<Assignment> assignments; ///< its lines and those of --set
-    std::map<std::string, std::string>
-      origins; ///< "Body inner/Degree" -> "line 7 of FILE", "--set"
+    /// "Body inner/Degree" -> "line 7 of FILE", "--set"
+    std::map<std::string, std::string> origins;
 
     /// "Body inner/Degree (line 7 of scene.prm)"; without the parentheses for a
     /// default.
     std::string
     where(const std::string &path) const;
 
-    /// Does the file or --set give @p path ("Body inner/Degree")?
-    bool
-    is_set(const std::string &path) const;
+    /// Throw InputError: what was @p got at @p path, and what is allowed.
+    [[noreturn]] void
+    fail(const std::string &path,
+         const std::string &got,
+         const std::string &allowed) const;
   };
 
   /// Fields that Output/Fields may name.
@@ -169,8 +165,8 @@ namespace mortise
   using Settings = std::vector<std::string>;
 
   /// Parse the text of a parameter file, with @p settings after it. @p file stands in messages
-  /// and locates included files. Throws InputError. Not collective; reads only
-  /// included files.
+  /// and locates included files. Throws InputError, also for a value out of its
+  /// range. Not collective; reads only included files.
   Parameters
   parse_parameters(const std::string &text,
                    const std::string &file,
@@ -188,9 +184,8 @@ namespace mortise
                   const Settings    &settings,
                   MPI_Comm           comm);
 
-  /// Check ranges and combinations: all that can be known without the meshes.
-  /// Throws InputError, also for what is documented but not available yet.
-  /// Reads no files, writes none.
+  /// Check the combinations, and the expressions: all that can be known without
+  /// the meshes. Throws InputError. Reads no files, writes none.
   void
   validate(const Parameters &parameters);
 
