@@ -211,10 +211,7 @@ namespace mortise
   void
   CellKernel::combine(FullMatrix<double> &matrix)
   {
-    const unsigned int size = dim * n;
-    for (unsigned int k = 0; k < size; ++k)
-      for (unsigned int l = 0; l < k; ++l)
-        products[k * size + l] = products[l * size + k];
+    const std::size_t size = dim * n;
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int d = c; d < dim; ++d)
         for (unsigned int i = 0; i < n; ++i)
@@ -222,12 +219,17 @@ namespace mortise
             // the blocks of the diagonal are symmetric
             const unsigned int first = c == d ? i : 0;
             std::fill(row.begin() + first, row.end(), 0.);
-            for (const Term &term : terms[c][d])
+            for (const auto &[e, f, modulus] : terms[c][d])
               {
-                const double *H =
-                  &products[(term.e * n + i) * size + term.f * n];
-                for (unsigned int j = first; j < n; ++j)
-                  row[j] += term.modulus * H[j];
+                // H_ef(i, j) = H_fe(j, i), of which there is that with e < f,
+                // or j >= i for e = f
+                const unsigned int begin = e < f ? first : e == f ? i : n;
+                const double *along  = &products[(e * n + i) * size + f * n],
+                             *across = &products[f * n * size + e * n + i];
+                for (unsigned int j = first; j < begin; ++j)
+                  row[j] += modulus * across[j * size];
+                for (unsigned int j = begin; j < n; ++j)
+                  row[j] += modulus * along[j];
               }
             const unsigned int index = system_index[c][i];
             for (unsigned int j = first; j < n; ++j)
