@@ -16,7 +16,8 @@ export OMPI_MCA_pml=${OMPI_MCA_pml:-ob1} OMPI_MCA_btl_tcp_if_include=${OMPI_MCA_
 export OMPI_MCA_orte_execute_quiet=1
 without_verdicts() {
   trap '' INT TERM HUP # it ends when mpirun does
-  exec sed -u -n '/^-\{60,\}$/ {
+  exec sed -u -n 's/\x00//g
+  /^-\{60,\}$/ {
     $!N
     /\n\(prterun \|MPI_ABORT was invoked\)/ {
       :inside
