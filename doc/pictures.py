@@ -8,22 +8,25 @@ import glob
 import json
 import os
 import sys
+import xml.etree.ElementTree
 
 import numpy
 import pyvista
 
 
-def main(directory, picture):
-    names = [b["name"] for b in json.load(open(os.path.join(directory, "summary.json")))["steps"][-1]["bodies"]]
-    meshes = [pyvista.read(os.path.join(directory, name + ".vtu")) for name in names]
-    low = numpy.min([m.bounds[0::2] for m in meshes], axis=0)
-    high = numpy.max([m.bounds[1::2] for m in meshes], axis=0)
-    size = numpy.linalg.norm(high - low)
-    largest = max(numpy.linalg.norm(m["displacement"], axis=1).max() for m in meshes)
-    middle = numpy.mean([m.center for m in meshes], axis=0)
+def moments(directory, name):
+    """The files of a body that are drawn, with a caption: of a run of several steps those at half of the time and at
+    its end."""
+    collection = os.path.join(directory, name + ".pvd")
+    if not os.path.exists(collection):
+        return [(os.path.join(directory, name + ".vtu"), "")]
+    entries = [(float(e.get("timestep")), e.get("file")) for e in xml.etree.ElementTree.parse(collection).iter("DataSet")]
+    half = min(entries, key=lambda entry: abs(entry[0] - 0.5 * entries[-1][0]))
+    return [(os.path.join(directory, file), f"t = {time:g}") for time, file in (half, entries[-1])]
 
-    plotter = pyvista.Plotter(off_screen=True, window_size=(1100, 850))
-    plotter.set_background("white")
+
+def draw(plotter, meshes, size, largest):
+    middle = numpy.mean([m.center for m in meshes], axis=0)
     for mesh in meshes:
         mesh["displacement magnitude"] = numpy.linalg.norm(mesh["displacement"], axis=1)
         apart = 0.5 * (numpy.array(mesh.center) - middle) if len(meshes) > 1 else numpy.zeros(3)
@@ -39,6 +42,24 @@ def main(directory, picture):
     direction = numpy.array([-1.5, -2.2, 1.1])
     plotter.camera_position = [middle + direction * size * 0.7, middle, (0, 0, 1)]
     plotter.reset_camera()  # keeps the direction and fits all bodies, pulled apart, into the window
+
+
+def main(directory, picture):
+    names = [b["name"] for b in json.load(open(os.path.join(directory, "summary.json")))["steps"][-1]["bodies"]]
+    files = [moments(directory, name) for name in names]
+    scenes = [[pyvista.read(file) for file, _ in at_time] for at_time in zip(*files)]
+    low = numpy.min([m.bounds[0::2] for m in scenes[0]], axis=0)
+    high = numpy.max([m.bounds[1::2] for m in scenes[0]], axis=0)
+    size = numpy.linalg.norm(high - low)
+    largest = max(numpy.linalg.norm(m["displacement"], axis=1).max() for meshes in scenes for m in meshes)
+
+    plotter = pyvista.Plotter(off_screen=True, window_size=(1100 * len(scenes), 850), shape=(1, len(scenes)), border=False)
+    plotter.set_background("white")
+    for column, meshes in enumerate(scenes):
+        plotter.subplot(0, column)
+        draw(plotter, meshes, size, largest)
+        if files[0][column][1]:
+            plotter.add_text(files[0][column][1], color="black", font_size=14)
     plotter.screenshot(picture)
 
 

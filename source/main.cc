@@ -3,6 +3,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
+#include <mortise/output/checkpoint.h>
 #include <mortise/problem/command_line.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/parameter_schema.h>
@@ -10,6 +11,7 @@
 #include <mortise/problem/start.h>
 
 #include <iostream>
+#include <optional>
 
 namespace
 {
@@ -35,14 +37,24 @@ namespace
         default:
           break;
       }
+    std::optional<mortise::RunCheckpoint> checkpoint;
+    if (!command.restart.empty())
+      checkpoint = mortise::run_checkpoint_from(
+        mortise::read_checkpoint_text(command.restart, comm));
     const mortise::Parameters parameters =
-      mortise::read_parameters(command.file, command.settings, comm);
+      checkpoint ?
+        mortise::restart_parameters(*checkpoint,
+                                    command.settings,
+                                    command.restart) :
+        mortise::read_parameters(command.file, command.settings, comm);
     mortise::validate(parameters);
 
     mortise::RunLog log(std::cout, comm);
     if (!parameters.title.empty())
       log.line(parameters.title);
     mortise::Simulation simulation(parameters, log, comm);
+    if (checkpoint)
+      simulation.resume(*checkpoint, command.restart);
     if (command.action == Action::validate)
       {
         mortise::check_output_directory(parameters, comm);

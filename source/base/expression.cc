@@ -240,9 +240,12 @@ namespace mortise
     : nodes(1)
   {}
 
-  Expression::Expression(const std::string &text, const std::string &where)
-    : nodes(parse(text, where))
-  {}
+  Expression::Expression(const std::string &text,
+                         const std::string &where,
+                         const double       time)
+  {
+    parse(text, where, time);
+  }
 
   unsigned int
   Expression::n_operands(const Operation operation)
@@ -332,7 +335,8 @@ namespace mortise
   }
 
   VectorExpression::VectorExpression(const std::string &text,
-                                     const std::string &where)
+                                     const std::string &where,
+                                     const double       time)
   {
     const std::vector<std::string> parts =
       Utilities::split_string_list(text, ';');
@@ -342,7 +346,7 @@ namespace mortise
         "a vector needs 3 expressions separated by ';', as in \"0; 0; 2*x\"; got " +
         std::to_string(parts.size()) + " in " + in_quotes(text));
     for (unsigned int c = 0; c < 3; ++c)
-      components[c] = Expression(parts[c], where);
+      components[c] = Expression(parts[c], where, time);
   }
 
   Tensor<1, 3>

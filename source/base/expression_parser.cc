@@ -65,9 +65,12 @@ namespace mortise
     class Parser
     {
     public:
-      Parser(const std::string &text, const std::string &where)
+      Parser(const std::string &text,
+             const std::string &where,
+             const double       time)
         : text(text)
         , where(where)
+        , time(time)
       {}
 
       std::vector<Node>
@@ -79,6 +82,8 @@ namespace mortise
           fail(position, "an operator or the end is expected here");
         return compact(root);
       }
+
+      bool has_time = false; ///< found t
 
     private:
       [[noreturn]] void
@@ -277,6 +282,11 @@ namespace mortise
         const std::string word = text.substr(at, position - at);
         if (word == "pi")
           return constant(dealii::numbers::PI);
+        if (word == "t")
+          {
+            has_time = true;
+            return constant(time);
+          }
         for (const Name &variable : variables)
           if (word == variable.text)
             return make(variable.operation, {}, at);
@@ -314,6 +324,7 @@ namespace mortise
         std::vector<std::string> known;
         for (const Name &variable : variables)
           known.emplace_back(variable.text);
+        known.emplace_back("t");
         known.emplace_back("pi");
         for (const Name &function : functions)
           known.emplace_back(function.text);
@@ -351,15 +362,20 @@ namespace mortise
 
       const std::string &text;
       const std::string &where;
+      const double       time;
       std::size_t        position = 0;
       unsigned int       depth    = 0;
       std::vector<Node>  nodes; ///< as parsed, folded parts included
     };
   } // namespace
 
-  std::vector<Expression::Node>
-  Expression::parse(const std::string &text, const std::string &where)
+  void
+  Expression::parse(const std::string &text,
+                    const std::string &where,
+                    const double       time)
   {
-    return Parser(text, where).parse();
+    Parser parser(text, where, time);
+    nodes    = parser.parse();
+    has_time = parser.has_time;
   }
 } // namespace mortise

@@ -17,9 +17,9 @@ namespace mortise
 {
   using namespace dealii;
 
-  Body::Body(const std::string   &name,
-             const unsigned int   index,
-             const LinearElastic &material)
+  Body::Body(const std::string &name,
+             const unsigned int index,
+             const Material    &material)
     : name(name)
     , index(index)
     , material(material)
@@ -70,7 +70,7 @@ namespace mortise
     degrees = std::make_unique<EntityDegrees>(dof_handler);
     make_conformity_constraints(dof_handler, *degrees, conformity);
     relevant_dofs = conformity.get_local_lines();
-    if (material.mixed)
+    if (material.mixed())
       pressure = std::make_unique<PressureSpace>(dof_handler);
   }
 

@@ -20,6 +20,7 @@ namespace mortise
     hp::FECollection<3> &fe,
     DoFHandler<3>       &dof_handler)
   {
+    fe = hp::FECollection<3>();
     for (const unsigned int p : degrees)
       fe.push_back(*element(p));
     for (const auto &cell : dof_handler.active_cell_iterators())
@@ -58,6 +59,8 @@ namespace mortise
     hp::FECollection<3>                                          &fe,
     DoFHandler<3>                                                &dof_handler)
   {
+    // deal.II lets nobody go from one element to several
+    dof_handler.reinit(dof_handler.get_triangulation());
     if (is_hexahedral(dof_handler.get_triangulation()))
       {
         distribute_dofs_by_degree(
@@ -74,6 +77,7 @@ namespace mortise
       }
     const SimplexElements simplices({degrees.begin(), degrees.end()},
                                     n_components);
+    fe = hp::FECollection<3>();
     for (unsigned int i = 0; i < simplices.collection.size(); ++i)
       fe.push_back(simplices.collection[i]);
     for (const auto &cell : dof_handler.active_cell_iterators())

@@ -71,7 +71,7 @@ namespace mortise
       trace.shape =
         body.mesh.tetrahedra ? FaceShape::triangle : FaceShape::quadrilateral;
       trace.degree    = body.degree(cell);
-      trace.modulus   = body.material.young_modulus;
+      trace.modulus   = body.material.modulus();
       trace.depth     = depth(cell, CellFace(cell, f));
       const auto dofs = face_dofs(cell, f);
       trace.begin     = {0};
@@ -90,7 +90,9 @@ namespace mortise
                 trace.column.push_back(dof);
                 trace.weight.push_back(1.);
               }
-            trace.constant.push_back(constraints.get_inhomogeneity(dof));
+            trace.prescribed.push_back(constraints.is_constrained(dof) ?
+                                         dof :
+                                         numbers::invalid_dof_index);
             trace.begin.push_back(trace.column.size());
           }
       return trace;

@@ -10,10 +10,9 @@ namespace mortise
 {
   using namespace dealii;
 
-  ExpressionSolution::ExpressionSolution(
-    const VectorExpression           &displacement,
-    const std::vector<LinearElastic> &materials,
-    const Expression                 &pressure)
+  ExpressionSolution::ExpressionSolution(const VectorExpression &displacement,
+                                         const std::vector<Material> &materials,
+                                         const Expression            &pressure)
     : expression(displacement)
     , materials(materials)
     , pressure(pressure)
@@ -35,11 +34,12 @@ namespace mortise
   ExpressionSolution::stress(const Point<3> &p, const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
-    const LinearElastic &material = materials[body];
-    const auto           strain   = symmetrize(expression.gradient(p));
+    const Material    &material = materials[body];
+    const Tensor<2, 3> gradient = expression.gradient(p);
     if (!material.incompressible())
-      return material.stress(strain);
-    return 2. * material.lame_mu() * deviator(strain) -
+      return material.stress(gradient);
+    // in the mean minus the pressure, whatever the divergence
+    return deviator(material.stress(gradient, 0.)) -
            pressure.value(p) * unit_symmetric_tensor<3>();
   }
 
@@ -48,15 +48,10 @@ namespace mortise
                                  const unsigned int body) const
   {
     AssertIndexRange(body, materials.size());
-    const LinearElastic &material = materials[body];
-    if (!material.incompressible())
-      return material.body_force(expression.hessian(p));
-    // a displacement without divergence: -mu laplace u + grad p
-    Tensor<1, 3> force   = pressure.gradient(p);
-    const auto   hessian = expression.hessian(p);
-    for (unsigned int i = 0; i < 3; ++i)
-      force[i] -= material.lame_mu() * trace(hessian[i]);
-    return force;
+    const Tensor<1, 3> force =
+      materials[body].body_force(expression.hessian(p));
+    return materials[body].incompressible() ? force + pressure.gradient(p) :
+                                              force;
   }
 
   unsigned int

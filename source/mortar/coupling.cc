@@ -86,33 +86,41 @@ namespace mortise
       return {rows.begin, rows.index, rows.weight, c * n};
     }
 
-    /// Move prescribed displacements to the right hand side: g_i -= factor
-    /// local_ij constant_j.
-    void
-    move_constants(const Expansion          &row,
-                   const FaceTrace          &trace,
-                   const unsigned int        c,
-                   const FullMatrix<double> &local,
-                   const double              factor,
-                   Vector                   &rhs)
+    /// The prescribed displacements of one side.
+    class PrescribedTrace
     {
-      const double *constant = &trace.constant[c * trace.n_functions()];
-      if (std::all_of(constant, constant + local.n(), [](const double g) {
-            return g == 0.;
-          }))
-        return;
-      for (unsigned int i = 0; i < local.m(); ++i)
-        {
-          double sum = 0.;
-          for (unsigned int j = 0; j < local.n(); ++j)
-            sum += local(i, j) * constant[j];
-          if (sum != 0.)
-            for (unsigned int e = row.begin[row.offset + i];
-                 e < row.begin[row.offset + i + 1];
-                 ++e)
-              rhs(row.index[e]) -= factor * row.weight[e] * sum;
-        }
-    }
+    public:
+      explicit PrescribedTrace(const FaceTrace &trace)
+        : n_functions(trace.n_functions())
+        , begin(1)
+      {
+        for (const Index dof : trace.prescribed)
+          {
+            if (dof != numbers::invalid_dof_index)
+              index.push_back(dof);
+            begin.push_back(index.size());
+          }
+        weight.assign(index.size(), 1.);
+      }
+
+      Expansion
+      component(const unsigned int c) const
+      {
+        return {begin, index, weight, c * n_functions};
+      }
+
+      const FullMatrix<double> &
+      in_columns(const FullMatrix<double> &local) const
+      {
+        return local;
+      }
+
+    private:
+      unsigned int              n_functions;
+      std::vector<unsigned int> begin;
+      std::vector<Index>        index;
+      std::vector<double>       weight;
+    };
 
     bool
     has_columns(const FaceTrace &trace, const unsigned int c)
@@ -191,60 +199,74 @@ namespace mortise
     return all;
   }
 
+  namespace
+  {
+    /// [D, -M] with the columns that @p Columns makes of a trace.
+    template <typename Columns>
+    void
+    assemble_blocks(const std::vector<Coupling> &couplings,
+                    const CouplingPartition     &partition,
+                    SparseMatrix                &matrix)
+    {
+      RowAssembler assembler(partition.owned_multiplier,
+                             partition.owned_displacement);
+      // Calls visit(rows, side, its block, factor) for each side of each face.
+      const auto for_each_side = [&](const auto &visit) {
+        for_each_face(
+          couplings, [&](const Coupling &coupling, const unsigned int s) {
+            const auto          &rows  = coupling.multipliers->rows()[s];
+            const LocalCoupling &local = coupling.local[s];
+            visit(rows, coupling.interface->slave().traces[s], local.mass, 1.);
+            for (const auto &partner : local.partners)
+              visit(rows,
+                    coupling.interface->master_traces()[partner.master],
+                    partner.mixed,
+                    -1.);
+          });
+      };
+      for_each_side([&](const auto      &rows,
+                        const FaceTrace &side,
+                        const auto      &block,
+                        const double) {
+        const Columns columns(side);
+        for (unsigned int c = 0; c < dim; ++c)
+          assembler.record(component(rows, c),
+                           block.m(),
+                           columns.component(c),
+                           side.n_functions());
+      });
+      assembler.allocate();
+      for_each_side([&](const auto      &rows,
+                        const FaceTrace &side,
+                        const auto      &block,
+                        const double     factor) {
+        const Columns             columns(side);
+        const FullMatrix<double> &in_columns = columns.in_columns(block);
+        for (unsigned int c = 0; c < dim; ++c)
+          assembler.add(component(rows, c),
+                        columns.component(c),
+                        in_columns,
+                        factor,
+                        false);
+      });
+      assembler.create(matrix, partition.comm);
+    }
+  } // namespace
+
   void
   assemble_constraint(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition,
-                      SparseMatrix                &coupling_matrix,
-                      Vector                      &coupling_rhs)
+                      SparseMatrix                &coupling)
   {
-    RowAssembler assembler(partition.owned_multiplier,
-                           partition.owned_displacement);
-    for_each_face(
-      couplings, [&](const Coupling &coupling, const unsigned int s) {
-        const FaceTrace   &slave  = coupling.interface->slave().traces[s];
-        const auto        &rows   = coupling.multipliers->rows()[s];
-        const unsigned int n      = slave.n_functions();
-        const auto         record = [&](const FaceTrace &side) {
-          const ConstraintColumns columns(side);
-          for (unsigned int c = 0; c < dim; ++c)
-            assembler.record(component(rows, c),
-                             n,
-                             columns.component(c),
-                             side.n_functions());
-        };
-        record(slave);
-        for (const auto &partner : coupling.local[s].partners)
-          record(coupling.interface->master_traces()[partner.master]);
-      });
-    assembler.allocate();
-    coupling_rhs.reinit(partition.owned_multiplier, partition.comm);
+    assemble_blocks<ConstraintColumns>(couplings, partition, coupling);
+  }
 
-    for_each_face(
-      couplings, [&](const Coupling &coupling, const unsigned int s) {
-        const FaceTrace     &slave = coupling.interface->slave().traces[s];
-        const auto          &rows  = coupling.multipliers->rows()[s];
-        const LocalCoupling &local = coupling.local[s];
-        const auto           add   = [&](const FaceTrace          &side,
-                             const FullMatrix<double> &block,
-                             const double              factor) {
-          const ConstraintColumns  columns(side);
-          const FullMatrix<double> in_columns = columns.in_columns(block);
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              const Expansion row = component(rows, c);
-              assembler.add(
-                row, columns.component(c), in_columns, factor, false);
-              move_constants(row, side, c, block, factor, coupling_rhs);
-            }
-        };
-        add(slave, local.mass, 1.);
-        for (const auto &partner : local.partners)
-          add(coupling.interface->master_traces()[partner.master],
-              partner.mixed,
-              -1.);
-      });
-    assembler.create(coupling_matrix, partition.comm);
-    coupling_rhs.compress(VectorOperation::add);
+  void
+  assemble_prescribed_columns(const std::vector<Coupling> &couplings,
+                              const CouplingPartition     &partition,
+                              SparseMatrix                &coupling)
+  {
+    assemble_blocks<PrescribedTrace>(couplings, partition, coupling);
   }
 
   void

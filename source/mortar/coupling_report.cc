@@ -225,6 +225,21 @@ namespace mortise
     return coefficients;
   }
 
+  void
+  set_multiplier(const Coupling                         &coupling,
+                 const std::vector<std::vector<double>> &coefficients,
+                 Vector                                 &multiplier)
+  {
+    for (unsigned int s = 0; s < coefficients.size(); ++s)
+      {
+        const auto &rows = coupling.multipliers->rows()[s];
+        for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+          if (rows.begin[r + 1] == rows.begin[r] + 1)
+            multiplier[rows.index[rows.begin[r]]] =
+              coefficients[s][r] / rows.weight[rows.begin[r]];
+      }
+  }
+
   ResultantErrors
   resultant_errors(const Coupling &coupling,
                    const Vector   &multiplier,

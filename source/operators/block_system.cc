@@ -6,6 +6,24 @@
 namespace mortise
 {
   void
+  scale(SystemVector &x, const double factor)
+  {
+    for (Vector *part : {&x.displacement, &x.pressure, &x.multiplier})
+      if (part->size() > 0)
+        *part *= factor;
+  }
+
+  void
+  add_scaled(SystemVector &x, const double factor, const SystemVector &y)
+  {
+    x.displacement.add(factor, y.displacement);
+    if (x.pressure.size() > 0)
+      x.pressure.add(factor, y.pressure);
+    if (x.multiplier.size() > 0)
+      x.multiplier.add(factor, y.multiplier);
+  }
+
+  void
   BlockSystem::apply_stiffness(Vector &dst, const Vector &src) const
   {
     if (nodal)
@@ -40,6 +58,18 @@ namespace mortise
       nodal->add_pressure_force(dst, p);
     else
       divergence.Tvmult_add(dst, p);
+  }
+
+  void
+  BlockSystem::add_multiplier_force(Vector &dst, const Vector &lambda) const
+  {
+    coupling.Tvmult_add(dst, lambda);
+  }
+
+  void
+  BlockSystem::apply_constraint(Vector &dst, const Vector &u) const
+  {
+    coupling.vmult(dst, u);
   }
 
   void

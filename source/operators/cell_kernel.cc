@@ -112,14 +112,21 @@ namespace mortise
   } // namespace
 
   CellKernel::CellKernel(const Body &body, const FiniteElement<dim> &system)
-    : lambda(body.material.displacement_lambda())
-    , mu(body.material.lame_mu())
-    , n(system.base_element(0).n_dofs_per_cell())
+    : n(system.base_element(0).n_dofs_per_cell())
     , geometry(body,
                system.reference_cell(),
                stiffness_quadrature(system, body.mapping_degree))
     , products(dim * n * dim * n)
+    , row(n)
   {
+    const Moduli C = std::visit([](const auto &law) { return moduli(law); },
+                                body.material.displacement_law());
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int d = c; d < dim; ++d)
+        for (unsigned int e = 0; e < dim; ++e)
+          for (unsigned int f = 0; f < dim; ++f)
+            if (C[c][e][d][f] != 0.)
+              terms[c][d].push_back({e, f, C[c][e][d][f]});
     const FiniteElement<dim> &element = system.base_element(0);
     const Quadrature<dim>     quadrature =
       stiffness_quadrature(system, body.mapping_degree);
@@ -202,38 +209,32 @@ namespace mortise
   }
 
   void
-  CellKernel::combine(FullMatrix<double> &matrix) const
+  CellKernel::combine(FullMatrix<double> &matrix)
   {
-    const auto H =
-      [&](const unsigned int c, const unsigned int i, const unsigned int d) {
-        return &products[(c * n + i) * dim * n + d * n];
-      };
-    for (unsigned int i = 0; i < n; ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          const unsigned int row = system_index[c][i];
-          // H_cc is symmetric: its upper triangle
-          const double *cc = H(c, i, c), *xx = H(0, i, 0), *yy = H(1, i, 1),
-                       *zz = H(2, i, 2);
-          for (unsigned int j = i; j < n; ++j)
-            {
-              const double value =
-                (lambda + mu) * cc[j] + mu * (xx[j] + yy[j] + zz[j]);
-              matrix(row, system_index[c][j]) = value;
-              matrix(system_index[c][j], row) = value;
-            }
-          for (unsigned int d = c + 1; d < dim; ++d)
-            {
-              // H_dc(i, j) = H_cd(j, i); the block (d, c) is the transpose of
-              // (c, d)
-              const double *cd = H(c, i, d);
-              for (unsigned int j = 0; j < n; ++j)
-                {
-                  const double value = lambda * cd[j] + mu * H(c, j, d)[i];
-                  matrix(row, system_index[d][j]) = value;
-                  matrix(system_index[d][j], row) = value;
-                }
-            }
-        }
+    const unsigned int size = dim * n;
+    for (unsigned int k = 0; k < size; ++k)
+      for (unsigned int l = 0; l < k; ++l)
+        products[k * size + l] = products[l * size + k];
+    for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int d = c; d < dim; ++d)
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            // the blocks of the diagonal are symmetric
+            const unsigned int first = c == d ? i : 0;
+            std::fill(row.begin() + first, row.end(), 0.);
+            for (const Term &term : terms[c][d])
+              {
+                const double *H =
+                  &products[(term.e * n + i) * size + term.f * n];
+                for (unsigned int j = first; j < n; ++j)
+                  row[j] += term.modulus * H[j];
+              }
+            const unsigned int index = system_index[c][i];
+            for (unsigned int j = first; j < n; ++j)
+              {
+                const unsigned int column = system_index[d][j];
+                matrix(index, column) = matrix(column, index) = row[j];
+              }
+          }
   }
 } // namespace mortise

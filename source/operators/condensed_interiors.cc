@@ -7,7 +7,6 @@ namespace mortise
 {
   bool
   CondensedInteriors::eliminate(dealii::FullMatrix<double> &matrix,
-                                dealii::Vector<double>     &load,
                                 const unsigned int          n_boundary)
   {
     const Teuchos::LAPACK<int, double> lapack;
@@ -15,8 +14,7 @@ namespace mortise
 
     const int N   = static_cast<int>(matrix.m()),
               n_b = static_cast<int>(n_boundary), n_i = N - n_b;
-    Cell cell;
-    cell.particular.assign(load.begin() + n_b, load.end());
+    Cell cell{n_b, n_i, {}, {}};
     // Symmetric, so that rows are columns: below, all is column major.
     double *bb = &matrix(0, 0), *bi = bb + static_cast<std::size_t>(n_b) * N,
            *ii = bi + n_b;
@@ -24,7 +22,6 @@ namespace mortise
     lapack.POTRF('L', n_i, ii, N, &info);
     if (info != 0)
       return false;
-    lapack.POTRS('L', n_i, 1, ii, N, cell.particular.data(), n_i, &info);
 
     // with K_ii = L L^T and Z = K_bi L^{-T}: S = K_bb - Z Z^T, X^T = Z L^{-1}
     using namespace Teuchos;
@@ -46,41 +43,69 @@ namespace mortise
       for (int i = j + 1; i < n_b; ++i)
         bb[j + static_cast<std::size_t>(i) * N] =
           bb[i + static_cast<std::size_t>(j) * N];
-    blas.GEMV(NO_TRANS,
-              n_b,
-              n_i,
-              -1.,
-              bi,
-              N,
-              load.begin() + n_b,
-              1,
-              1.,
-              load.begin(),
-              1);
-
-    cell.extension.reserve(static_cast<std::size_t>(n_b) * n_i);
-    for (int k = 0; k < n_i; ++k)
-      cell.extension.insert(cell.extension.end(),
-                            bi + static_cast<std::size_t>(k) * N,
-                            bi + static_cast<std::size_t>(k) * N + n_b);
+    const auto copy = [N](const double *from, const int rows, const int n) {
+      std::vector<double> to;
+      to.reserve(static_cast<std::size_t>(rows) * n);
+      for (int k = 0; k < n; ++k)
+        to.insert(to.end(),
+                  from + static_cast<std::size_t>(k) * N,
+                  from + static_cast<std::size_t>(k) * N + rows);
+      return to;
+    };
+    cell.extension = copy(bi, n_b, n_i);
+    if (loaded)
+      cell.factor = copy(ii, n_i, n_i);
     cells.push_back(std::move(cell));
     return true;
   }
 
   std::vector<double>
+  CondensedInteriors::condense(const unsigned int      cell,
+                               dealii::Vector<double> &load) const
+  {
+    Assert(loaded, dealii::ExcInternalError());
+    const Teuchos::LAPACK<int, double> lapack;
+    const Teuchos::BLAS<int, double>   blas;
+    const Cell                        &own = cells[cell];
+    std::vector<double> particular(load.begin() + own.n_b, load.end());
+    blas.GEMV(Teuchos::NO_TRANS,
+              own.n_b,
+              own.n_i,
+              -1.,
+              own.extension.data(),
+              own.n_b,
+              particular.data(),
+              1,
+              1.,
+              load.begin(),
+              1);
+    int info = 0;
+    lapack.POTRS('L',
+                 own.n_i,
+                 1,
+                 own.factor.data(),
+                 own.n_i,
+                 particular.data(),
+                 own.n_i,
+                 &info);
+    return particular;
+  }
+
+  std::vector<double>
   CondensedInteriors::recover(const unsigned int         cell,
-                              const std::vector<double> &boundary_values) const
+                              const std::vector<double> &boundary_values,
+                              const std::vector<double> &particular) const
   {
     const Teuchos::BLAS<int, double> blas;
-
-    std::vector<double> values = cells[cell].particular;
-    const int           n_b    = static_cast<int>(boundary_values.size());
+    const Cell                      &own    = cells[cell];
+    std::vector<double>              values = particular;
+    values.resize(own.n_i);
     blas.GEMV(Teuchos::TRANS,
-              n_b,
-              static_cast<int>(values.size()),
+              own.n_b,
+              own.n_i,
               -1.,
-              cells[cell].extension.data(),
-              n_b,
+              own.extension.data(),
+              own.n_b,
               boundary_values.data(),
               1,
               1.,

@@ -4,11 +4,11 @@
 #include <mortise/operators/cell_kernel.h>
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/element_schur.h>
-#include <mortise/operators/load_kernel.h>
 #include <mortise/operators/matrix_scatter.h>
 #include <mortise/operators/pressure_kernel.h>
 #include <mortise/operators/pressure_scatter.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -37,40 +37,55 @@ namespace mortise
       Kernel(const Body &body, const FiniteElement<dim> &system)
         : body(body)
         , system(system)
-        , loads(body, system)
         , stiffness(body, system)
         , matrix(system.n_dofs_per_cell())
       {}
 
       const Body                     &body;
       const FiniteElement<dim>       &system;
-      LoadKernel                      loads;
-      dealii::Vector<double>          load;
       CellKernel                      stiffness;
       FullMatrix<double>              matrix;
       std::unique_ptr<PressureKernel> pressure; ///< in mixed form
       PressureBlocks                  blocks;
     };
 
-    /// Eliminate the interior of the cell and add the rest. Its own rows keep a
-    /// diagonal of the same size and couple with nothing.
+    /// Keep the columns of the constrained ones among the first @p n_b of @p matrix.
     void
-    add_condensed(Kernel                              &kernel,
-                  std::vector<types::global_dof_index> dofs,
-                  CondensedInteriors                  &interiors,
-                  MatrixScatter                       &scatter)
+    keep_columns(const FullMatrix<double>                   &matrix,
+                 const unsigned int                          n_rows,
+                 const std::vector<types::global_dof_index> &dofs,
+                 const AffineConstraints<double>            &constraints,
+                 PrescribedColumns::Cell                    &cell)
+    {
+      for (unsigned int j = 0; j < dofs.size(); ++j)
+        if (constraints.is_constrained(dofs[j]))
+          cell.columns.push_back(j);
+      cell.block.reinit(n_rows, cell.columns.size());
+      for (unsigned int i = 0; i < n_rows; ++i)
+        for (unsigned int j = 0; j < cell.columns.size(); ++j)
+          cell.block(i, j) = matrix(i, cell.columns[j]);
+    }
+
+    /// Eliminate the interior of the cell and add the rest. Its own rows keep a
+    /// diagonal of the same size and couple with nothing. Leaves the dofs of
+    /// its boundary in @p dofs.
+    void
+    add_condensed(Kernel                               &kernel,
+                  std::vector<types::global_dof_index> &dofs,
+                  CondensedInteriors                   &interiors,
+                  MatrixScatter                        &scatter)
     {
       const unsigned int n_b = kernel.system.get_first_hex_index();
       if (n_b < dofs.size())
         {
           for (unsigned int i = n_b; i < dofs.size(); ++i)
             scatter.add_diagonal(dofs[i], kernel.matrix(i, i));
-          if (!interiors.eliminate(kernel.matrix, kernel.load, n_b))
+          if (!interiors.eliminate(kernel.matrix, n_b))
             throw std::runtime_error(
               "the stiffness of a cell's interior is not positive definite");
           dofs.resize(n_b);
         }
-      scatter.add(kernel.matrix, kernel.load, dofs);
+      scatter.add(kernel.matrix, dofs);
     }
 
     /// Which displacements of the boundary of a cell are not prescribed.
@@ -87,9 +102,9 @@ namespace mortise
       return free;
     }
 
-    /// [K G^T; G -C] and the load of a cell: displacements of its boundary, all
-    /// pressures, displacements of its interior.
-    std::pair<FullMatrix<double>, dealii::Vector<double>>
+    /// [K G^T; G -C] of a cell: displacements of its boundary, all pressures,
+    /// displacements of its interior.
+    FullMatrix<double>
     mixed_cell(const Kernel &kernel)
     {
       const unsigned int n_b      = kernel.system.get_first_hex_index(),
@@ -101,11 +116,9 @@ namespace mortise
       const auto   place          = [&](const unsigned int i) {
         return i < n_b ? i : i + n_p;
       };
-      FullMatrix<double>     all(n_u + n_p);
-      dealii::Vector<double> load(n_u + n_p);
+      FullMatrix<double> all(n_u + n_p);
       for (unsigned int i = 0; i < n_u; ++i)
         {
-          load(place(i)) = kernel.load(i);
           for (unsigned int j = 0; j < n_u; ++j)
             all(place(i), place(j)) = kernel.matrix(i, j);
           for (unsigned int k = 0; k < n_p; ++k)
@@ -114,14 +127,15 @@ namespace mortise
       for (unsigned int k = 0; k < n_p; ++k)
         for (unsigned int l = 0; l < n_p; ++l)
           all(n_b + k, n_b + l) = -c * M(k, l);
-      return {std::move(all), std::move(load)};
+      return all;
     }
 
     /// The same in mixed form: with what is eliminated counted last, the cell
-    /// has the displacements of its boundary, its pressures, and the rest.
-    void
+    /// has the displacements of its boundary, its pressures, and the rest. Returns
+    /// its matrix and leaves the dofs of its boundary in @p dofs.
+    FullMatrix<double>
     add_mixed(Kernel                                     &kernel,
-              std::vector<types::global_dof_index>        dofs,
+              std::vector<types::global_dof_index>       &dofs,
               const std::vector<types::global_dof_index> &pressures,
               const std::vector<unsigned int>            &free,
               CondensedInteriors                         &interiors,
@@ -130,26 +144,24 @@ namespace mortise
     {
       const unsigned int n_b = kernel.system.get_first_hex_index(),
                          n_p = pressures.size();
-      auto [all, load]       = mixed_cell(kernel);
+      FullMatrix<double> all = mixed_cell(kernel);
       for (unsigned int i = n_b; i < dofs.size(); ++i)
         scatter.add_diagonal(dofs[i], kernel.matrix(i, i));
-      if (n_b < dofs.size() && !interiors.eliminate(all, load, n_b + n_p))
+      if (n_b < dofs.size() && !interiors.eliminate(all, n_b + n_p))
         throw std::runtime_error(
           "the stiffness of a cell's interior is not positive definite");
       dofs.resize(n_b);
-      scatter.add(all, load, dofs);
+      scatter.add(all, dofs);
 
       PressureBlocks &blocks = kernel.blocks;
       blocks.divergence.reinit(n_p, n_b);
       blocks.compliance.reinit(n_p, n_p);
-      blocks.load.reinit(n_p);
       for (unsigned int k = 0; k < n_p; ++k)
         {
           for (unsigned int i = 0; i < n_b; ++i)
             blocks.divergence(k, i) = all(n_b + k, i);
           for (unsigned int l = 0; l < n_p; ++l)
             blocks.compliance(k, l) = -all(n_b + k, n_b + l);
-          blocks.load(k) = load(n_b + k);
         }
       blocks.norm = kernel.pressure->mass();
       blocks.norm *= kernel.body.material.pressure_norm();
@@ -162,21 +174,21 @@ namespace mortise
                           blocks.compliance);
         }
       pressure_scatter.add(blocks, pressures, dofs);
+      return all;
     }
   } // namespace
 
-  CondensedInteriors
+  AssembledBody
   assemble_elasticity(const Body                      &body,
-                      const Loads                     &loads,
                       const FieldNumbering            &numbering,
                       const AffineConstraints<double> &constraints,
+                      const LoadKinds                 &kinds,
                       SparseMatrix                    &stiffness,
-                      Vector                          &load,
                       PressureScatter                 *pressures)
   {
     std::map<unsigned int, std::unique_ptr<Kernel>> kernels;
-    CondensedInteriors                              interiors;
-    MatrixScatter scatter(constraints, stiffness, load);
+    AssembledBody assembled{CondensedInteriors(kinds.body_force), {}};
+    MatrixScatter scatter(constraints, stiffness);
     std::string   tangled;
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -190,26 +202,44 @@ namespace mortise
               tangled = tangled_message(body, cell);
               break;
             }
-          kernel->load    = kernel->loads.compute(cell, loads);
-          const auto dofs = scene_dofs(body, cell, numbering);
+          auto       dofs = scene_dofs(body, cell, numbering);
+          const bool keep =
+            kinds.prescribed &&
+            std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) {
+              return constraints.is_constrained(dof);
+            });
+          auto *columns =
+            keep ? &assembled.prescribed.cells[cell->active_cell_index()] :
+                   nullptr;
           if (!body.pressure)
-            add_condensed(*kernel, dofs, interiors, scatter);
-          else
             {
-              if (!kernel->pressure)
-                kernel->pressure = std::make_unique<PressureKernel>(
-                  body, cell->get_fe(), body.pressure->cell(cell)->get_fe());
-              kernel->pressure->compute(cell);
-              add_mixed(*kernel,
-                        dofs,
-                        pressures->dofs(body, cell),
-                        not_prescribed(constraints, dofs, cell->get_fe()),
-                        interiors,
-                        scatter,
-                        *pressures);
+              add_condensed(*kernel, dofs, assembled.interiors, scatter);
+              if (keep)
+                keep_columns(
+                  kernel->matrix, dofs.size(), dofs, constraints, *columns);
+              continue;
             }
+          if (!kernel->pressure)
+            kernel->pressure = std::make_unique<PressureKernel>(
+              body, cell->get_fe(), body.pressure->cell(cell)->get_fe());
+          kernel->pressure->compute(cell);
+          const auto of_cell = pressures->dofs(body, cell);
+          const auto matrix =
+            add_mixed(*kernel,
+                      dofs,
+                      of_cell,
+                      not_prescribed(constraints, dofs, cell->get_fe()),
+                      assembled.interiors,
+                      scatter,
+                      *pressures);
+          if (keep)
+            keep_columns(matrix,
+                         dofs.size() + of_cell.size(),
+                         dofs,
+                         constraints,
+                         *columns);
         }
     throw_if_any(tangled, body.triangulation().get_communicator());
-    return interiors;
+    return assembled;
   }
 } // namespace mortise

@@ -5,7 +5,6 @@
 #include <mortise/operators/load_kernel.h>
 #include <mortise/operators/lobatto_table.h>
 
-#include <map>
 
 namespace mortise
 {
@@ -127,25 +126,5 @@ namespace mortise
           for (unsigned int k = 0; k < indices.size(); ++k)
             load(system_index[c][indices[k]]) += force[c] * face.value(k, q);
       }
-  }
-
-  void
-  for_each_loaded_cell(
-    const Body                                                &body,
-    const Loads                                               &loads,
-    const std::function<void(const Body::CellIterator &,
-                             const dealii::Vector<double> &)> &visit)
-  {
-    std::map<unsigned int, std::unique_ptr<LoadKernel>> kernels;
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned() &&
-          (loads.body_force ||
-           (!loads.tractions.empty() && cell->at_boundary())))
-        {
-          auto &kernel = kernels[cell->active_fe_index()];
-          if (!kernel)
-            kernel = std::make_unique<LoadKernel>(body, cell->get_fe());
-          visit(cell, kernel->compute(cell, loads));
-        }
   }
 } // namespace mortise

@@ -62,8 +62,7 @@ namespace mortise
         batches.tetrahedra = body.mesh.tetrahedra;
         batches.degree     = degree;
         batches.n_points   = quadrature.size();
-        batches.lambda     = body.material.displacement_lambda();
-        batches.mu         = body.material.lame_mu();
+        batches.law        = body.material.template displacement_law<Number>();
         node_order =
           batches.tetrahedra ?
             ascending_dof_indices(degree, order()) :

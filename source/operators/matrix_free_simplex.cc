@@ -191,13 +191,21 @@ namespace mortise
           if (batch < cells.n_affine)
             {
               affine.evaluate(u, g);
-              on_all_points<true>(cells, metric, M, g);
+              std::visit(
+                [=](const auto &law) {
+                  on_all_points<true>(law, metric, M, g);
+                },
+                cells.law);
               affine.integrate(g, u);
             }
           else
             {
               curved->evaluate(u, g);
-              on_all_points<false>(cells, metric, cells.n_points, g);
+              std::visit(
+                [=, n = cells.n_points](const auto &law) {
+                  on_all_points<false>(law, metric, n, g);
+                },
+                cells.law);
               curved->integrate(g, u);
             }
           scatter_add<N>(u, nodes, dst);
@@ -238,15 +246,11 @@ namespace mortise
 
     /// Gradients of u to what is tested with gradients of v, @p g as
     /// [c][a][point].
-    template <bool is_affine>
+    template <bool is_affine, typename Law>
     static void
-    on_all_points(const CellBatches<Number> &cells,
-                  const V                   *metric,
-                  const int                  n_points,
-                  V                         *g)
+    on_all_points(const Law law, const V *metric, const int n_points, V *g)
     {
-      const Number lambda = cells.lambda, mu = cells.mu;
-      V            G[dim][dim], h[dim][dim], s[dim][dim];
+      V G[dim][dim], h[dim][dim], s[dim][dim];
       for (int q = 0; q < n_points; ++q)
         {
           if (q == 0 || !is_affine)
@@ -256,13 +260,12 @@ namespace mortise
           if (!is_affine)
             fetch_metric(metric + (q + n_points) * n9);
           gradient_at(g + q, n_points, G, h);
-          stress_of(h, lambda, mu, s);
+          law.tangent(Undeformed(), h, s);
           set_stress(s, G, n_points, g + q);
         }
     }
 
-    /// (sum_e (mu + (lambda + mu) delta_ce) G_ie G_je) as [c][(i, j)][point],
-    /// twice that for i != j.
+    /// diagonal_coefficient() as [c][(i, j)][point].
     static void
     coefficients(const CellBatches<Number> &cells,
                  const unsigned int         batch,
@@ -271,19 +274,16 @@ namespace mortise
     {
       const V   *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
       const bool is_affine = batch < cells.n_affine;
-      for (unsigned int c = 0; c < dim; ++c)
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = i; j < dim; ++j, result += n_points)
-            for (unsigned int q = 0; q < n_points; ++q)
-              {
-                const V *G   = is_affine ? metric : metric + q * n9;
-                V        sum = {};
-                for (unsigned int e = 0; e < dim; ++e)
-                  sum +=
-                    Number(cells.mu + (e == c ? cells.lambda + cells.mu : 0.)) *
-                    G[dim * i + e] * G[dim * j + e];
-                result[q] = Number(i == j ? 1 : 2) * sum;
-              }
+      std::visit(
+        [&](const auto &law) {
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = i; j < dim; ++j, result += n_points)
+                for (unsigned int q = 0; q < n_points; ++q)
+                  result[q] = diagonal_coefficient(
+                    law, c, i, j, is_affine ? metric : metric + q * n9);
+        },
+        cells.law);
     }
 
     /// dN_k/dxi_i dN_k/dxi_j: row k, column ((i, j), point).

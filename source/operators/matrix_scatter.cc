@@ -25,11 +25,9 @@ namespace mortise
   } // namespace
 
   MatrixScatter::MatrixScatter(const AffineConstraints<double> &constraints,
-                               SparseMatrix                    &matrix,
-                               Vector                          &load)
+                               SparseMatrix                    &matrix)
     : constraints(constraints)
     , matrix(matrix)
-    , load(load)
   {
     Assert(matrix.trilinos_matrix().Filled(), ExcInternalError());
   }
@@ -86,27 +84,6 @@ namespace mortise
   }
 
   void
-  MatrixScatter::add_load(const FullMatrix<double>     &cell_matrix,
-                          const dealii::Vector<double> &cell_load,
-                          const std::vector<Index>     &dofs)
-  {
-    std::vector<double> values(dofs.size());
-    bool                any = false;
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      values[i] = constrained[i] ? 0. : cell_load[i];
-    for (unsigned int j = 0; j < dofs.size(); ++j)
-      if (constrained[j])
-        if (const double given = constraints.get_inhomogeneity(dofs[j]))
-          for (unsigned int i = 0; i < dofs.size(); ++i)
-            if (!constrained[i])
-              values[i] -= cell_matrix(i, j) * given;
-    for (const double value : values)
-      any = any || value != 0.;
-    if (any)
-      load.add(dofs, values);
-  }
-
-  void
   MatrixScatter::add_diagonal(const Index dof, const double value)
   {
     constrained.assign(1, false);
@@ -116,9 +93,8 @@ namespace mortise
   }
 
   void
-  MatrixScatter::add(const FullMatrix<double>     &cell_matrix,
-                     const dealii::Vector<double> &cell_load,
-                     const std::vector<Index>     &dofs)
+  MatrixScatter::add(const FullMatrix<double> &cell_matrix,
+                     const std::vector<Index> &dofs)
   {
     const unsigned int n = dofs.size();
     constrained.assign(n, false);
@@ -128,16 +104,12 @@ namespace mortise
           constrained[i] = true;
           if (!constraints.get_constraint_entries(dofs[i])->empty())
             {
-              FullMatrix<double>     leading(n, n);
-              dealii::Vector<double> leading_load(n);
+              FullMatrix<double> leading(n, n);
               leading.fill(cell_matrix);
-              std::copy_n(cell_load.begin(), n, leading_load.begin());
-              constraints.distribute_local_to_global(
-                leading, leading_load, dofs, matrix, load);
+              constraints.distribute_local_to_global(leading, dofs, matrix);
               return;
             }
         }
-    add_load(cell_matrix, cell_load, dofs);
     find_runs(dofs);
     for (unsigned int i = 0; i < n; ++i)
       if (!constrained[i])

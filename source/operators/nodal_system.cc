@@ -3,6 +3,7 @@
 #include <mortise/body/fe_legendre.h>
 #include <mortise/operators/cell_order.h>
 #include <mortise/operators/nodal_system.h>
+#include <mortise/operators/scene_load.h>
 
 #include <algorithm>
 
@@ -200,9 +201,8 @@ namespace mortise
 
   void
   NodalSystem::assemble_load(const std::vector<Loads> &loads,
-                             const Scene              &scene,
-                             Vector                   &load,
-                             Vector                   &pressure_load) const
+                             const FieldNumbering     &numbering,
+                             SceneLoad                &load) const
   {
     const NodalLevel   &level = all_levels.front();
     LevelVector<double> sum;
@@ -227,31 +227,35 @@ namespace mortise
           });
       }
     stiffness->gather(sum);
-    if (pressures)
-      pressure_load.reinit(p_out.locally_owned_elements(),
-                           level.layout->get_mpi_communicator());
-    subtract_prescribed(scene, sum, pressure_load);
+    if (Utilities::MPI::max(load.prescribed.empty() ? 0 : 1,
+                            level.layout->get_mpi_communicator()) == 1)
+      {
+        interpolate([&](const unsigned int body, const auto dof) {
+          const auto found = load.prescribed.find(numbering(body, dof));
+          return found == load.prescribed.end() ? 0. : found->second;
+        });
+        if (pressures)
+          {
+            p_in = 0.;
+            apply_mixed_free();
+            copy(load.rhs.pressure, p_out);
+            load.rhs.pressure *= -1.;
+          }
+        else
+          stiffness->vmult_free(out, in);
+        sum -= out;
+      }
     stiffness->clear_held(sum);
-    load.reinit(level.layout->locally_owned_range(),
-                level.layout->get_mpi_communicator());
-    std::copy_n(sum.begin(), sum.locally_owned_size(), load.begin());
+    copy(load.rhs.displacement, sum);
   }
 
   void
-  NodalSystem::subtract_prescribed(const Scene         &scene,
-                                   LevelVector<double> &load,
-                                   Vector              &pressure_load) const
+  NodalSystem::interpolate(const Coefficients &coefficient) const
   {
     const NodalLevel &level = all_levels.front();
-    bool              any   = false;
-    for (const auto &line : scene.constraints.get_lines())
-      any = any || line.inhomogeneity != 0.;
-    if (Utilities::MPI::max(any ? 1 : 0,
-                            level.layout->get_mpi_communicator()) == 0)
-      return;
-    // The function with these coefficients and zero for all others. What it is
-    // at a node follows from the entity that has the node, so all cells agree.
-    in = 0.;
+    in                      = 0.;
+    // What it is at a node follows from the entity that has the node, so all
+    // cells agree.
     for_each_ordered_cell(
       *level.space,
       [&](const Body &body,
@@ -263,8 +267,8 @@ namespace mortise
             bool present = false;
             for (unsigned int i = 0; i < order.values.size(); ++i)
               {
-                order.values[i] = scene.constraints.get_inhomogeneity(
-                  scene.numbering(body.index, dofs[order.modes[c][i]]));
+                order.values[i] =
+                  coefficient(body.index, dofs[order.modes[c][i]]);
                 present = present || order.values[i] != 0.;
               }
             if (!present)
@@ -277,16 +281,43 @@ namespace mortise
                   order.values[i];
           }
       });
-    if (pressures)
-      {
-        p_in = 0.;
-        apply_mixed_free();
-        copy(pressure_load, p_out);
-        pressure_load *= -1.;
-      }
-    else
-      stiffness->vmult_free(out, in);
-    load -= out;
+  }
+
+  void
+  NodalSystem::set_displacement(const Coefficients &coefficient,
+                                Vector             &displacement) const
+  {
+    interpolate(coefficient);
+    stiffness->clear_held(in);
+    copy(displacement, in);
+  }
+
+  void
+  NodalSystem::set_pressure(const Coefficients &coefficient,
+                            Vector             &pressure) const
+  {
+    p_in             = 0.;
+    const auto nodes = pressures->nodes();
+    std::vector<types::global_dof_index> dofs;
+    std::vector<double>                  values;
+    nodes.space.for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &of_cell) {
+        const auto         own    = body.pressure->cell(cell);
+        const unsigned int degree = own->get_fe().degree;
+        const auto         order  = cell_dof_indices(degree);
+        dofs.resize(order.size());
+        own->get_dof_indices(dofs);
+        values.resize(order.size());
+        for (unsigned int i = 0; i < order.size(); ++i)
+          values[i] = coefficient(body.index, dofs[order[i]]);
+        transform_along_lines(modes_to_nodes(degree), values);
+        for (unsigned int i = 0; i < order.size(); ++i)
+          if (const auto node = of_cell[order[i]];
+              nodes.layout.in_local_range(node) &&
+              !nodes.space.hanging_nodes().is_constrained(node))
+            p_in.local_element(nodes.layout.global_to_local(node)) = values[i];
+      });
+    copy(pressure, p_in);
   }
 
   void

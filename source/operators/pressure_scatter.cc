@@ -65,7 +65,6 @@ namespace mortise
       rows, columns, divergence, system.communicator, true);
     system.compliance.reinit(rows, rows, square, system.communicator, true);
     system.pressure_norm.reinit(rows, rows, square, system.communicator, true);
-    system.pressure_load.reinit(rows, system.communicator);
   }
 
   std::vector<types::global_dof_index>
@@ -95,15 +94,6 @@ namespace mortise
     pressure.constraints.distribute_local_to_global(blocks.norm,
                                                     pressures,
                                                     system.pressure_norm);
-    dealii::Vector<double> load(blocks.load);
-    for (unsigned int j = 0; j < displacements.size(); ++j)
-      if (const double given =
-            displacement.constraints.get_inhomogeneity(displacements[j]))
-        for (unsigned int k = 0; k < pressures.size(); ++k)
-          load(k) -= blocks.divergence(k, j) * given;
-    pressure.constraints.distribute_local_to_global(load,
-                                                    pressures,
-                                                    system.pressure_load);
   }
 
   void
@@ -112,6 +102,5 @@ namespace mortise
     for (SparseMatrix *matrix :
          {&system.divergence, &system.compliance, &system.pressure_norm})
       matrix->compress(VectorOperation::add);
-    system.pressure_load.compress(VectorOperation::add);
   }
 } // namespace mortise

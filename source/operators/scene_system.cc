@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/operators/pressure_scatter.h>
 #include <mortise/operators/scene_system.h>
 
 #include <algorithm>
@@ -50,12 +51,12 @@ namespace mortise
     return field;
   }
 
-  std::vector<CondensedInteriors>
-  assemble_bodies(const Bodies             &bodies,
-                  const std::vector<Loads> &loads,
-                  const SceneField         &displacement,
-                  const SceneField         &pressure,
-                  BlockSystem              &system)
+  std::vector<AssembledBody>
+  assemble_bodies(const Bodies                 &bodies,
+                  const std::vector<LoadKinds> &kinds,
+                  const SceneField             &displacement,
+                  const SceneField             &pressure,
+                  BlockSystem                  &system)
   {
     const IndexSet &owned = displacement.numbering.owned();
     {
@@ -70,7 +71,6 @@ namespace mortise
       system.stiffness.reinit(
         owned, owned, sparsity, system.communicator, true);
     }
-    system.load.reinit(owned, system.communicator);
     std::vector<const Body *> mixed;
     for (const auto &body : bodies)
       if (body->pressure)
@@ -81,20 +81,46 @@ namespace mortise
                                                     displacement,
                                                     pressure,
                                                     system);
-    std::vector<CondensedInteriors> interiors;
+    std::vector<AssembledBody> assembled;
     for (const auto &body : bodies)
-      interiors.push_back(assemble_elasticity(*body,
-                                              loads[body->index],
+      assembled.push_back(assemble_elasticity(*body,
                                               displacement.numbering,
                                               displacement.constraints,
+                                              kinds[body->index],
                                               system.stiffness,
-                                              system.load,
                                               pressures.get()));
     system.stiffness.compress(VectorOperation::add);
-    system.load.compress(VectorOperation::add);
     if (pressures)
       pressures->compress();
-    return interiors;
+    return assembled;
+  }
+
+  SceneLoad
+  assemble_load(const std::vector<Loads>         &loads,
+                const PrescribedValues           &prescribed,
+                const Bodies                     &bodies,
+                const std::vector<AssembledBody> &assembled,
+                const SceneFields                &fields,
+                const BlockSystem                &system)
+  {
+    SceneLoad load{system.zero_vector(), prescribed, {}};
+    if (system.nodal)
+      {
+        system.nodal->assemble_load(loads, fields.displacement.numbering, load);
+        return load;
+      }
+    load.interiors.resize(bodies.size());
+    for (const auto &body : bodies)
+      add_assembled_load(*body,
+                         loads[body->index],
+                         assembled[body->index],
+                         fields.displacement,
+                         &fields.pressure,
+                         load);
+    load.rhs.displacement.compress(VectorOperation::add);
+    if (system.mixed())
+      load.rhs.pressure.compress(VectorOperation::add);
+    return load;
   }
 
   namespace
@@ -102,9 +128,10 @@ namespace mortise
     /// The ghost values of all but interior dofs, which no other rank's cells
     /// share, are there.
     void
-    recover_interiors(const Body               &body,
-                      const CondensedInteriors &interiors,
-                      BodySolution             &solution)
+    recover_interiors(const Body                             &body,
+                      const CondensedInteriors               &interiors,
+                      const std::vector<std::vector<double>> &particular,
+                      BodySolution                           &solution)
     {
       if (interiors.n_cells() == 0)
         return;
@@ -129,7 +156,9 @@ namespace mortise
                 for (const auto dof : pressures)
                   boundary_values.push_back(solution.pressure(dof));
               }
-            const auto values = interiors.recover(next++, boundary_values);
+            const auto values =
+              interiors.recover(next, boundary_values, particular[next]);
+            ++next;
             for (unsigned int i = 0; i < values.size(); ++i)
               u(dofs[n_b + i]) = values[i];
           }
@@ -150,108 +179,180 @@ namespace mortise
       return ghosted;
     }
 
-    /// @p vector gets the values of one body, in place: a copy would lose the
-    /// ghost values.
-    void
-    extract(const unsigned int     body,
-            const DoFHandler<dim> &handler,
-            const IndexSet        &relevant,
-            const FieldNumbering  &numbering,
-            const Vector          &ghosted,
-            BodyVector            &vector)
+    double
+    value_of(const types::global_dof_index dof,
+             const PrescribedValues       &prescribed)
     {
-      vector.reinit(handler.locally_owned_dofs(),
-                    relevant,
-                    handler.get_communicator());
-      for (const auto dof : handler.locally_owned_dofs())
-        vector(dof) = ghosted(numbering(body, dof));
-      vector.update_ghost_values();
+      const auto found = prescribed.find(dof);
+      return found == prescribed.end() ? 0. : found->second;
+    }
+
+    void
+    initialize(const Bodies &bodies, std::vector<BodySolution> &solutions)
+    {
+      solutions.resize(bodies.size());
+      for (const auto &body : bodies)
+        {
+          const MPI_Comm comm = body->triangulation().get_communicator();
+          solutions[body->index].displacement.reinit(
+            body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
+          if (body->pressure)
+            solutions[body->index].pressure.reinit(
+              body->pressure->dof_handler.locally_owned_dofs(),
+              body->pressure->relevant_dofs,
+              comm);
+        }
+    }
+
+    /// Where K has a matrix.
+    void
+    set_from_dofs(const Bodies              &bodies,
+                  const SceneFields         &fields,
+                  const SystemVector        &solution,
+                  std::vector<BodySolution> &solutions)
+    {
+      const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
+      const auto     extract = [&](const unsigned int    body,
+                               const SceneField     &field,
+                               const Vector         &values,
+                               BodyVector           &to) {
+        for (const auto dof : to.locally_owned_elements())
+          to(dof) = values(field.numbering(body, dof));
+      };
+      const Vector u =
+        distributed(fields.displacement, solution.displacement, comm);
+      Vector p;
+      if (fields.pressure.numbering.size() > 0)
+        p = distributed(fields.pressure, solution.pressure, comm);
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        {
+          extract(b, fields.displacement, u, solutions[b].displacement);
+          if (bodies[b]->pressure)
+            extract(b, fields.pressure, p, solutions[b].pressure);
+        }
+    }
+
+    /// Where the unknowns are values at nodes.
+    void
+    set_from_nodes(const NodalSystem         &nodal,
+                   const SystemVector        &solution,
+                   std::vector<BodySolution> &solutions)
+    {
+      const auto set = [](BodyVector                   &vector,
+                          const types::global_dof_index dof,
+                          const double                  value) {
+        if (vector.in_local_range(dof))
+          vector(dof) = value;
+      };
+      nodal.for_each_coefficient(
+        solution.displacement,
+        [&](const auto body, const auto dof, const double value) {
+          set(solutions[body].displacement, dof, value);
+        });
+      if (solution.pressure.size() > 0)
+        nodal.for_each_pressure_coefficient(
+          solution.pressure,
+          [&](const auto body, const auto dof, const double value) {
+            set(solutions[body].pressure, dof, value);
+          });
     }
   } // namespace
 
   std::vector<BodySolution>
-  body_solutions(const Bodies                          &bodies,
-                 const SceneField                      &displacement,
-                 const SceneField                      &pressure,
-                 const std::vector<CondensedInteriors> &interiors,
-                 const SystemSolution                  &solution)
+  body_solutions(const Bodies                     &bodies,
+                 const std::vector<AssembledBody> &assembled,
+                 const SceneFields                &fields,
+                 const BlockSystem                &system,
+                 const SceneLoad                  &load,
+                 const SystemVector               &solution)
   {
-    const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
-    const Vector   u = distributed(displacement, solution.displacement, comm);
-    Vector         p;
-    if (pressure.numbering.size() > 0)
-      p = distributed(pressure, solution.pressure, comm);
-    std::vector<BodySolution> result(bodies.size());
+    std::vector<BodySolution> result;
+    initialize(bodies, result);
+    if (system.nodal)
+      set_from_nodes(*system.nodal, solution, result);
+    else
+      set_from_dofs(bodies, fields, solution, result);
+    const auto &numbering = fields.displacement.numbering;
     for (const auto &body : bodies)
       {
-        BodySolution &own = result[body->index];
-        extract(body->index,
-                body->dof_handler,
-                body->relevant_dofs,
-                displacement.numbering,
-                u,
-                own.displacement);
+        BodyVector &u = result[body->index].displacement,
+                   &p = result[body->index].pressure;
+        if (!load.prescribed.empty())
+          for (const auto dof : u.locally_owned_elements())
+            u(dof) += value_of(numbering(body->index, dof), load.prescribed);
+        u.update_ghost_values();
         if (body->pressure)
-          extract(body->index,
-                  body->pressure->dof_handler,
-                  body->pressure->relevant_dofs,
-                  pressure.numbering,
-                  p,
-                  own.pressure);
-        recover_interiors(*body, interiors[body->index], own);
-        own.displacement.update_ghost_values();
+          p.update_ghost_values();
+        if (system.nodal)
+          continue;
+        recover_interiors(*body,
+                          assembled[body->index].interiors,
+                          load.interiors[body->index],
+                          result[body->index]);
+        u.update_ghost_values();
       }
     return result;
   }
 
-  std::vector<BodySolution>
-  body_solutions(const Bodies         &bodies,
-                 const SceneField     &displacement,
-                 const SceneField     &pressure,
-                 const NodalSystem    &nodal,
-                 const SystemSolution &solution)
+  SystemVector
+  system_vector(const Bodies                    &bodies,
+                const SceneFields               &fields,
+                const BlockSystem               &system,
+                const PrescribedValues          &prescribed,
+                const std::vector<BodySolution> &solutions)
   {
-    std::vector<BodySolution> result(bodies.size());
+    SystemVector x = system.zero_vector();
+    if (system.nodal)
+      {
+        system.nodal->set_displacement(
+          [&](const auto body, const auto dof) {
+            return solutions[body].displacement(dof) -
+                   value_of(fields.displacement.numbering(body, dof),
+                            prescribed);
+          },
+          x.displacement);
+        if (system.mixed())
+          system.nodal->set_pressure(
+            [&](const auto body, const auto dof) {
+              return solutions[body].pressure(dof);
+            },
+            x.pressure);
+        return x;
+      }
+    const auto insert = [](const unsigned int body,
+                           const BodyVector  &from,
+                           const SceneField  &field,
+                           Vector            &to) {
+      for (const auto dof : from.locally_owned_elements())
+        if (const auto index = field.numbering(body, dof);
+            !field.constraints.is_constrained(index))
+          to[index] = from(dof);
+    };
     for (const auto &body : bodies)
       {
-        const MPI_Comm comm = body->triangulation().get_communicator();
-        result[body->index].displacement.reinit(
-          body->dof_handler.locally_owned_dofs(), body->relevant_dofs, comm);
+        const BodySolution &own = solutions[body->index];
+        insert(
+          body->index, own.displacement, fields.displacement, x.displacement);
         if (body->pressure)
-          result[body->index].pressure.reinit(
-            body->pressure->dof_handler.locally_owned_dofs(),
-            body->pressure->relevant_dofs,
-            comm);
+          insert(body->index, own.pressure, fields.pressure, x.pressure);
+        // interiors were eliminated
+        std::vector<types::global_dof_index> dofs;
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              dofs.resize(cell->get_fe().n_dofs_per_cell());
+              cell->get_dof_indices(dofs);
+              for (unsigned int i = cell->get_fe().get_first_hex_index();
+                   i < dofs.size();
+                   ++i)
+                x.displacement[fields.displacement.numbering(body->index,
+                                                             dofs[i])] = 0.;
+            }
       }
-    nodal.for_each_coefficient(
-      solution.displacement,
-      [&](const unsigned int            body,
-          const types::global_dof_index dof,
-          const double                  value) {
-        BodyVector &u = result[body].displacement;
-        if (!u.in_local_range(dof))
-          return;
-        const auto index = displacement.numbering(body, dof);
-        // one that hangs has both
-        u(dof) = value + displacement.constraints.get_inhomogeneity(index);
-      });
-    if (pressure.numbering.size() > 0)
-      nodal.for_each_pressure_coefficient(solution.pressure,
-                                          [&](const unsigned int body,
-                                              const types::global_dof_index dof,
-                                              const double value) {
-                                            BodyVector &p =
-                                              result[body].pressure;
-                                            if (p.in_local_range(dof))
-                                              p(dof) = value;
-                                          });
-    for (BodySolution &own : result)
-      {
-        own.displacement.update_ghost_values();
-        if (own.pressure.size() > 0)
-          own.pressure.update_ghost_values();
-      }
-    return result;
+    x.displacement.compress(VectorOperation::insert);
+    if (system.mixed())
+      x.pressure.compress(VectorOperation::insert);
+    return x;
   }
 
   namespace

@@ -28,18 +28,6 @@ namespace mortise
       double l2 = 0., h1 = 0., energy = 0., pressure = 0., stress = 0.;
     };
 
-    /// What one point adds to the energy, twice.
-    double
-    energy_density(const LinearElastic           &material,
-                   const SymmetricTensor<2, dim> &strain,
-                   const double                   pressure)
-    {
-      return material.stress(strain, 0.) * strain +
-             (material.mixed ?
-                material.compressibility() * pressure * pressure :
-                0.);
-    }
-
     void
     add_point(const Body          &body,
               const CellFields    &fields,
@@ -48,32 +36,31 @@ namespace mortise
               Squares             &error,
               Squares             &norm)
     {
-      const LinearElastic &material = body.material;
-      const Point<dim>    &x        = fields.points[q];
-      const double         weight   = fields.weights[q];
-      const auto           u        = exact.displacement(x, body.index);
-      const auto           gradient = exact.gradient(x, body.index);
-      const auto           strain   = symmetrize(gradient);
-      const auto strain_error       = symmetrize(fields.gradients[q]) - strain;
+      const Material      &material       = body.material;
+      const Point<dim>    &x              = fields.points[q];
+      const double         weight         = fields.weights[q];
+      const auto           u              = exact.displacement(x, body.index);
+      const auto           gradient       = exact.gradient(x, body.index);
+      const Tensor<2, dim> gradient_error = fields.gradients[q] - gradient;
       error.l2 += weight * (fields.values[q] - u).norm_square();
       norm.l2 += weight * u.norm_square();
-      error.h1 += weight * (fields.gradients[q] - gradient).norm_square();
+      error.h1 += weight * gradient_error.norm_square();
       norm.h1 += weight * gradient.norm_square();
       double p = 0., p_error = 0.;
-      if (material.mixed)
+      if (material.mixed())
         {
           const auto stress = exact.stress(x, body.index);
-          p                 = material.pressure(strain, stress);
+          p                 = material.pressure(gradient, stress);
           p_error           = fields.pressures[q] - p;
           const double mean = trace(stress) / dim,
                        mean_error =
-                         trace(material.stress(strain_error, p_error)) / dim;
+                         trace(material.stress(gradient_error, p_error)) / dim;
           error.pressure += weight * mean_error * mean_error;
           norm.pressure += weight * mean * mean;
           norm.stress += weight * (stress * stress);
         }
-      error.energy += weight * energy_density(material, strain_error, p_error);
-      norm.energy += weight * energy_density(material, strain, p);
+      error.energy += weight * material.twice_energy(gradient_error, p_error);
+      norm.energy += weight * material.twice_energy(gradient, p);
     }
   } // namespace
 
@@ -251,7 +238,7 @@ namespace mortise
           for (unsigned int q = 0; q < face->geometry.points.size(); ++q)
             force +=
               face->geometry.weights[q] *
-              (body.material.stress(symmetrize(face->fields.gradients[q]),
+              (body.material.stress(face->fields.gradients[q],
                                     body.pressure ? face->fields.pressures[q] :
                                                     0.) *
                face->geometry.normals[q]);

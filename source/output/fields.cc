@@ -27,7 +27,7 @@ namespace mortise
     class StressPostprocessor : public DataPostprocessor<dim>
     {
     public:
-      StressPostprocessor(const LinearElastic  &material,
+      StressPostprocessor(const Material       &material,
                           const FieldSelection &selection)
         : material(material)
         , selection(selection)
@@ -76,10 +76,8 @@ namespace mortise
             Tensor<2, dim> gradient;
             for (unsigned int c = 0; c < dim; ++c)
               gradient[c] = input.solution_gradients[q][c];
-            const SymmetricTensor<2, dim> stress =
-              material.stress(symmetrize(gradient),
-                              material.mixed ? input.solution_values[q][dim] :
-                                               0.);
+            const SymmetricTensor<2, dim> stress = material.stress(
+              gradient, material.mixed() ? input.solution_values[q][dim] : 0.);
             unsigned int next = 0;
             if (selection.stress)
               {
@@ -94,7 +92,7 @@ namespace mortise
       }
 
     private:
-      const LinearElastic  material;
+      const Material       material;
       const FieldSelection selection;
     };
 
@@ -286,10 +284,10 @@ namespace mortise
   write_body_fields(const Body           &body,
                     const BodySolution   &solution,
                     const FieldSelection &selection,
-                    const std::string    &directory)
+                    const std::string    &file)
   {
     if (body.mesh.tetrahedra)
-      return write_tetrahedra(body, solution, selection, directory);
+      return write_tetrahedra(body, solution, selection, file);
     const unsigned int          degree = body.max_degree();
     const StressPostprocessor   stress(body.material, selection);
     std::unique_ptr<MixedField> mixed;
@@ -316,7 +314,7 @@ namespace mortise
                          body.mesh.curved ? DataOut<dim>::curved_inner_cells :
                                             DataOut<dim>::no_curved_cells);
     write_vtu_file(output,
-                   directory + "/" + body.name + ".vtu",
+                   file,
                    body.triangulation().get_communicator());
   }
 
@@ -325,12 +323,11 @@ namespace mortise
                          const Coupling                         &coupling,
                          const std::vector<std::vector<double>> &coefficients,
                          const BodyVector                       &displacement,
-                         const std::string                      &directory)
+                         const std::string                      &file)
   {
     const BodySurface &surface = coupling.interface->slave();
     if (slave_body.mesh.tetrahedra)
-      return write_triangles({coupling.interface->name(),
-                              directory,
+      return write_triangles({file,
                               slave_body.triangulation().get_communicator()},
                              surface,
                              coefficients,
@@ -356,7 +353,7 @@ namespace mortise
     add(displacement, "displacement");
     output.build_patches(*slave_body.mapping, degree);
     write_vtu_file(output,
-                   directory + "/" + coupling.interface->name() + ".vtu",
+                   file,
                    slave_body.triangulation().get_communicator());
   }
 } // namespace mortise

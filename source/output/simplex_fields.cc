@@ -17,7 +17,7 @@ namespace mortise
     evaluate_cell(const FEValues<dim>                        &values,
                   const std::array<std::vector<double>, dim> &coefficients,
                   const std::vector<double>                  &pressures,
-                  const LinearElastic                        &material,
+                  const Material                             &material,
                   const FieldSelection                       &selection)
     {
       std::vector<std::vector<double>> data(values.n_quadrature_points);
@@ -31,8 +31,7 @@ namespace mortise
           if (!selection.stress && !selection.pressure)
             continue;
           const auto stress =
-            material.stress(symmetrize(gradient(values, coefficients, q)),
-                            pressures[q]);
+            material.stress(gradient(values, coefficients, q), pressures[q]);
           if (selection.stress)
             {
               for (unsigned int i = 0; i < dim; ++i)
@@ -51,7 +50,7 @@ namespace mortise
   write_tetrahedra(const Body           &body,
                    const BodySolution   &solution,
                    const FieldSelection &selection,
-                   const std::string    &directory)
+                   const std::string    &file)
   {
     SimplexPatches<dim> output(body.max_degree());
     if (selection.displacement)
@@ -91,7 +90,7 @@ namespace mortise
                           selection));
         }
     write_vtu_file(output,
-                   directory + "/" + body.name + ".vtu",
+                   file,
                    body.triangulation().get_communicator());
   }
 
@@ -153,8 +152,6 @@ namespace mortise
           }
         output.add_simplex(positions, data);
       }
-    write_vtu_file(output,
-                   file.directory + "/" + file.name + ".vtu",
-                   file.comm);
+    write_vtu_file(output, file.name, file.comm);
   }
 } // namespace mortise

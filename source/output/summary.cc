@@ -6,6 +6,8 @@
 #include <mortise/output/whole_file.h>
 #include <nlohmann/json.hpp>
 
+#include <limits>
+
 #ifndef MORTISE_VERSION
 #  define MORTISE_VERSION "unknown"
 #endif
@@ -112,7 +114,8 @@ namespace mortise
     Json
     json_of(const StepSummary &step)
     {
-      Json json      = {{"step", step.step}, {"cycle", step.cycle}};
+      Json json = {{"step", step.step}, {"cycle", step.cycle}};
+      set(json, "time", step.time);
       json["bodies"] = Json::array();
       for (const BodySummary &body : step.bodies)
         json["bodies"].push_back(json_of(body));
@@ -129,7 +132,132 @@ namespace mortise
         json["quantities"][name] = values;
       return json;
     }
+
+    /// Undoes set().
+    template <typename T>
+    void
+    get(const Json &object, const std::string &key, std::optional<T> &value)
+    {
+      if (object.contains(key))
+        value = object[key].is_null() ?
+                  std::numeric_limits<T>::quiet_NaN() :
+                  object[key].get<T>();
+    }
+
+    template <typename T>
+    void
+    get(const Json &object, const std::string &key, T &value)
+    {
+      value = object.at(key).get<T>();
+    }
+
+    void
+    read(const Json &json, BodySummary &body)
+    {
+      get(json, "name", body.name);
+      get(json, "shape", body.shape);
+      get(json, "cells", body.cells);
+      get(json, "degree_min", body.degree_min);
+      get(json, "degree_max", body.degree_max);
+      get(json, "dofs", body.dofs);
+    }
+
+    void
+    read(const Json &json, InterfaceSummary &interface)
+    {
+      get(json, "name", interface.name);
+      get(json, "slave_faces", interface.slave_faces);
+      get(json, "master_faces", interface.master_faces);
+      get(json, "candidate_pairs", interface.candidate_pairs);
+      get(json, "pairs", interface.pairs);
+      get(json, "integration_cells", interface.integration_cells);
+      get(json, "quadrature_points", interface.quadrature_points);
+      get(json, "slave_area", interface.slave_area);
+      get(json, "covered_area", interface.covered_area);
+      get(json,
+          "worst_face_coverage_error",
+          interface.worst_face_coverage_error);
+      get(json, "partition_of_unity_error", interface.partition_of_unity_error);
+      get(json, "force_residual", interface.force_residual);
+      get(json, "moment_residual", interface.moment_residual);
+      get(json,
+          "linear_completeness_error",
+          interface.linear_completeness_error);
+    }
+
+    void
+    read(const Json &json, SolverSummary &solver)
+    {
+      get(json, "method", solver.method);
+      get(json, "preconditioner", solver.preconditioner);
+      get(json, "iterations", solver.iterations);
+      get(json, "relative_residual", solver.relative_residual);
+    }
+
+    void
+    read(const Json &json, ErrorSummary &errors)
+    {
+      get(json, "displacement_l2", errors.displacement_l2);
+      get(json, "energy", errors.energy);
+      get(json, "multiplier_l2", errors.multiplier_l2);
+      get(json, "displacement_h1", errors.displacement_h1);
+      get(json, "pressure_l2", errors.pressure_l2);
+    }
+
+    template <typename T>
+    void
+    read(const Json &json, const std::string &key, std::optional<T> &value)
+    {
+      if (json.contains(key))
+        read(json[key], value.emplace());
+    }
+
+    void
+    read(const Json &json, StepSummary &step)
+    {
+      get(json, "step", step.step);
+      get(json, "cycle", step.cycle);
+      get(json, "time", step.time);
+      for (const Json &body : json["bodies"])
+        read(body, step.bodies.emplace_back());
+      get(json["dofs"], "displacement", step.dofs.displacement);
+      get(json["dofs"], "pressure", step.dofs.pressure);
+      get(json["dofs"], "multiplier", step.dofs.multiplier);
+      get(json["dofs"], "total", step.dofs.total);
+      for (const Json &interface : json["interfaces"])
+        read(interface, step.interfaces.emplace_back());
+      read(json, "solver", step.solver);
+      read(json, "errors", step.errors);
+      for (const auto &quantity : json["quantities"].items())
+        step.quantities.emplace_back(
+          quantity.key(), quantity.value().get<std::vector<double>>());
+    }
+
+    // A title in another encoding than UTF-8 must not end the run.
+    std::string
+    text_of(const Json &json, const int indent)
+    {
+      return json.dump(indent, ' ', false, Json::error_handler_t::replace);
+    }
   } // namespace
+
+  std::string
+  steps_to_json(const std::vector<StepSummary> &steps)
+  {
+    Json json = Json::array();
+    for (const StepSummary &step : steps)
+      json.push_back(json_of(step));
+    return text_of(json, -1);
+  }
+
+  std::vector<StepSummary>
+  steps_from_json(const std::string &text)
+  {
+    std::vector<StepSummary> steps;
+    for (const Json &step : Json::parse(text))
+      read(step, steps.emplace_back());
+    return steps;
+  }
 
   std::string
   to_json(const Summary &summary)
@@ -155,8 +283,7 @@ namespace mortise
       if (summary.program.ranks > 1)
         json["integration_cells_per_rank"][balance.interface] = {
           {"largest", balance.largest}, {"mean", balance.mean}};
-    // A title in another encoding than UTF-8 must not end the run.
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return text_of(json, 2) + "\n";
   }
 
   void

@@ -12,6 +12,7 @@ namespace mortise
 
     const std::vector<std::string> option_names = {"--set",
                                                    "--output",
+                                                   "--restart",
                                                    "--validate",
                                                    "--parameters",
                                                    "--help",
@@ -75,6 +76,12 @@ namespace mortise
             fail("--output needs the name of a directory; got \"\"");
           line.settings.push_back("Output/Directory=" + directory);
         }
+      else if (option == "--restart")
+        {
+          line.restart = value_of(arguments, i, "results/mine");
+          if (normalised(line.restart).empty())
+            fail("--restart needs the name of a directory; got \"\"");
+        }
       else if (value)
         fail("unknown option " + in_quotes(arguments[i]) +
              did_you_mean(option, option_names) +
@@ -109,7 +116,11 @@ namespace mortise
         line.file = arguments[i];
     const bool needs_file =
       line.action == Action::run || line.action == Action::validate;
-    if (needs_file && line.file.empty())
+    if (!line.restart.empty() && !line.file.empty())
+      fail("got --restart and the parameter file " + in_quotes(line.file) +
+           "; allowed is one of them (a checkpoint knows its parameters; --set "
+           "changes them)");
+    if (needs_file && line.file.empty() && line.restart.empty())
       fail("a parameter file is needed, as in: mortise prm/thick_sphere.prm");
     return line;
   }
@@ -122,6 +133,7 @@ namespace mortise
            "  mortise [OPTION]... FILE.prm               run the scene of a parameter file\n"
            "  mpirun -n 4 mortise [OPTION]... FILE.prm   the same on four ranks\n"
            "  mortise --validate [OPTION]... FILE.prm    check the file and its meshes, then stop\n"
+           "  mortise --restart DIR [OPTION]...          go on from the last checkpoint in DIR\n"
            "  mortise --parameters                       every parameter: default, unit, meaning\n"
            "  mortise --help | --version\n"
            "\n"

@@ -14,6 +14,9 @@ namespace mortise
     /// solvers slow down at all.
     constexpr double nearly_incompressible = 0.49;
 
+    /// The law that has a mixed form.
+    constexpr const char *isotropic_law = "linear elastic";
+
     unsigned int
     least_degree(const BodyParameters &body)
     {
@@ -31,9 +34,50 @@ namespace mortise
       throw InputError(where + ": got " + got + "; allowed: " + allowed);
     }
 
+    /// That of all directions in the mean, from the average that yields most.
+    double
+    poisson_ratio(const MaterialParameters &material)
+    {
+      return material.law == isotropic_law ?
+               material.poisson_ratio :
+               material.orthotropic.averages().reuss.poisson_ratio;
+    }
+
+    /// The mixed form has one law alone.
+    void
+    check_form_of_other_laws(const Parameters     &parameters,
+                             const BodyParameters &body)
+    {
+      const double       nu = poisson_ratio(body.material);
+      std::ostringstream got;
+      got << (body.formulation == Formulation::mixed ? "\"mixed\"" : "\"auto\"")
+          << " with Law = " << body.material.law;
+      const std::string where =
+        parameters.where("Body " + body.name + "/Formulation");
+      if (body.formulation == Formulation::mixed)
+        fail(where,
+             got.str(),
+             "displacement or auto: the mixed form is for Law = " +
+               std::string(isotropic_law) + " alone");
+      if (body.formulation == Formulation::automatic &&
+          nu >= nearly_incompressible)
+        {
+          got << " and constants that are nearly incompressible (in the mean "
+                 "over directions Poisson ratio "
+              << nu << ")";
+          fail(where,
+               got.str(),
+               "displacement, which locks at low degrees: the mixed form is "
+               "for Law = " +
+                 std::string(isotropic_law) + " alone");
+        }
+    }
+
     void
     check_form(const Parameters &parameters, const BodyParameters &body)
     {
+      if (body.material.law != isotropic_law)
+        return check_form_of_other_laws(parameters, body);
       const double       nu      = body.material.poisson_ratio;
       const std::string  section = "Body " + body.name;
       std::ostringstream with_nu;
@@ -83,6 +127,8 @@ namespace mortise
   bool
   is_mixed(const BodyParameters &body)
   {
+    if (body.material.law != isotropic_law)
+      return false;
     const double nu = body.material.poisson_ratio;
     return body.formulation == Formulation::mixed ||
            (body.formulation == Formulation::automatic &&
@@ -94,6 +140,7 @@ namespace mortise
   locks(const BodyParameters &body)
   {
     return body.formulation == Formulation::automatic && !is_mixed(body) &&
+           body.material.law == isotropic_law &&
            body.material.poisson_ratio >= nearly_incompressible;
   }
 
@@ -104,7 +151,9 @@ namespace mortise
     for (const BodyParameters &body : parameters.bodies)
       {
         check_form(parameters, body);
-        incompressible = incompressible || body.material.poisson_ratio == 0.5;
+        incompressible =
+          incompressible || (body.material.law == isotropic_law &&
+                             body.material.poisson_ratio == 0.5);
       }
     const ExactSolutionParameters &exact = parameters.exact_solution;
     const std::string where = parameters.where("Exact solution/Pressure");

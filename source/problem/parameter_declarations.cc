@@ -59,18 +59,48 @@ namespace mortise
       declare_mesh({declared, {section, "Mesh"}});
 
       Declare material(declared, {section, "Material"});
-      material.choice("Law",
-                      body.material.law,
-                      "Material law.",
-                      {"linear elastic"});
-      material.number("Young modulus",
-                      body.material.young_modulus,
-                      "Young's modulus [force per area].",
-                      "a positive number");
+      material.choice(
+        "Law",
+        body.material.law,
+        "Material law; each takes its own of the constants below.",
+        law_names());
+      material.number(
+        "Young modulus",
+        body.material.young_modulus,
+        "Young's modulus of Law = linear elastic [force per area].",
+        "a positive number");
       material.number("Poisson ratio",
                       body.material.poisson_ratio,
-                      "Poisson's ratio [-].",
+                      "Poisson's ratio of Law = linear elastic [-].",
                       "a number above -1 and not above 0.5");
+      const Orthotropic &orthotropic = body.material.orthotropic;
+      material.numbers(
+        "Young moduli",
+        text_of(orthotropic.young_moduli),
+        "E_x, E_y, E_z of Law = orthotropic, along the axes of the material "
+        "[force per area].",
+        "3 positive numbers",
+        3);
+      material.numbers(
+        "Poisson ratios",
+        text_of(orthotropic.poisson_ratios),
+        "nu_xy, nu_yz, nu_zx of Law = orthotropic [-]; nu_ij is the contraction along j per "
+        "extension along i under tension along i, nu_ij / E_i = nu_ji / E_j.",
+        "3 numbers with which the stiffness is positive definite",
+        3);
+      material.numbers(
+        "Shear moduli",
+        text_of(orthotropic.shear_moduli),
+        "G_xy, G_yz, G_zx of Law = orthotropic [force per area].",
+        "3 positive numbers",
+        3);
+      material.numbers(
+        "Axes",
+        text_of(orthotropic.axes),
+        "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
+        "[degrees]. They do not follow the Rotate of the mesh.",
+        "3 numbers",
+        3);
       for (const std::string &boundary : boundaries)
         declare_boundary({declared, {section, "Boundary " + boundary}});
     }
@@ -143,7 +173,13 @@ namespace mortise
                      solver.print_iterations,
                      "A line for each.");
 
+      Declare steps(declared, {"Steps"});
+      steps.text("End time", "", "End of the last step [time]; it begins at 0. Empty: that of Step, or 1.", "a positive number");
+      steps.text("Step", "", "Length of the steps, or the times at which they end [time]. Empty: one step.", "a positive number, or several, ascending, separated by commas");
+      steps.integer("Output every", 1, "Fields are written after every so many of these times, and at the end.", 1);
+      steps.number("Smallest step", 1e-3, "A nonlinear scene gives up when halved steps come below this share of the planned one [-].", "a positive number");
       Declare output(declared, {"Output"});
+      output.integer("Checkpoint every", 0, "After so many steps the run is written to DIRECTORY/checkpoint.bin, from which --restart goes on. 0: never.", 0);
       output.text(
         "Directory",
         "",

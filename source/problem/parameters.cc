@@ -8,6 +8,7 @@
 #include <mortise/problem/parameters.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 namespace mortise
@@ -144,6 +145,10 @@ namespace mortise
       body.material.law           = material.text("Law");
       body.material.young_modulus = material.number("Young modulus");
       body.material.poisson_ratio = material.number("Poisson ratio");
+      body.material.orthotropic   = {material.array<3>("Young moduli"),
+                                     material.array<3>("Poisson ratios"),
+                                     material.array<3>("Shear moduli"),
+                                     material.array<3>("Axes")};
       for (const std::string &boundary : boundaries)
         body.boundaries[boundary] = read_boundary(ParameterReader(
           schema, parameters, {section, "Boundary " + boundary}));
@@ -309,6 +314,15 @@ namespace mortise
       return names;
     }
 
+    std::vector<double> step_times(const std::vector<double> &given, const std::vector<double> &end)
+    { std::vector<double> t; 
+      if (given.size() > 1) return given;
+      const double e = end.empty() ? 1. : end[0];
+      if (given.empty()) return {e};
+      const unsigned int n = std::max(1., std::ceil(e / given[0] * (1. - 1e-9)));
+      for (unsigned int i = 1; i < n; ++i) t.push_back(i * given[0]);
+      t.push_back(e); return t; }
+
     Parameters
     parse(const std::vector<Assignment> &assignments, const std::string &file)
     {
@@ -341,7 +355,15 @@ namespace mortise
         solver.integer("Multipliers on all ranks");
       parameters.solver.print_iterations =
         solver.text("Print iterations") == "true";
+      const ParameterReader steps(schema, parameters, {"Steps"});
+      parameters.steps.output_every = steps.integer("Output every");
+      parameters.steps.smallest_step = steps.number("Smallest step");
+      const auto given = steps.numbers("Step"); const auto end = steps.numbers("End time");
+      parameters.steps.given = !given.empty() || !end.empty();
+      parameters.steps.times = step_times(given, end);
       parameters.output = read_output({schema, parameters, {"Output"}}, file);
+      parameters.output.checkpoint_every = ParameterReader(schema, parameters, {"Output"}).integer("Checkpoint every");
+      parameters.assignments = assignments;
       return parameters;
     }
 
@@ -356,6 +378,13 @@ namespace mortise
       return assignments;
     }
   } // namespace
+
+  Parameters
+  parse_parameters(const std::vector<Assignment> &assignments,
+                   const std::string             &file)
+  {
+    return parse(assignments, file);
+  }
 
   Parameters
   parse_parameters(const std::string &text,

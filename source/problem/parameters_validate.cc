@@ -33,30 +33,6 @@ namespace mortise
     }
 
     void
-    check_material(const Parameters         &parameters,
-                   const std::string        &section,
-                   const MaterialParameters &material)
-    {
-      const double E = material.young_modulus, nu = material.poisson_ratio;
-      if (material.law != "linear elastic")
-        fail(parameters,
-             section + "/Law",
-             in_quotes(material.law),
-             "linear elastic");
-      if (!(E >= smallest_modulus && E <= largest_modulus))
-        fail(parameters,
-             section + "/Young modulus",
-             E,
-             "a positive number (force per area) " + allowed_moduli());
-      if (!(nu > -1. && nu <= 0.5))
-        fail(
-          parameters,
-          section + "/Poisson ratio",
-          nu,
-          "a number above -1 and not above 0.5 (at 0.5 a body is incompressible)");
-    }
-
-    void
     check_body(const Parameters &parameters, const BodyParameters &body)
     {
       const std::string section = "Body " + body.name;
@@ -64,7 +40,11 @@ namespace mortise
       for (const auto &[region, degree] : body.degree_by_region)
         check_degree(parameters, section + "/Degree by region", degree);
       validate(body.mesh, parameters.where(section + "/Mesh"));
-      check_material(parameters, section + "/Material", body.material);
+      make_material(body.material,
+                    is_mixed(body),
+                    [&](const std::string &name) {
+                      return parameters.where(section + "/Material/" + name);
+                    });
       check_fields(parameters, body);
     }
 

@@ -16,7 +16,7 @@ namespace mortise
     check_expression(const std::string &where, const std::string &text)
     {
       const Expression expression(text, where);
-      if (!expression.is_constant())
+      if (!expression.is_constant() || expression.depends_on_time())
         return;
       const double value = expression.value(dealii::Point<3>());
       const double size  = std::fabs(value);

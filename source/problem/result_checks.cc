@@ -1,6 +1,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/numbers.h>
 #include <mortise/problem/result_checks.h>
+#include <mortise/solvers/linear_solver.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,43 +9,10 @@
 
 namespace mortise
 {
-  namespace
-  {
-    double
-    largest_load(const BlockSystem &system)
-    {
-      double largest = system.load.linfty_norm();
-      if (system.mixed())
-        largest = std::max(largest, system.pressure_load.linfty_norm());
-      if (system.owned_multiplier.size() > 0)
-        largest = std::max(largest, system.coupling_rhs.linfty_norm());
-      return largest;
-    }
-  } // namespace
-
   void
-  scale_loads(BlockSystem &system, const double factor)
+  check_loads(const SystemVector &rhs)
   {
-    system.load *= factor;
-    if (system.mixed())
-      system.pressure_load *= factor;
-    if (system.owned_multiplier.size() > 0)
-      system.coupling_rhs *= factor;
-  }
-
-  double
-  load_scale(const BlockSystem &system)
-  {
-    const double largest  = largest_load(system);
-    int          exponent = 0;
-    std::frexp(largest, &exponent);
-    return largest > 0. ? std::ldexp(1., -exponent) : 1.;
-  }
-
-  void
-  check_loads(const BlockSystem &system)
-  {
-    const double largest = largest_load(system);
+    const double largest = largest_entry(rhs);
     if (largest == 0. ||
         (largest >= smallest_number && largest <= largest_number))
       return;

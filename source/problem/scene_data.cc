@@ -10,14 +10,15 @@ namespace mortise
 {
   using namespace dealii;
 
-  std::vector<LinearElastic>
+  std::vector<Material>
   materials(const Parameters &parameters)
   {
-    std::vector<LinearElastic> result;
+    std::vector<Material> result;
     for (const BodyParameters &body : parameters.bodies)
-      result.push_back({body.material.young_modulus,
-                        body.material.poisson_ratio,
-                        is_mixed(body)});
+      result.push_back(make_material(
+        body.material, is_mixed(body), [&](const std::string &name) {
+          return parameters.where("Body " + body.name + "/Material/" + name);
+        }));
     return result;
   }
 
@@ -26,6 +27,7 @@ namespace mortise
     /// Pressure on boundary @p name of body @p b; zero if there is none.
     double
     constant_pressure(const Parameters  &parameters,
+                      const double       time,
                       const unsigned int b,
                       const std::string &name)
     {
@@ -37,7 +39,7 @@ namespace mortise
       const std::string where =
         parameters.where("Body " + parameters.bodies[b].name + "/Boundary " +
                          name + "/Pressure");
-      const Expression pressure(*found->second.pressure, where);
+      const Expression pressure(*found->second.pressure, where, time);
       if (!pressure.is_constant())
         throw InputError(
           where + ": got " + in_quotes(*found->second.pressure) +
@@ -47,6 +49,7 @@ namespace mortise
 
     std::shared_ptr<const ExactSolution>
     make_lame_solution(const Parameters            &parameters,
+                       const double                 time,
                        const LameSolution::Geometry geometry)
     {
       const bool        sphere = geometry == LameSolution::Geometry::sphere;
@@ -62,8 +65,16 @@ namespace mortise
               where + ": the named solution needs bodies of Source = " +
               source + "; body " + in_quotes(parameters.bodies[b].name, '\'') +
               " has Source = " + mesh.source);
+          const Material material = materials(parameters)[b];
+          if (material.isotropic() == nullptr)
+            throw InputError(
+              where +
+              ": the named solution needs bodies of Law = linear "
+              "elastic; body " +
+              in_quotes(parameters.bodies[b].name, '\'') +
+              " has Law = " + parameters.bodies[b].material.law);
           layers.push_back(
-            {mesh.extent[0], mesh.extent[1], materials(parameters)[b]});
+            {mesh.extent[0], mesh.extent[1], *material.isotropic()});
           if (mesh.extent[0] < layers[innermost].inner_radius)
             innermost = b;
           if (mesh.extent[1] > layers[outermost].outer_radius)
@@ -72,8 +83,8 @@ namespace mortise
       return std::make_shared<LameSolution>(
         geometry,
         layers,
-        constant_pressure(parameters, innermost, "inside"),
-        constant_pressure(parameters, outermost, "outside"),
+        constant_pressure(parameters, time, innermost, "inside"),
+        constant_pressure(parameters, time, outermost, "outside"),
         rigid_motion(parameters.bodies[innermost].mesh));
     }
 
@@ -81,10 +92,12 @@ namespace mortise
     /// solution's, or free.
     struct Component
     {
-      Component(const std::string &text, const std::string &where)
+      Component(const std::string &text,
+                const std::string &where,
+                const double       time)
         : exact(text == "exact")
         , free(text == "-")
-        , expression(exact || free ? "0" : text, where)
+        , expression(exact || free ? "0" : text, where, time)
         , what(where + ": " + in_quotes(text))
       {}
 
@@ -94,20 +107,24 @@ namespace mortise
     };
 
     std::vector<Component>
-    components(const Components &texts, const std::string &where)
+    components(const Components  &texts,
+               const std::string &where,
+               const double       time)
     {
       std::vector<Component> result;
       for (unsigned int c = 0; c < dim; ++c)
-        result.emplace_back(texts[c], where + ", component " + "xyz"[c]);
+        result.emplace_back(texts[c], where + ", component " + "xyz"[c], time);
       return result;
     }
 
+    /// At all times.
     bool
     all_zero(const std::vector<Component> &field)
     {
       return std::all_of(
         field.begin(), field.end(), [](const Component &component) {
           return !component.exact && component.expression.is_constant() &&
+                 !component.expression.depends_on_time() &&
                  component.expression.value(Point<dim>()) == 0.;
         });
     }
@@ -192,46 +209,53 @@ namespace mortise
 
     std::shared_ptr<const ExactSolution>
     make_expression_solution(const Parameters  &parameters,
+                             const double       time,
                              const std::string &where)
     {
       const auto &pressure = parameters.exact_solution.pressure;
       return std::make_shared<ExpressionSolution>(
-        VectorExpression(joined(parameters.exact_solution.displacement), where),
+        VectorExpression(joined(parameters.exact_solution.displacement),
+                         where,
+                         time),
         materials(parameters),
         Expression(pressure.value_or("0"),
-                   parameters.where("Exact solution/Pressure")));
+                   parameters.where("Exact solution/Pressure"),
+                   time));
     }
   } // namespace
 
-  std::shared_ptr<const ExactSolution>
-  make_exact_solution(const Parameters &parameters, FieldChecks &checks)
+  SceneData::SceneData(const Parameters &parameters,
+                       const double      time,
+                       FieldChecks      &checks)
+    : parameters(parameters)
+    , time(time)
+    , checks(checks)
   {
     const ExactSolutionParameters &given = parameters.exact_solution;
     std::string where = parameters.where("Exact solution/Displacement");
-    std::shared_ptr<const ExactSolution> solution;
     if (given.kind == ExactKind::thick_sphere)
-      solution = make_lame_solution(parameters, LameSolution::Geometry::sphere);
+      solution =
+        make_lame_solution(parameters, time, LameSolution::Geometry::sphere);
     else if (given.kind == ExactKind::thick_cylinder)
       solution =
-        make_lame_solution(parameters, LameSolution::Geometry::cylinder);
+        make_lame_solution(parameters, time, LameSolution::Geometry::cylinder);
     else if (given.kind == ExactKind::expressions)
       {
-        solution = make_expression_solution(parameters, where);
+        solution = make_expression_solution(parameters, time, where);
         where += ": in " + in_quotes(joined(given.displacement));
         if (given.pressure)
           where += " with Pressure = " + in_quotes(*given.pressure);
       }
     else
-      return {};
-    return std::make_shared<CheckedSolution>(solution, where, checks);
+      return;
+    solution = std::make_shared<CheckedSolution>(solution, where, checks);
   }
 
   Loads
-  make_loads(const Parameters                           &parameters,
-             const Body                                 &body,
-             const std::shared_ptr<const ExactSolution> &exact,
-             FieldChecks                                &checks)
+  SceneData::loads(const Body &body) const
   {
+    FieldChecks          &watch = checks;
+    const auto            exact = solution;
     const BodyParameters &given = parameters.bodies[body.index];
     const std::string     path  = "Body " + body.name;
     const unsigned int    b     = body.index;
@@ -239,10 +263,12 @@ namespace mortise
     if (given.body_force)
       {
         const auto field =
-          components(*given.body_force, parameters.where(path + "/Body force"));
+          components(*given.body_force,
+                     parameters.where(path + "/Body force"),
+                     time);
         if (!all_zero(field))
-          loads.body_force = [=, &checks](const Point<dim> &x) {
-            return evaluate(field, x, checks, [&](const Point<dim> &p) {
+          loads.body_force = [=, &watch](const Point<dim> &x) {
+            return evaluate(field, x, watch, [&](const Point<dim> &p) {
               return exact->body_force(p, b);
             });
           };
@@ -261,13 +287,14 @@ namespace mortise
           {
             const auto field =
               components(*boundary.traction,
-                         parameters.where(where + "/Traction"));
+                         parameters.where(where + "/Traction"),
+                         time);
             if (!all_zero(field))
               loads.tractions.push_back(
                 {id,
-                 [=, &checks](const Point<dim>     &x,
+                 [=, &watch](const Point<dim>     &x,
                               const Tensor<1, dim> &normal) {
-                   return evaluate(field, x, checks, [&](const Point<dim> &p) {
+                   return evaluate(field, x, watch, [&](const Point<dim> &p) {
                      return exact->stress(p, b) * normal;
                    });
                  }});
@@ -280,13 +307,13 @@ namespace mortise
         else if (boundary.pressure)
           {
             const std::string here = parameters.where(where + "/Pressure");
-            const Expression  pressure(*boundary.pressure, here);
+            const Expression  pressure(*boundary.pressure, here, time);
             const std::string what =
               here + ": " + in_quotes(*boundary.pressure);
             loads.tractions.push_back(
               {id,
-               [=, &checks](const Point<dim> &x, const Tensor<1, dim> &normal) {
-                 return -checks(pressure.value(x), x, what) * normal;
+               [=, &watch](const Point<dim> &x, const Tensor<1, dim> &normal) {
+                 return -watch(pressure.value(x), x, what) * normal;
                }});
           }
       }
@@ -294,11 +321,10 @@ namespace mortise
   }
 
   std::vector<DirichletCondition>
-  make_dirichlet(const Parameters                           &parameters,
-                 const Body                                 &body,
-                 const std::shared_ptr<const ExactSolution> &exact,
-                 FieldChecks                                &checks)
+  SceneData::dirichlet(const Body &body) const
   {
+    FieldChecks                    &watch = checks;
+    const auto                      exact = solution;
     const unsigned int              b = body.index;
     std::vector<DirichletCondition> conditions;
     for (const auto &entry : parameters.bodies[b].boundaries)
@@ -308,15 +334,16 @@ namespace mortise
             "Body " + body.name + "/Boundary " + entry.first;
           const auto field =
             components(*entry.second.displacement,
-                       parameters.where(where + "/Displacement"));
+                       parameters.where(where + "/Displacement"),
+                       time);
           DirichletCondition condition;
           condition.boundary =
             body.boundary_id(entry.first, parameters.where(where));
           for (unsigned int c = 0; c < dim; ++c)
             condition.fixed[c] = !field[c].free;
           if (!all_zero(field))
-            condition.value = [=, &checks](const Point<dim> &x) {
-              return evaluate(field, x, checks, [&](const Point<dim> &p) {
+            condition.value = [=, &watch](const Point<dim> &x) {
+              return evaluate(field, x, watch, [&](const Point<dim> &p) {
                 return exact->displacement(p, b);
               });
             };

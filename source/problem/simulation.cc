@@ -1,18 +1,15 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-#include <mortise/body/boundary_faces.h>
-#include <mortise/problem/formulation.h>
+#include <mortise/base/interruption.h>
+#include <mortise/output/checkpoint.h>
+#include <mortise/problem/guard.h>
 #include <mortise/problem/result_checks.h>
-#include <mortise/problem/rigid_motions.h>
-#include <mortise/problem/scene_data.h>
+#include <mortise/problem/run_table.h>
 #include <mortise/problem/simulation.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <set>
-#include <sstream>
+#include <filesystem>
 
 namespace mortise
 {
@@ -21,369 +18,293 @@ namespace mortise
   Simulation::Simulation(const Parameters &parameters,
                          RunLog           &log,
                          const MPI_Comm    comm)
-    : parameters(parameters)
-    , log(log)
-    , comm(comm)
-    , interfaces(parameters.interfaces)
+    : context{parameters, log, timers, comm}
+    , steps(parameters.steps, false)
+    , files(context)
   {
     summary.program = program_info(Utilities::MPI::n_mpi_processes(comm));
     summary.title   = parameters.title;
-    summary.steps.resize(1);
-    system.communicator = comm;
+  }
+
+  void
+  Simulation::resume(const RunCheckpoint &checkpoint,
+                     const std::string   &directory)
+  {
+    restart       = directory;
+    state.time    = checkpoint.time;
+    summary.steps = checkpoint.steps;
+    steps.resume(checkpoint.time, checkpoint.n_steps, checkpoint.longest_step);
+    files.resume(checkpoint.files);
   }
 
   void
   Simulation::create_meshes()
   {
-    auto stage = log.stage(timers, "mesh");
-    exact      = make_exact_solution(parameters, field_checks);
-    std::vector<std::vector<std::string>> boundary_names;
-    std::vector<std::set<std::string>>    tied_boundaries(
-      parameters.bodies.size());
-    for (const InterfaceParameters &interface : parameters.interfaces)
-      for (const SideParameters &side : {interface.slave, interface.master})
-        tied_boundaries[side.body].insert(side.boundary);
-    std::uint64_t n_cells = 0;
-    for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
-      {
-        const BodyParameters &body = parameters.bodies[b];
-        bodies.push_back(
-          std::make_unique<Body>(body.name, b, materials(parameters)[b]));
-        bodies[b]->create_mesh(body.mesh,
-                               comm,
-                               "Body " + body.name + ", Mesh",
-                               tied_boundaries[b]);
-        n_cells += bodies[b]->triangulation().n_global_active_cells();
-        boundary_names.emplace_back();
-        for (const auto &name : bodies[b]->mesh.names.boundaries)
-          boundary_names.back().push_back(name.first);
-      }
-    check_boundary_names(parameters, boundary_names);
-    stage.details(std::to_string(bodies.size()) +
-                  (bodies.size() == 1 ? " body, " : " bodies, ") +
-                  std::to_string(n_cells) + " cells");
+    // says what a named exact solution needs of the bodies
+    const SceneData data(context.parameters, steps.next(), field_checks);
+    bodies = mortise::create_meshes(context);
   }
 
   void
-  Simulation::create_spaces()
+  Simulation::discretise()
   {
-    auto stage = log.stage(timers, "spaces");
+    create_meshes();
+    const SceneData data(context.parameters, steps.next(), field_checks);
+    discretisation  = std::make_unique<Discretisation>(context, data, bodies);
+    summary.balance = discretisation->interfaces().balance();
 
-    std::vector<const DoFHandler<dim> *> handlers;
-    for (const auto &body : bodies)
-      {
-        const BodyParameters &given = parameters.bodies[body->index];
-        body->create_space(given.degree,
-                           given.degree_by_region,
-                           "Body " + body->name);
-        handlers.push_back(&body->dof_handler);
-        if (locks(given))
-          log.warning("body " + body->name + " with Poisson ratio " +
-                      RunLog::number(given.material.poisson_ratio) +
-                      " and degree 1 is too stiff (it locks); a higher Degree "
-                      "gives it a pressure of its own");
-        dirichlet.push_back(
-          make_dirichlet(parameters, *body, exact, field_checks));
-      }
-    for (const auto &body : bodies)
-      {
-        body_constraints.emplace_back();
-        body_constraints.back().copy_from(body->conformity);
-        add_dirichlet_constraints(*body,
-                                  dirichlet[body->index],
-                                  body_constraints.back());
-      }
-    auto &numbering = displacement_field.numbering;
-    numbering       = FieldNumbering(handlers, comm);
-    displacement_field.constraints =
-      scene_constraints(numbering, body_constraints);
-    system.owned_displacement = numbering.owned();
-    pressure_field            = mortise::pressure_field(bodies, comm);
-    const auto n_pressures    = pressure_field.numbering.size();
-    if (n_pressures > 0)
-      system.owned_pressure = pressure_field.numbering.owned();
-
-    StepSummary &step = summary.steps.back();
-    for (const auto &body : bodies)
-      {
-        const auto statistics = body->statistics();
-        step.bodies.push_back(
-          {body->name,
-           body->mesh.tetrahedra ? "tetrahedra" : "hexahedra",
-           statistics.cells,
-           statistics.degree_min,
-           statistics.degree_max,
-           body->dof_handler.n_dofs()});
-      }
-    unsigned int max_degree = 1;
-    for (const BodySummary &body : step.bodies)
-      max_degree = std::max(max_degree, body.degree_max);
-    choose_method(max_degree);
-
-    step.dofs.displacement = numbering.size();
-    step.dofs.total        = numbering.size() + n_pressures;
-    if (n_pressures > 0)
-      step.dofs.pressure = n_pressures;
-    stage.details(std::to_string(numbering.size()) + " displacement dofs" +
-                  (n_pressures > 0 ?
-                     ", " + std::to_string(n_pressures) + " pressures" :
-                     ""));
-  }
-
-  void
-  Simulation::choose_method(const unsigned int max_degree)
-  {
-    std::vector<const Body *> scene;
-    for (const auto &body : bodies)
-      scene.push_back(body.get());
-    const bool nodal = NodalSpace::represents(scene);
-    double     softest = std::numeric_limits<double>::max(), stiffest = 0.;
-    for (const auto &body : bodies)
-      {
-        softest  = std::min(softest, body->material.young_modulus);
-        stiffest = std::max(stiffest, body->material.young_modulus);
-      }
-    choice = choose_solver(parameters.solver.method,
-                                     {displacement_field.numbering.size(),
-                                      max_degree,
-                                      nodal,
-                            system.mixed(),
-                            stiffest / softest});
-    if (nodal && choice.method != SolverMethod::direct)
-      {
-        nodal_spaces = make_nodal_spaces(scene, comm);
-        system.owned_displacement =
-          displacement_indices(nodal_spaces.front()->owned_nodes());
-        if (system.mixed())
-          {
-            nodal_pressures       = make_nodal_pressures(scene, comm);
-            system.owned_pressure = nodal_pressures->owned_nodes();
-          }
-      }
-  }
-
-  Coupling
-  Simulation::make_coupling(const InterfaceParameters &given) const
-      {
-        const auto surface = [&](const SideParameters &side) {
-          const Body &body = *bodies[side.body];
-          return extract_surface(body,
-                                 body.boundary_id(side.boundary,
-                                                  "Interface " + given.name),
-                                 displacement_field.numbering,
-                                 displacement_field.constraints,
-                                 nodal_spaces);
-        };
-        InterfaceOptions options;
-        options.search_fraction      = given.search_distance;
-        options.points_per_direction = given.quadrature_points;
-    Coupling coupling;
-    coupling.interface = std::make_unique<InterfaceHandler>(
-      given.name, surface(given.slave), surface(given.master), options, comm);
-    return coupling;
-  }
-
-  void
-  Simulation::integrate(Coupling &coupling) const
-  {
-    coupling.local = integrate_coupling(*coupling.interface,
-                                        choice.method != SolverMethod::direct);
-  }
-
-  void
-  Simulation::find_pairs()
-  {
-    auto          stage = log.stage(timers, "interface_search");
-    std::uint64_t faces = 0;
-    for (const InterfaceParameters &given : interfaces)
-      {
-        couplings.push_back(make_coupling(given));
-        faces +=
-          Utilities::MPI::sum(couplings.back().interface->slave().faces.size(),
-                              comm);
-      }
-    stage.details(std::to_string(faces) + " slave faces");
-  }
-
-  void
-  Simulation::couple()
-  {
-    const auto  total    = timers.scope("coupling");
-    double      clipping = 0.;
-    std::string balance;
-    for (unsigned int i = 0; i < couplings.size(); ++i)
-      {
-        integrate(couplings[i]);
-        const InterfaceReport &report = couplings[i].interface->report();
-        clipping += report.clipping_seconds;
-        if (const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-            n_ranks > 1)
-          balance +=
-            (i ? ", " : "") + std::to_string(report.largest_integration_cells) +
-            " cells on the busiest rank, " +
-            RunLog::number(double(report.integration_cells) / n_ranks) +
-            " on average";
-        if (report.coinciding_faces > 0)
-          balance += (balance.empty() ? "" : ", ") +
-                     std::to_string(report.coinciding_faces) + " of " +
-                     std::to_string(report.slave_faces) +
-                     " faces coincide with a partner";
-        if (report.pairs == 0)
-          {
-            const InterfaceParameters &given = interfaces[i];
-            throw InputError(
-              "Interface " + given.name + ": the surfaces " +
-              bodies[given.slave.body]->name + ": " + given.slave.boundary +
-              " and " + bodies[given.master.body]->name + ": " +
-              given.master.boundary +
-              " do not meet: no pair of faces overlaps within the search distance of " +
-              RunLog::number(given.search_distance) +
-              " face sizes. Check positions, names and Search distance");
-          }
-        if (report.failed_pairs > 0)
-          log.warning("interface " + interfaces[i].name +
-                      ": the projection of " +
-                      std::to_string(report.failed_pairs) +
-                      " pairs of faces did not converge");
-        if (report.covered_area < 0.999 * report.slave_area)
-          {
-            std::ostringstream text;
-            text
-              << "interface " << interfaces[i].name << ": only "
-              << RunLog::number(100. * report.covered_area / report.slave_area)
-              << " % of the slave surface has a partner; worst is the face at "
-              << report.worst_face_centre << " ("
-              << RunLog::number(100. * report.worst_face_error) << " % off)";
-            log.warning(text.str());
-          }
-      }
-    if (Utilities::MPI::max(clipping, comm) == 0.)
-      return; // all faces coincide
-    timers.add("interface_clipping", clipping);
-    timers.add("coupling", -clipping);
-    log.stage_line("interface_clipping",
-                   Utilities::MPI::max(clipping, comm),
-                   balance);
-  }
-
-  void
-  Simulation::assemble()
-  {
-    if (!couplings.empty())
-      {
-        auto stage = log.stage(timers, "coupling");
-        choose_multipliers();
-        const CouplingPartition partition{system.owned_displacement,
-                                          system.owned_multiplier,
-                                          comm};
-        if (system.owned_multiplier.size() > 0)
-          {
-            assemble_constraint(couplings,
-                                partition,
-                                system.coupling,
-                                system.coupling_rhs);
-            if (choice.method != SolverMethod::direct && nodal_spaces.empty())
-              assemble_jump_penalty(couplings, partition, system.jump_penalty);
-          }
-        for (unsigned int i = 0; i < couplings.size(); ++i)
-          summarise_interface(i);
-        stage.details(std::to_string(system.owned_multiplier.size()) +
-                      " multipliers");
-      }
-    else
-      {
-        system.owned_multiplier.set_size(0);
-        check_rigid_motions(bodies, dirichlet, {});
-      }
-    auto               stage = log.stage(timers, "bulk");
-    std::vector<Loads> loads;
-    for (const auto &body : bodies)
-      loads.push_back(make_loads(parameters, *body, exact, field_checks));
-    system.max_degree = 1;
-    for (const auto &body : bodies)
-      system.max_degree = std::max(system.max_degree, body->max_degree());
-    if (!nodal_spaces.empty())
-      {
-        const NodalSystem::Scene scene{displacement_field.numbering,
-                                       displacement_field.constraints,
-                                       couplings};
-        system.nodal = std::make_unique<NodalSystem>(std::move(nodal_spaces),
-                                                     std::move(nodal_pressures),
-                                                     scene,
-                                                     comm);
-        system.nodal->assemble_load(loads,
-                                    scene,
-                                    system.load,
-                                    system.pressure_load);
-        if (system.owned_multiplier.size() > 0)
-          system.nodal->drop_held_columns(system.coupling);
-        stage.details("without a matrix");
-        return;
-      }
-    interiors = assemble_bodies(
-      bodies, loads, displacement_field, pressure_field, system);
-    describe_structure(bodies, displacement_field.numbering, system);
-    stage.details(std::to_string(system.stiffness.n_nonzero_elements()) +
-                  " entries");
-  }
-
-  void
-  Simulation::solve()
-  {
-    if (system.mixed())
-      find_free_pressures();
-    SolverOptions options;
-    options.method         = choice.method;
-    options.tolerance      = parameters.solver.tolerance;
-    options.max_iterations = parameters.solver.max_iterations;
-    options.max_gathered   = parameters.solver.max_gathered;
-    if (parameters.solver.print_iterations)
+    const SolverParameters &given = context.parameters.solver;
+    SolverOptions           options;
+    options.method         = discretisation->choice().method;
+    options.tolerance      = given.tolerance;
+    options.max_iterations = given.max_iterations;
+    options.max_gathered   = given.max_gathered;
+    options.successive     = context.parameters.steps.given ? 4 : 0;
+    if (given.print_iterations)
       options.monitor = [&](const unsigned int iteration,
                             const double       residual) {
-        log.line("    iteration " + std::to_string(iteration) + "  residual " +
-                 RunLog::number(residual));
+        context.log.line("    iteration " + std::to_string(iteration) +
+                         "  residual " + RunLog::number(residual));
       };
+    solver = make_linear_solver(discretisation->linear_system(), options);
     // a factorisation gives one of many answers and does not tell
-    if (choice.method == SolverMethod::direct)
-      check_multipliers();
-    // The answer is linear in the loads: loads of size 1, scaled without
-    // rounding, keep the single precision of preconditioners from its limits.
-    const double scale = load_scale(system);
-    scale_loads(system, scale);
-    solve_report = mortise::solve(system, options, solution);
-    if (!choice.reason.empty())
-      solve_report.preconditioner += "; " + choice.reason;
-    scale_loads(system, 1. / scale);
-    for (Vector *part :
-         {&solution.displacement, &solution.pressure, &solution.multiplier})
-      if (part->size() > 0)
-        *part *= 1. / scale;
-    if (!std::isfinite(solve_report.relative_residual))
-      solve_report.converged = false;
-    if (!solve_report.converged)
-      check_multipliers();
+    if (options.method == SolverMethod::direct)
+      discretisation->check_multipliers();
+  }
 
-    timers.add("solver_setup", solve_report.setup_seconds);
-    timers.add("solve", solve_report.solve_seconds);
-    log.stage_line("solver_setup",
-                   solve_report.setup_seconds,
-                   solve_report.preconditioner);
-    log.stage_line("solve",
-                   solve_report.solve_seconds,
-                   solve_report.method + ", " +
-                     std::to_string(solve_report.iterations) +
-                     " iterations, residual " +
-                     RunLog::number(solve_report.relative_residual) +
-                     (solve_report.converged && solve_report.attainable > 0. ?
-                        ", all that rounding leaves with moduli and sizes "
-                        "this different" :
-                        ""));
-    SolverSummary result;
-    result.method               = solve_report.method;
-    result.preconditioner       = solve_report.preconditioner;
-    result.iterations           = solve_report.iterations;
-    result.relative_residual    = solve_report.relative_residual;
-    summary.steps.back().solver = result;
-    summary.status = solve_report.converged ? "done" : "not converged";
+  void
+  Simulation::restore(const std::string &directory)
+  {
+    const Checkpoint checkpoint =
+      read_checkpoint(directory,
+                      bodies,
+                      discretisation->interfaces().all(),
+                      context.comm);
+    const SceneData data(context.parameters, state.time, field_checks);
+    const SceneLoad load = discretisation->load(data);
+    state.solution       = discretisation->system_vector(checkpoint, load);
+    solver->remember(load.rhs, state.solution);
+    context.log.line("continued from t = " + RunLog::number(state.time));
+  }
+
+  SystemVector
+  Simulation::solve(const SceneLoad &load)
+  {
+    SystemVector solution;
+    report = solver->solve(load.rhs, solution);
+    if (!discretisation->choice().reason.empty())
+      report.preconditioner += "; " + discretisation->choice().reason;
+    if (!std::isfinite(report.relative_residual))
+      report.converged = false;
+    if (!report.converged)
+      discretisation->check_multipliers();
+
+    if (report.setup_seconds > 0.)
+      {
+        context.timers.add("solver_setup", report.setup_seconds);
+        context.log.stage_line("solver_setup",
+                               report.setup_seconds,
+                               report.preconditioner);
+      }
+    context.timers.add("solve", report.solve_seconds);
+    context.log.stage_line("solve",
+                           report.solve_seconds,
+                           report.method + ", " +
+                             std::to_string(report.iterations) +
+                             " iterations, residual " +
+                             RunLog::number(report.relative_residual) +
+                             (report.converged && report.attainable > 0. ?
+                                ", all that rounding leaves with moduli and "
+                                "sizes this different" :
+                                ""));
+    return solution;
+  }
+
+  StepSummary
+  Simulation::summarise(const SolvedStep &solved, const StepFields &fields)
+  {
+    StepSummary result = discretisation->summary();
+    if (context.parameters.steps.given)
+      {
+        result.step = steps.n_done() + 1;
+        result.time = steps.next();
+      }
+    result.solver = {report.method,
+                     report.preconditioner,
+                     report.iterations,
+                     report.relative_residual};
+    evaluate_step(context, *discretisation, solved, fields, result);
+    field_checks.throw_if_any(context.comm);
+    const std::string not_finite = first_not_finite(result);
+    if (report.converged && !not_finite.empty())
+      throw InputError(
+        "The solver converged, but the numbers of the scene are too large or too small to "
+        "compute with: " +
+        not_finite + "; allowed: results whose squares are finite. Check " +
+        "lengths, moduli, loads and exact solution, or take other units");
+    return result;
+  }
+
+  void
+  Simulation::step(const bool writes)
+  {
+    const double    time = steps.next();
+    const SceneData data(context.parameters, time, field_checks);
+    if (context.parameters.steps.given)
+      context.log.line("step " + std::to_string(steps.n_done() + 1) +
+                       ", t = " + RunLog::number(time));
+    const SceneLoad load = discretisation->load(data);
+    field_checks.throw_if_any(context.comm);
+    check_loads(load.rhs);
+    State next{time, solve(load)};
+    if (!report.converged && steps.halve())
+      {
+        context.log.line("  not converged: half the step");
+        return;
+      }
+
+    StepFields fields;
+    {
+      const auto       stage = context.log.stage(context.timers, "postprocess");
+      const SolvedStep solved{data, load, next.solution};
+      fields = step_fields(context, *discretisation, solved);
+      summary.steps.push_back(summarise(solved, fields));
+    }
+    state = std::move(next);
+    steps.accept(report.converged);
+    if (writes)
+      write_results(fields);
+    if (context.parameters.steps.given)
+      print_progress();
+  }
+
+  void
+  Simulation::write_results(const StepFields &fields)
+  {
+    if (steps.output_due() || !report.converged)
+      for (const OutputError &error : files.write(
+             steps.n_done(), steps.time(), *discretisation, fields))
+        unwritten.push_back(error);
+    const unsigned int every = context.parameters.output.checkpoint_every;
+    if (every > 0 && report.converged &&
+        (steps.n_done() % every == 0 || steps.finished()))
+      write_checkpoint(fields);
+  }
+
+  void
+  Simulation::write_checkpoint(const StepFields &fields)
+  {
+    const auto        stage = context.log.stage(context.timers, "checkpoint");
+    const Parameters &parameters = context.parameters;
+    const RunCheckpoint checkpoint{
+      std::filesystem::absolute(parameters.file).string(),
+      parameters.assignments,
+      steps.time(),
+      steps.longest(),
+      steps.n_done(),
+      summary.steps,
+      files.written()};
+    try
+      {
+        mortise::write_checkpoint(
+          parameters.output.directory,
+          {to_text(checkpoint), fields.solutions, fields.tractions},
+          bodies,
+          discretisation->interfaces().all(),
+          context.comm);
+      }
+    catch (const OutputError &error)
+      {
+        unwritten.push_back(error);
+      }
+    summary.status = "running";
+    write_summary();
+  }
+
+  void
+  Simulation::print_progress()
+  {
+    const double share = steps.share(), seconds = context.timers.total();
+    context.log.line("  " + RunLog::number(100. * share) + " % done in " +
+                     RunLog::number(seconds) + " s" +
+                     (steps.finished() ?
+                        "" :
+                        ", about " +
+                          RunLog::number(seconds * (1. - share) / share) +
+                          " s left"));
+  }
+
+  void
+  Simulation::march(const bool writes)
+  {
+    report.converged = true;
+    if (steps.finished()) // of a run that was continued
+      context.log.line("the end at t = " + RunLog::number(steps.time()) +
+                       " was reached before; another Steps/End time goes on");
+    else
+      discretise();
+    if (!steps.finished() && !restart.empty())
+      restore(restart);
+    while (!steps.finished() && report.converged)
+      step(writes);
+    summary.status = report.converged ? "done" : "not converged";
+  }
+
+  void
+  Simulation::compute()
+  {
+    march(false);
+  }
+
+  void
+  Simulation::write_summary()
+  {
+    summary.timings = context.timers.walls(context.comm);
+    summary.memory  = peak_memory_mib(context.comm);
+    try
+      {
+        mortise::write_summary(summary,
+                               context.parameters.output.directory,
+                               context.comm);
+      }
+    catch (const OutputError &error)
+      {
+        unwritten.push_back(error);
+      }
+  }
+
+  void
+  Simulation::run()
+  {
+    check_output_directory(context.parameters, context.comm);
+    try
+      {
+        march(true);
+      }
+    catch (const InputError &)
+      {
+        // earlier steps are worth keeping
+        summary.status = "stopped";
+        if (!summary.steps.empty())
+          write_summary();
+        throw;
+      }
+    write_summary();
+    print_table(context.log, summary.steps.back());
+    if (!unwritten.empty())
+      throw InputError(describe(unwritten) + "\n" +
+                       interruption::what_is_complete());
+    if (!report.converged)
+      throw ConvergenceError(
+        "The solver (" + report.method +
+        ") did not converge: relative residual " +
+        RunLog::number(report.relative_residual) + " after " +
+        std::to_string(report.iterations) + " iterations, allowed is " +
+        RunLog::number(context.parameters.solver.tolerance) +
+        ". Results so far are written. " +
+        (report.relative_residual <= report.attainable ?
+           "Rounding leaves up to " + RunLog::number(report.attainable) +
+             " whatever the method, since moduli or sizes differ too much" :
+           "Raise Solver/Max iterations or try another Solver/Method"));
   }
 } // namespace mortise

@@ -1,10 +1,5 @@
 // See condensed.h.
-#include <deal.II/base/timer.h>
-
-#include <mortise/base/timers.h>
-#include <mortise/solvers/bulk_preconditioner.h>
 #include <mortise/solvers/condensed.h>
-#include <mortise/solvers/scaled_residual.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,30 +19,39 @@ namespace mortise
       ProjectedConjugateGradients(const BlockSystem         &system,
                                   const ScaledResidual      &residual,
                                   const BulkPreconditioner  &preconditioner,
-                                  const ConstraintProjector *projector,
+                                  const SystemVector        &rhs,
                                   const SolverOptions       &options)
         : system(system)
         , residual(residual)
         , preconditioner(preconditioner)
-        , projector(projector)
+        , projector(preconditioner.projector())
         , options(options)
-        , all_r(system.zero_solution())
+        , rhs(rhs)
+        , rhs_norm(residual.norm(rhs))
+        , all_r(system.zero_vector())
         , r(all_r.displacement)
         , z(r)
         , d(r)
         , kd(r)
       {}
 
-      /// Start from what @p x holds; the scaled residual at the end.
-      double
-      run(SystemSolution &x, SolveReport &report)
+      /// Start from what @p x holds, whose energy u . K u this takes into account.
+      void
+      start(const SystemVector &x)
+      {
+        system.apply_stiffness(kd, x.displacement);
+        energy_of_u = x.displacement * kd;
+      }
+
+      /// Go on from what @p x holds until the residual is small enough.
+      void
+      run(SystemVector &x, SolveReport &report)
       {
         Vector      &u = x.displacement, &lambda = x.multiplier;
-        const double rhs_norm = residual.right_hand_side_norm();
-        const double target   = 0.9 * options.tolerance * rhs_norm;
+        const double target = 0.9 * options.tolerance * rhs_norm;
         if (projector != nullptr)
-          projector->satisfy(u, system.coupling_rhs);
-        residual.compute(x, all_r);
+          projector->satisfy(u, rhs.multiplier);
+        residual.compute(rhs, x, all_r);
         double rho_old = 0.;
         for (bool first = true; report.iterations < options.max_iterations;
              first      = false)
@@ -55,19 +59,15 @@ namespace mortise
             if (projector != nullptr)
               projector->project_residual(r, lambda);
             const double reached = residual.norm(all_r);
-            if (!first)
-              {
-                report.history.push_back(reached / rhs_norm);
-                if (options.monitor)
-                  options.monitor(report.iterations, reached / rhs_norm);
-              }
+            if (!first && options.monitor)
+              options.monitor(report.iterations, reached / rhs_norm);
             preconditioner.vmult(z, r);
             if (projector != nullptr)
               projector->project(z);
             const double rho = r * z; // estimates the energy of the error
             if (reached <= target &&
                 rho <= std::pow(options.energy_tolerance(), 2) *
-                         std::max(energy_of_u, residual.least_energy()))
+                         std::max(energy_of_u, residual.least_energy(rhs_norm)))
               break;
             if (first)
               d = z;
@@ -79,17 +79,23 @@ namespace mortise
             ++report.iterations;
           }
         if (projector != nullptr)
-          projector->satisfy(u, system.coupling_rhs);
-        residual.compute(x, all_r);
-        return residual.norm(all_r);
+          projector->satisfy(u, rhs.multiplier);
+        residual.compute(rhs, x, all_r);
+      }
+
+      /// After run(): is that what was asked for?
+      bool
+      reached() const
+      {
+        return residual.norm(all_r) <= options.tolerance * rhs_norm;
       }
 
       /// Note what run() reached.
       void
-      judge(const SystemSolution &x, SolveReport &report)
+      judge(const SystemVector &x, SolveReport &report)
       {
         const auto relative_error = [&] {
-          SystemSolution rest = all_r;
+          SystemVector rest = all_r;
           if (projector != nullptr)
             projector->project_residual(rest.displacement, rest.multiplier);
           preconditioner.vmult(z, rest.displacement);
@@ -98,8 +104,10 @@ namespace mortise
           system.apply_stiffness(kd, x.displacement);
           return std::sqrt((z * rest.displacement) / (kd * x.displacement));
         };
-        residual.compute(x, all_r);
-        residual.judge(x, all_r, options.tolerance, relative_error, report);
+        residual.judge({rhs, x, all_r},
+                       options.tolerance,
+                       relative_error,
+                       report);
       }
 
     private:
@@ -124,46 +132,46 @@ namespace mortise
       const BulkPreconditioner  &preconditioner;
       const ConstraintProjector *projector;
       const SolverOptions       &options;
-      SystemSolution             all_r;
+      const SystemVector        &rhs;
+      const double               rhs_norm;
+      SystemVector               all_r;
       Vector                    &r;
       Vector                     z, d, kd;
       double                     energy_of_u = 0.; ///< gained so far
     };
   } // namespace
 
-  SolveReport
-  solve_condensed(const BlockSystem   &system,
-                  const SolverOptions &options,
-                  SystemSolution      &x)
-  {
-    SolveReport report;
-    report.method = "condensed";
-    announce_stage("solver_setup");
-    Timer       timer;
-    const auto  preconditioner = make_bulk_preconditioner(system, options);
-    const bool  valid          = preconditioner->initialize(system);
-    const auto *projector      = valid ? preconditioner->projector() : nullptr;
-    const ScaledResidual residual(system);
-    report.preconditioner = preconditioner->description();
-    report.setup_seconds  = timer.wall_time();
-    announce_stage("solve");
-    timer.restart();
+  CondensedSolver::CondensedSolver(const BlockSystem   &system,
+                                   const SolverOptions &options)
+    : LinearSolver(system, options, "condensed")
+  {}
 
-    x                                    = system.zero_solution();
-    const double                rhs_norm = residual.right_hand_side_norm();
-    const double                target   = options.tolerance * rhs_norm;
-    double                      reached  = rhs_norm;
+  bool
+  CondensedSolver::set_up()
+  {
+    preconditioner   = make_bulk_preconditioner(system, options);
+    const bool valid = preconditioner->initialize(system);
+    description      = preconditioner->description();
+    return valid;
+  }
+
+  void
+  CondensedSolver::run(const SystemVector &rhs,
+                       SystemVector       &x,
+                       const bool          is_zero,
+                       SolveReport        &report)
+  {
     ProjectedConjugateGradients solver(
-      system, residual, *preconditioner, projector, options);
+      system, *residual, *preconditioner, rhs, options);
+    if (!is_zero)
+      solver.start(x);
     // Rounding makes the carried residual drift from the true one: start again
     // from what was reached.
-    for (unsigned int start = 0; start < 3 && valid && reached > target &&
-                                 report.iterations < options.max_iterations;
-         ++start)
-      reached = solver.run(x, report);
+    unsigned int start = 0;
+    do
+      solver.run(x, report);
+    while (!solver.reached() && ++start < 3 &&
+           report.iterations < options.max_iterations);
     solver.judge(x, report);
-    report.converged &= valid;
-    report.solve_seconds     = timer.wall_time();
-    return report;
   }
 } // namespace mortise

@@ -1,12 +1,10 @@
 // See direct.h.
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 #include <mortise/solvers/direct.h>
 #include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/scaled_residual.h>
 #include <mortise/solvers/sparse_factorization.h>
 
 #include <algorithm>
@@ -212,14 +210,6 @@ namespace mortise
           visit(v[next++], part->begin()[i]);
     }
 
-    void
-    add(const double factor, const SystemSolution &from, SystemSolution &to)
-    {
-      to.displacement.add(factor, from.displacement);
-      to.pressure.add(factor, from.pressure);
-      to.multiplier.add(factor, from.multiplier);
-    }
-
     /// u . K u
     double
     energy(const Vector &u, const BlockSystem &system)
@@ -233,13 +223,13 @@ namespace mortise
     /// one and the multipliers that come with it, by group of FreePressures:
     /// with a pin c at pressure k, (A + c e e^T) n = c e for A n = 0 and n_k
     /// = 1.
-    std::vector<SystemSolution>
+    std::vector<SystemVector>
     free_constants(const BlockSystem         &system,
                    const Epetra_CrsMatrix    &matrix,
                    const Epetra_Vector       &scale,
                    const SparseFactorization &factorization)
     {
-      std::vector<SystemSolution> result;
+      std::vector<SystemVector> result;
       for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
         {
           Epetra_Vector b(matrix.RowMap()), y(b);
@@ -247,80 +237,98 @@ namespace mortise
             b[system.owned_displacement.n_elements() + pinned] = 1.;
           factorization.solve(y, b);
           y.Multiply(1., scale, y, 0.);
-          SystemSolution constant = system.zero_solution();
+          SystemVector constant = system.zero_vector();
           for_each_value(y, constant, [](const double from, double &to) {
             to = from;
           });
-          SystemSolution scaled = system.zero_solution();
-          add(1. / system.free_pressures.mean(g, constant.pressure),
-              constant,
-              scaled);
+          SystemVector scaled = system.zero_vector();
+          add_scaled(scaled,
+                     1. / system.free_pressures.mean(g, constant.pressure),
+                     constant);
           result.push_back(scaled);
         }
       return result;
     }
   } // namespace
 
-  SolveReport
-  solve_direct(const BlockSystem   &system,
-               const SolverOptions &options,
-               SystemSolution      &x)
+  /// The factorised matrix, scaled, and what it leaves free.
+  struct DirectSolver::Factors
   {
-    constexpr unsigned int max_refinements = 4;
+    explicit Factors(const BlockSystem    &system,
+                     const ScaledResidual &residual)
+      : system(system)
+      , matrix(
+          monolithic_matrix(system, residual, MonolithicNumbering(system)))
+      , scale(matrix->RowMap())
+      , b(scale)
+      , y(scale)
+    {
+      set_scaling(scale, residual, system);
+      matrix->LeftScale(scale);
+      matrix->RightScale(scale);
+      valid = factorization.initialize(*matrix, MatrixKind::general);
+      if (valid)
+        constants = free_constants(system, *matrix, scale, factorization);
+    }
 
-    SolveReport report;
-    report.method = "direct";
-    Timer timer;
-
-    const MonolithicNumbering numbering(system);
-    const ScaledResidual      residual(system);
-    const auto    matrix = monolithic_matrix(system, residual, numbering);
-    Epetra_Vector scale(matrix->RowMap());
-    set_scaling(scale, residual, system);
-    matrix->LeftScale(scale);
-    matrix->RightScale(scale);
-
-    SparseFactorization factorization;
-    const bool          factorized =
-      factorization.initialize(*matrix, MatrixKind::general);
-    report.preconditioner = "factorisation (MUMPS)";
-    report.setup_seconds  = timer.wall_time();
-    timer.restart();
-
-    std::vector<SystemSolution> constants;
-    if (factorized)
-      constants = free_constants(system, *matrix, scale, factorization);
-    x                       = system.zero_solution();
-    SystemSolution r        = system.zero_solution();
-    const double   rhs_norm = residual.right_hand_side_norm();
-    Epetra_Vector  b(matrix->RowMap()), y(matrix->RowMap());
-    // x += A^{-1} r; false when the solve failed
-    SystemSolution correction = system.zero_solution();
-    const auto     correct    = [&] {
+    /// @p x = A^{-1} r; false when the solve failed.
+    bool
+    solve(const SystemVector &r, SystemVector &x)
+    {
       for_each_value(b, r, [](double &to, const double from) { to = from; });
       b.Multiply(1., scale, b, 0.);
       if (!factorization.solve(y, b))
         return false;
       y.Multiply(1., scale, y, 0.);
-      for_each_value(y, correction, [](const double from, double &to) {
-        to = from;
-      });
+      for_each_value(y, x, [](const double from, double &to) { to = from; });
       for (unsigned int g = 0; g < constants.size(); ++g)
-        add(-system.free_pressures.mean(g, correction.pressure),
-            constants[g],
-            correction);
+        add_scaled(x,
+                   -system.free_pressures.mean(g, x.pressure),
+                   constants[g]);
       return true;
-    };
-    double previous = std::numeric_limits<double>::infinity();
-    residual.compute(x, r);
-    for (unsigned int step = 0;
-         factorized && rhs_norm > 0. && step <= max_refinements && correct();
+    }
+
+    const BlockSystem                &system;
+    std::unique_ptr<Epetra_CrsMatrix> matrix;
+    Epetra_Vector                     scale, b, y;
+    SparseFactorization               factorization;
+    std::vector<SystemVector>         constants;
+    bool                              valid;
+  };
+
+  DirectSolver::DirectSolver(const BlockSystem   &system,
+                             const SolverOptions &options)
+    : LinearSolver(system, options, "direct")
+  {}
+
+  DirectSolver::~DirectSolver() = default;
+
+  bool
+  DirectSolver::set_up()
+  {
+    factors     = std::make_unique<Factors>(system, *residual);
+    description = "factorisation (MUMPS)";
+    return factors->valid;
+  }
+
+  void
+  DirectSolver::run(const SystemVector &rhs,
+                    SystemVector       &x,
+                    bool /*is_zero*/,
+                    SolveReport &report)
+  {
+    constexpr unsigned int max_refinements = 4;
+    SystemVector           r = system.zero_vector(), correction = r;
+    const double           rhs_norm = residual->norm(rhs);
+    double                 previous = std::numeric_limits<double>::infinity();
+    residual->compute(rhs, x, r);
+    for (unsigned int step = 0; rhs_norm > 0. && step <= max_refinements &&
+                                factors->solve(r, correction);
          ++step)
       {
-        add(1., correction, x);
-        residual.compute(x, r);
-        const double reached = residual.norm(r) / rhs_norm;
-        report.history.push_back(reached);
+        add_scaled(x, 1., correction);
+        residual->compute(rhs, x, r);
+        const double reached = residual->norm(r) / rhs_norm;
         if (options.monitor)
           options.monitor(step, reached);
         // Refine until rounding is reached, at least once.
@@ -329,18 +337,11 @@ namespace mortise
         previous = reached;
       }
     const auto relative_error = [&] {
-      return correct() ? std::sqrt(energy(correction.displacement, system) /
-                                   energy(x.displacement, system)) :
-                         1.;
+      return factors->solve(r, correction) ?
+               std::sqrt(energy(correction.displacement, system) /
+                         energy(x.displacement, system)) :
+               1.;
     };
-    if (rhs_norm > 0. && factorized)
-      residual.judge(x, r, options.tolerance, relative_error, report);
-    else
-      {
-        report.converged         = rhs_norm == 0.;
-        report.relative_residual = report.converged ? 0. : 1.;
-      }
-    report.solve_seconds = timer.wall_time();
-    return report;
+    residual->judge({rhs, x, r}, options.tolerance, relative_error, report);
   }
 } // namespace mortise

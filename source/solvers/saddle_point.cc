@@ -1,16 +1,11 @@
 // See saddle_point.h.
-#include <deal.II/base/timer.h>
-
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
-#include <mortise/base/timers.h>
 #include <mortise/solvers/bulk_preconditioner.h>
-#include <mortise/solvers/condensed.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/pressure_preconditioner.h>
 #include <mortise/solvers/saddle_point.h>
-#include <mortise/solvers/scaled_residual.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +22,7 @@ namespace mortise
     constexpr unsigned int u = 0, p = 1, l = 2;
 
     void
-    copy(BlockVector &to, const SystemSolution &from)
+    copy(BlockVector &to, const SystemVector &from)
     {
       to.block(u) = from.displacement;
       to.block(p) = from.pressure;
@@ -35,7 +30,7 @@ namespace mortise
     }
 
     void
-    add(SystemSolution &to, const BlockVector &from)
+    add(SystemVector &to, const BlockVector &from)
     {
       to.displacement += from.block(u);
       to.pressure += from.block(p);
@@ -84,8 +79,8 @@ namespace mortise
           system.apply_stiffness(y.block(u), scaled.block(u));
         if (tied)
           {
-            system.coupling.Tvmult_add(y.block(u), scaled.block(l));
-            system.coupling.vmult(y.block(l), scaled.block(u));
+            system.add_multiplier_force(y.block(u), scaled.block(l));
+            system.apply_constraint(y.block(l), scaled.block(u));
           }
         y.scale(weight);
       }
@@ -159,7 +154,7 @@ namespace mortise
       /// An estimate of the energy of the error that belongs to the residual,
       /// which is not scaled.
       double
-      error_energy(const SystemSolution &r) const
+      error_energy(const SystemVector &r) const
       {
         Vector z(r.displacement), projected(z), multiplier(r.multiplier);
         if (projector)
@@ -201,7 +196,7 @@ namespace mortise
 
     /// u . K u + p . P p, what error_energy() is to be small beside.
     double
-    energy_of(const SystemSolution &x, const BlockSystem &system)
+    energy_of(const SystemVector &x, const BlockSystem &system)
     {
       Vector f(x.displacement);
       system.apply_stiffness(f, x.displacement);
@@ -216,104 +211,130 @@ namespace mortise
     }
   } // namespace
 
-  SolveReport
-  solve_saddle_point(const BlockSystem   &system,
-                     const SolverOptions &options,
-                     SystemSolution      &solution)
+  struct SaddlePointSolver::Parts
   {
-    if (system.owned_multiplier.size() == 0 && !system.mixed())
-      return solve_condensed(system, options, solution); // it is definite
+    Parts(const BlockSystem    &system,
+          const ScaledResidual &residual,
+          const SolverOptions  &options)
+      : matrix(system, residual)
+      , preconditioner(system, matrix, options)
+    {}
 
+    /// One call of GMRES for the scaled residual @p r, until it is @p goal; adds
+    /// the iterations to @p report.
+    BlockVector
+    iterate(const BlockVector   &r,
+            const double         goal,
+            const double         rhs_norm,
+            const SolverOptions &options,
+            SolveReport         &report) const;
+
+    const ScaledOperator      matrix;
+    const BlockPreconditioner preconditioner;
+    bool                      flexible = false;
+  };
+
+  BlockVector
+  SaddlePointSolver::Parts::iterate(const BlockVector   &r,
+                                    const double         goal,
+                                    const double         rhs_norm,
+                                    const SolverOptions &options,
+                                    SolveReport         &report) const
+  {
     constexpr unsigned int max_basis = 60;
-    SolveReport            report;
-    report.method = "saddle point";
-    announce_stage("solver_setup");
-    Timer                     timer;
-    const ScaledResidual      residual(system);
-    const ScaledOperator      matrix(system, residual);
-    const BlockPreconditioner preconditioner(system, matrix, options);
-    report.preconditioner = preconditioner.description();
-    report.setup_seconds  = timer.wall_time();
-    announce_stage("solve");
-    timer.restart();
+    BlockVector            x(r);
+    x = 0.;
+    SolverControl control(options.max_iterations - report.iterations,
+                          goal,
+                          false,
+                          false);
+    const auto    note = [&](const unsigned int iteration,
+                          const double       value,
+                          const BlockVector &) {
+      if (iteration > 0 && options.monitor)
+        options.monitor(report.iterations + iteration, value / rhs_norm);
+      return SolverControl::success;
+    };
+    const auto run = [&](auto &&solver) {
+      solver.connect(note);
+      try
+        {
+          solver.solve(matrix, x, r, preconditioner);
+        }
+      catch (const SolverControl::NoConvergence &)
+        {}
+    };
+    using GMRES  = SolverGMRES<BlockVector>;
+    using FGMRES = SolverFGMRES<BlockVector>;
+    if (flexible)
+      run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
+    else
+      run(GMRES(control, GMRES::AdditionalData(max_basis + 2, true)));
+    report.iterations += control.last_step();
+    x.scale(matrix.weight);
+    return x;
+  }
 
-    solution                = system.zero_solution();
-    const double   rhs_norm = residual.right_hand_side_norm();
-    const double   target   = options.tolerance * rhs_norm;
-    double         reached = rhs_norm, goal = 0.9 * target;
-    bool           accurate = rhs_norm == 0.;
-    BlockVector    x(matrix.weight), r(x);
-    SystemSolution all_r = system.zero_solution();
-    residual.compute(solution, all_r);
+  SaddlePointSolver::SaddlePointSolver(const BlockSystem   &system,
+                                       const SolverOptions &options)
+    : LinearSolver(system, options, "saddle point")
+  {}
+
+  SaddlePointSolver::~SaddlePointSolver() = default;
+
+  bool
+  SaddlePointSolver::set_up()
+  {
+    parts = std::make_unique<Parts>(system, *residual, options);
+    // multigrid in single precision is linear to seven digits only
+    parts->flexible = system.nodal != nullptr;
+    description     = parts->preconditioner.description();
+    return parts->preconditioner.is_valid();
+  }
+
+  void
+  SaddlePointSolver::run(const SystemVector &rhs,
+                         SystemVector       &solution,
+                         bool /*is_zero*/,
+                         SolveReport &report)
+  {
+    const BlockPreconditioner &preconditioner = parts->preconditioner;
+    const double               rhs_norm       = residual->norm(rhs);
+    const double               target         = options.tolerance * rhs_norm;
+    SystemVector               all_r          = system.zero_vector();
+    BlockVector                r(parts->matrix.weight);
+    residual->compute(rhs, solution, all_r);
+    double     reached = residual->norm(all_r), goal = 0.9 * target;
+    const auto accurate = [&] {
+      // beside pressures the residual does not say less than the energy
+      const double energy_tolerance =
+        system.mixed() ? options.tolerance : options.energy_tolerance();
+      return reached <= target &&
+             preconditioner.error_energy(all_r) <=
+               energy_tolerance * energy_tolerance *
+                 std::max(energy_of(solution, system),
+                          residual->least_energy(rhs_norm));
+    };
     // Again from what was reached: rounding makes the recursive residual drift
     // from the true one, and the energy of the error is only looked at here.
-    for (unsigned int start = 0;
-         start < 5 && preconditioner.is_valid() && !accurate &&
-         report.iterations < options.max_iterations;
+    for (unsigned int start = 0; start < 5 && !accurate() &&
+                                 report.iterations < options.max_iterations;
          ++start)
       {
         copy(r, all_r);
-        r.scale(matrix.weight);
-        x = 0.;
-        SolverControl control(options.max_iterations - report.iterations,
-                              goal,
-                              false,
-                              false);
-        const auto    note = [&](const unsigned int iteration,
-                              const double       value,
-                              const BlockVector &) {
-          if (iteration > 0)
-            {
-              report.history.push_back(value / rhs_norm);
-              if (options.monitor)
-                options.monitor(report.iterations + iteration,
-                                value / rhs_norm);
-            }
-          return SolverControl::success;
-        };
-        const auto run = [&](auto &&solver) {
-          solver.connect(note);
-          try
-            {
-              solver.solve(matrix, x, r, preconditioner);
-            }
-          catch (const SolverControl::NoConvergence &)
-            {}
-        };
-        using GMRES  = SolverGMRES<BlockVector>;
-        using FGMRES = SolverFGMRES<BlockVector>;
-        // flexible where multigrid in single precision is linear to seven
-        // digits only
-        if (system.nodal)
-          run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
-        else
-          run(GMRES(control, GMRES::AdditionalData(max_basis + 2, true)));
-        report.iterations += control.last_step();
-        x.scale(matrix.weight);
-        add(solution, x);
-        residual.compute(solution, all_r);
-        reached = residual.norm(all_r);
+        r.scale(parts->matrix.weight);
+        add(solution, parts->iterate(r, goal, rhs_norm, options, report));
+        residual->compute(rhs, solution, all_r);
+        reached = residual->norm(all_r);
         goal    = std::min(goal, 0.1 * reached);
-        // beside pressures the residual does not say less than the energy
-        const double energy_tolerance =
-          system.mixed() ? options.tolerance : options.energy_tolerance();
-        accurate =
-          reached <= target &&
-          preconditioner.error_energy(all_r) <=
-            energy_tolerance * energy_tolerance *
-              std::max(energy_of(solution, system), residual.least_energy());
       }
-    residual.judge(
-      solution,
-      all_r,
+    residual->judge(
+      {rhs, solution, all_r},
       options.tolerance,
       [&] {
         return std::sqrt(preconditioner.error_energy(all_r) /
                          energy_of(solution, system));
       },
       report);
-    report.converged &= preconditioner.is_valid();
-    report.solve_seconds = timer.wall_time();
-    return report;
   }
 } // namespace mortise

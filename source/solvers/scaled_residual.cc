@@ -20,12 +20,14 @@ namespace mortise
     }
 
     double
-    weighted_square(const Vector &r, const Epetra_Vector &weight)
+    weighted_product(const Vector        &a,
+                     const Vector        &b,
+                     const Epetra_Vector &weight)
     {
       double        sum    = 0.;
-      const double *values = r.trilinos_vector()[0];
+      const double *of_a = a.trilinos_vector()[0], *of_b = b.trilinos_vector()[0];
       for (int i = 0; i < weight.MyLength(); ++i)
-        sum += values[i] * values[i] * weight[i];
+        sum += of_a[i] * of_b[i] * weight[i];
       return sum;
     }
   } // namespace
@@ -34,8 +36,9 @@ namespace mortise
     : system(system)
     , interface_present(system.owned_multiplier.size() > 0)
   {
-    weight_u =
-      std::make_unique<Epetra_Vector>(system.load.trilinos_partitioner());
+    const SystemVector zero = system.zero_vector();
+    weight_u                = std::make_unique<Epetra_Vector>(
+      zero.displacement.trilinos_partitioner());
     if (system.nodal)
       std::copy_n(system.nodal->diagonal().begin(),
                   weight_u->MyLength(),
@@ -47,7 +50,7 @@ namespace mortise
     if (system.mixed())
       {
         weight_p = std::make_unique<Epetra_Vector>(
-          system.pressure_load.trilinos_partitioner());
+          zero.pressure.trilinos_partitioner());
         system.copy_pressure_norm_diagonal(*weight_p);
         for (int i = 0; i < weight_p->MyLength(); ++i)
           (*weight_p)[i] = inverse((*weight_p)[i]);
@@ -72,17 +75,12 @@ namespace mortise
             (*weight_lambda)[i] = inverse(sum);
           }
       }
-    SystemSolution right_hand_side = system.zero_solution();
-    right_hand_side.displacement   = system.load;
-    if (system.mixed())
-      right_hand_side.pressure = system.pressure_load;
-    if (interface_present)
-      right_hand_side.multiplier = system.coupling_rhs;
-    rhs_norm = norm(right_hand_side);
   }
 
   void
-  ScaledResidual::compute(const SystemSolution &x, SystemSolution &r) const
+  ScaledResidual::compute(const SystemVector &rhs,
+                          const SystemVector &x,
+                          SystemVector       &r) const
   {
     if (system.mixed())
       {
@@ -90,34 +88,41 @@ namespace mortise
                            r.pressure,
                            x.displacement,
                            x.pressure);
-        r.pressure.sadd(-1., 1., system.pressure_load);
+        r.pressure.sadd(-1., 1., rhs.pressure);
       }
     else
       system.apply_stiffness(r.displacement, x.displacement);
     if (interface_present)
       {
-        system.coupling.Tvmult_add(r.displacement, x.multiplier);
-        system.coupling.vmult(r.multiplier, x.displacement);
-        r.multiplier.sadd(-1., 1., system.coupling_rhs);
+        system.add_multiplier_force(r.displacement, x.multiplier);
+        system.apply_constraint(r.multiplier, x.displacement);
+        r.multiplier.sadd(-1., 1., rhs.multiplier);
       }
-    r.displacement.sadd(-1., 1., system.load);
+    r.displacement.sadd(-1., 1., rhs.displacement);
   }
 
   double
-  ScaledResidual::norm(const SystemSolution &r) const
+  ScaledResidual::norm(const SystemVector &r) const
   {
-    double square = weighted_square(r.displacement, *weight_u);
+    return std::sqrt(product(r, r));
+  }
+
+  double
+  ScaledResidual::product(const SystemVector &a, const SystemVector &b) const
+  {
+    double sum = weighted_product(a.displacement, b.displacement, *weight_u);
     if (system.mixed())
-      square += weighted_square(r.pressure, *weight_p);
+      sum += weighted_product(a.pressure, b.pressure, *weight_p);
     if (interface_present)
-      square += weighted_square(r.multiplier, *weight_lambda);
-    return std::sqrt(Utilities::MPI::sum(square, system.communicator));
+      sum += weighted_product(a.multiplier, b.multiplier, *weight_lambda);
+    return Utilities::MPI::sum(sum, system.communicator);
   }
 
   double
-  ScaledResidual::magnitude(const SystemSolution &x) const
+  ScaledResidual::magnitude(const SystemVector &rhs,
+                            const SystemVector &x) const
   {
-    SystemSolution sizes = system.zero_solution();
+    SystemVector sizes = system.zero_vector();
     const auto     abs   = [](Vector &to, const Vector &from) {
       for (unsigned int i = 0; i < to.locally_owned_size(); ++i)
         to.begin()[i] = std::fabs(from.begin()[i]);
@@ -141,26 +146,25 @@ namespace mortise
       }
     for (unsigned int i = 0; i < x.displacement.locally_owned_size(); ++i)
       sizes.displacement.begin()[i] +=
-        std::fabs(system.load.begin()[i]) +
+        std::fabs(rhs.displacement.begin()[i]) +
         std::fabs(x.displacement.begin()[i]) / (*weight_u)[i];
     return norm(sizes);
   }
 
   void
-  ScaledResidual::judge(const SystemSolution          &x,
-                        const SystemSolution          &r,
+  ScaledResidual::judge(const Solved                  &solved,
                         const double                   tolerance,
                         const std::function<double()> &relative_error,
                         SolveReport                   &report) const
   {
     // a step of rounding for each of the terms of a row
     constexpr double rounding = 1e-14, largest_error = 1e-6;
-    const double     reached = norm(r);
+    const double     rhs_norm = norm(solved.rhs), reached = norm(solved.r);
     report.relative_residual = reached == 0. ? 0. : reached / rhs_norm;
     report.converged         = reached <= tolerance * rhs_norm;
     if (report.converged || !std::isfinite(reached))
       return;
-    const double least = rounding * magnitude(x);
+    const double least = rounding * magnitude(solved.rhs, solved.x);
     report.attainable  = least / rhs_norm;
     report.converged   = reached <= least && relative_error() <= largest_error;
   }

@@ -24,13 +24,11 @@ namespace mortise
              std::min(1., std::pow((tetrahedra ? 2. : 4.) / p, 1.5));
     }
 
-    /// (lambda + 2 mu) / mu is 3.5 for Poisson's ratio 0.3.
+    /// The ratio is 3.5 for Poisson's ratio 0.3.
     double
-    by_material(const LinearElastic &material)
+    by_material(const Material &material)
     {
-      const double ratio =
-        2. + material.displacement_lambda() / material.lame_mu();
-      return std::min(1., std::sqrt(3.5 / ratio));
+      return std::min(1., std::sqrt(3.5 / material.stiffness_ratio()));
     }
   } // namespace
 

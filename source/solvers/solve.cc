@@ -69,19 +69,20 @@ namespace mortise
             "chosen for more than " + std::to_string(limit) + " dofs" + form};
   }
 
-  SolveReport
-  solve(const BlockSystem   &system,
-        const SolverOptions &options,
-        SystemSolution      &x)
+  std::unique_ptr<LinearSolver>
+  make_linear_solver(const BlockSystem &system, const SolverOptions &options)
   {
+    const bool definite = system.owned_multiplier.size() == 0 && !system.mixed();
     switch (options.method)
       {
         case SolverMethod::direct:
-          return solve_direct(system, options, x);
+          return std::make_unique<DirectSolver>(system, options);
         case SolverMethod::saddle_point:
-          return solve_saddle_point(system, options, x);
+          if (!definite)
+            return std::make_unique<SaddlePointSolver>(system, options);
+          [[fallthrough]]; // conjugate gradients do
         case SolverMethod::condensed:
-          return solve_condensed(system, options, x);
+          return std::make_unique<CondensedSolver>(system, options);
         default:
           Assert(false, dealii::ExcInternalError());
           return {};

@@ -44,7 +44,7 @@ namespace
       .count();
   }
 
-  /// Pattern, matrix and load of one body that nothing holds.
+  /// Pattern and matrix of one body that nothing holds.
   void
   assemble(const Body &body)
   {
@@ -52,14 +52,12 @@ namespace
     const double         start = seconds();
     dealii::DynamicSparsityPattern sparsity(numbering.size(), numbering.size());
     SparseMatrix                   stiffness;
-    Vector                         load;
-    load.reinit(numbering.owned(), MPI_COMM_SELF);
     add_cell_couplings(body, numbering, body.conformity, sparsity);
     const double middle = seconds();
     stiffness.reinit(
       numbering.owned(), numbering.owned(), sparsity, MPI_COMM_SELF, true);
     const double end = seconds();
-    assemble_elasticity(body, {}, numbering, body.conformity, stiffness, load);
+    assemble_elasticity(body, numbering, body.conformity, {}, stiffness);
     stiffness.compress(dealii::VectorOperation::add);
     std::cout << middle - start << ' ' << end - middle << ' ' << seconds() - end
               << std::endl;
@@ -82,7 +80,7 @@ main(int argc, char **argv)
   mesh.subdivisions = {static_cast<unsigned int>(std::atoi(argv[2])),
                        static_cast<unsigned int>(std::atoi(argv[3]))};
 
-  Body body("shell", 0, {10., 0.3});
+  Body body("shell", 0, LinearElastic{10., 0.3});
   body.create_mesh(mesh, MPI_COMM_SELF, "Mesh");
   body.mesh.curved = std::string(argv[4]) == "curved";
   body.create_space(std::atoi(argv[1]), {}, "Body");

@@ -124,7 +124,7 @@ namespace
          const unsigned int p,
          const double       n_dofs)
   {
-    Body           body("body", 0, {1., 0.3});
+    Body           body("body", 0, LinearElastic{1., 0.3});
     MeshParameters mesh;
     mesh.source = source;
     mesh.cells  = cells;

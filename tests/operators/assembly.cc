@@ -1,7 +1,8 @@
-// Proves that assemble_elasticity() gives the matrix and load of the textbook
+// Proves that assemble_elasticity() and its load are the matrix and load of the textbook
 // sums by FEValues, to 1e-12 of the largest entry: hexahedra and tetrahedra,
 // affine, straight and curved, p up to 8, hanging nodes, conditions with values
-// and loads; that it is symmetric and has rigid motions in its kernel.
+// and loads, isotropic and orthotropic; that it is symmetric and has rigid
+// motions in its kernel.
 
 #include <mortise/body/simplex_quadrature.h>
 #include <mortise/operators/cell_kernel.h>
@@ -51,15 +52,36 @@ namespace mortise::testing
     return Point<dim>(1. + x[1], x[0] * x[2], -2.);
   }
 
-  /// sum_q w (lambda dN_i/dx_c dN_j/dx_d + mu dN_i/dx_d dN_j/dx_c
-  ///        + mu delta_cd grad N_i . grad N_j)
+  /// lambda H_cd + mu H_dc + delta_cd mu tr(H), or any law's sum_ef C_cedf
+  /// H_ef.
+  double
+  contracted(const Material       &material,
+             const Tensor<2, dim> &H,
+             const unsigned int    c,
+             const unsigned int    d)
+  {
+    if (const LinearElastic *law = material.isotropic())
+      return law->lame_lambda() * H[c][d] + law->lame_mu() * H[d][c] +
+             (c == d ? law->lame_mu() * trace(H) : 0.);
+    double sum = 0.;
+    for (unsigned int f = 0; f < dim; ++f)
+      {
+        Tensor<2, dim> gradient;
+        gradient[d][f] = 1.;
+        const auto s   = material.stress(gradient);
+        for (unsigned int e = 0; e < dim; ++e)
+          sum += s[c][e] * H[e][f];
+      }
+    return sum;
+  }
+
+  /// H = sum_q w grad N_i (x) grad N_j
   FullMatrix<double>
-  textbook_matrix(const LinearElastic      &material,
+  textbook_matrix(const Material           &material,
                   const FiniteElement<dim> &system,
                   const FEValues<dim>      &values,
                   const unsigned int        n)
   {
-    const double lambda = material.lame_lambda(), mu = material.lame_mu();
     std::vector<std::vector<Tensor<1, dim>>> gradients(n);
     for (unsigned int i = 0; i < n; ++i)
       for (const unsigned int q : values.quadrature_point_indices())
@@ -78,8 +100,7 @@ namespace mortise::testing
                 const unsigned int row = system.component_to_system_index(c, i),
                                    column =
                                      system.component_to_system_index(d, j);
-                K(row, column) = lambda * H[c][d] + mu * H[d][c] +
-                                 (c == d ? mu * trace(H) : 0.);
+                K(row, column) = contracted(material, H, c, d);
                 K(column, row) = K(row, column);
               }
         }
@@ -172,13 +193,24 @@ namespace mortise::testing
     Assembled system;
     system.matrix.reinit(
       numbering.owned(), numbering.owned(), sparsity, MPI_COMM_WORLD, true);
-    system.load.reinit(numbering.owned(), MPI_COMM_WORLD);
+    const AssembledBody assembled = assemble_elasticity(
+      body, numbering, constraints, {true, true}, system.matrix);
+    system.matrix.compress(VectorOperation::add);
+
     Loads loads;
     loads.body_force = force;
-    assemble_elasticity(
-      body, loads, numbering, constraints, system.matrix, system.load);
-    system.matrix.compress(VectorOperation::add);
-    system.load.compress(VectorOperation::add);
+    SceneField field;
+    field.numbering = FieldNumbering({&body.dof_handler}, MPI_COMM_WORLD);
+    field.constraints.copy_from(constraints);
+    for (const auto &line : constraints.get_lines())
+      field.constraints.set_inhomogeneity(line.index, 0.);
+    SceneLoad load;
+    load.prescribed = prescribed_values(constraints);
+    load.interiors.resize(1);
+    load.rhs.displacement.reinit(numbering.owned(), MPI_COMM_WORLD);
+    add_assembled_load(body, loads, assembled, field, nullptr, load);
+    load.rhs.displacement.compress(VectorOperation::add);
+    system.load = load.rhs.displacement;
     return system;
   }
 
@@ -333,9 +365,10 @@ namespace mortise::testing
         const MeshParameters                         &mesh,
         const bool                                    curved,
         const std::map<types::material_id, unsigned> &by_region,
-        const unsigned int                            degree)
+        const unsigned int                            degree,
+        const Material &material = LinearElastic{10., 0.3})
   {
-    Body body("body", 0, {10., 0.3});
+    Body body("body", 0, material);
     body.create_mesh(mesh, MPI_COMM_WORLD, "test");
     body.mesh.curved = curved;
     body.create_space(degree, by_region, "test");
@@ -397,4 +430,15 @@ main(int argc, char **argv)
         check("tetrahedra, curved", shell, true, {}, p);
     }
   check("tetrahedra, two degrees", shell, true, {{1, 3}}, 2);
+
+  const mortise::Orthotropic wood{{{10., 1., 0.5}},
+                                  {{0.35, 0.6, 0.02}},
+                                  {{0.7, 0.05, 0.8}},
+                                  {{20., -35., 70.}}};
+  for (const std::string cells : {"hexahedra", "tetrahedra"})
+    {
+      box.cells = shell.cells = cells;
+      check("orthotropic " + cells + ", affine", box, false, {}, 3, wood);
+      check("orthotropic " + cells + ", curved", shell, true, {}, 2, wood);
+    }
 }

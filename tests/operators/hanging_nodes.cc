@@ -88,16 +88,19 @@ namespace mortise::testing
   std::vector<BodyVector>
   make_function(const NodalScene &scene, const unsigned int seed)
   {
-    mortise::Vector u(scene.field.numbering.owned(), MPI_COMM_WORLD);
-    for (const auto i : scene.field.numbering.owned())
+    mortise::Vector u(scene.fields.displacement.numbering.owned(), MPI_COMM_WORLD);
+    for (const auto i : scene.fields.displacement.numbering.owned())
       u(i) = random_number(seed, i);
     u.compress(VectorOperation::insert);
     std::vector<BodyVector> result;
+    SceneLoad load;
+    load.interiors.resize(scene.bodies.size());
     for (const BodySolution &own :
          body_solutions(scene.bodies,
-                        scene.field,
-                        SceneField(),
-                        std::vector<CondensedInteriors>(scene.bodies.size()),
+                        std::vector<AssembledBody>(scene.bodies.size()),
+                        scene.fields,
+                        BlockSystem(),
+                        load,
                         {u, {}, {}}))
       result.push_back(own.displacement);
     for (BodyVector &body : result) // copies have no ghost values

@@ -58,8 +58,8 @@ namespace mortise::testing
         return extract_surface(
           *pointers[b],
           pointers[b]->boundary_id(b == 0 ? "zmax" : "zmin", ""),
-          scene.field.numbering,
-          scene.field.constraints,
+          scene.fields.displacement.numbering,
+          scene.fields.displacement.constraints,
           spaces);
       };
       couplings.emplace_back();
@@ -72,8 +72,8 @@ namespace mortise::testing
       couplings[0].local = integrate_coupling(*couplings[0].interface, true);
       level              = make_nodal_level(std::move(spaces[0]),
                                0,
-                               scene.field.numbering,
-                               scene.field.constraints,
+                               scene.fields.displacement.numbering,
+                               scene.fields.displacement.constraints,
                                couplings,
                                MPI_COMM_WORLD);
       const LevelOperator<double> stiffness(level, false);

@@ -36,6 +36,7 @@ namespace mortise::testing
           constrain(*bodies[b], constraints[b]);
           constraints[b].close();
         }
+      SceneField &field = fields.displacement;
       field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
       field.constraints = scene_constraints(field.numbering, constraints);
       system            = std::make_unique<NodalSystem>(
@@ -52,7 +53,7 @@ namespace mortise::testing
     }
 
     Bodies                       bodies;
-    SceneField                   field;
+    SceneFields                  fields;
     std::unique_ptr<NodalSystem> system;
   };
 } // namespace mortise::testing

@@ -92,6 +92,64 @@ main()
         "0.5",
         {"Exact solution/Pressure=1"},
         {"Exact solution/Pressure (--set", "allowed: nothing"});
+  const std::string outer       = "Body outer/Material/";
+  const Settings    orthotropic = {outer + "Law=orthotropic",
+                                   outer + "Young moduli=10, 1, 1",
+                                   outer + "Poisson ratios=0.3, 0.4, 0.03",
+                                   outer + "Shear moduli=1, 1, 1"};
+  const auto        with        = [&](const Settings &settings) {
+    Settings all = orthotropic;
+    all.insert(all.end(), settings.begin(), settings.end());
+    return all;
+  };
+  check("orthotropic is allowed", "0.3", orthotropic, {"(no error)"});
+  check("a law that does not exist",
+        "0.3",
+        {outer + "Law=orthotropc"},
+        {outer + "Law (--set", "orthotropc", "linear elastic, orthotropic"});
+  check("orthotropic without constants",
+        "0.3",
+        {outer + "Law=orthotropic"},
+        {outer + "Young moduli", "got 0", "three positive numbers"});
+  check("constants of another law",
+        "0.3",
+        with({outer + "Young modulus=3"}),
+        {outer + "Young modulus (--set",
+         "belongs to Law = linear elastic",
+         "Law = orthotropic",
+         "Young moduli, Poisson ratios, Shear moduli, Axes"});
+  check("orthotropic constants without the law",
+        "0.3",
+        {outer + "Axes=0, 0, 90"},
+        {outer + "Axes (--set",
+         "belongs to Law = orthotropic",
+         "Young modulus, Poisson ratio"});
+  check("two of three moduli",
+        "0.3",
+        with({outer + "Young moduli=10, 1"}),
+        {outer + "Young moduli (--set", "3 numbers"});
+  check("a stiffness that is not positive definite",
+        "0.3",
+        with({outer + "Poisson ratios=0.3, 1.2, 0"}),
+        {outer + "Poisson ratios (--set", "nu_yz = 1.2", "|nu_yz| < 1"});
+  check("mixed form of another law",
+        "0.3",
+        with({"Body outer/Formulation=mixed"}),
+        {"Body outer/Formulation (--set",
+         "\"mixed\" with Law = orthotropic",
+         "Law = linear elastic alone"});
+  const Settings stiff = with({outer + "Young moduli=1, 1, 1",
+                               outer + "Poisson ratios=0.495, 0.495, 0.495"});
+  check("another law nearly incompressible",
+        "0.3",
+        stiff,
+        {"Body outer/Formulation",
+         "nearly incompressible",
+         "Poisson ratio 0.49",
+         "Law = linear elastic alone"});
+  Settings locking = stiff;
+  locking.push_back("Body outer/Formulation=displacement");
+  check("the same in displacement form", "0.3", locking, {"(no error)"});
   const std::string field = "Exact solution/Displacement=x; -y; 0";
   check("no pressure for an expression at 0.5",
         "0.5",

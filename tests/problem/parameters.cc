@@ -100,7 +100,14 @@ namespace
             "printed defaults of a mesh are those of the struct");
     verdict(a.material.young_modulus == b.material.young_modulus &&
               a.material.poisson_ratio == b.material.poisson_ratio &&
-              a.material.law == b.material.law,
+              a.material.law == b.material.law &&
+              a.material.orthotropic.young_moduli ==
+                b.material.orthotropic.young_moduli &&
+              a.material.orthotropic.poisson_ratios ==
+                b.material.orthotropic.poisson_ratios &&
+              a.material.orthotropic.shear_moduli ==
+                b.material.orthotropic.shear_moduli &&
+              a.material.orthotropic.axes == b.material.orthotropic.axes,
             "printed defaults of a material are those of the struct");
     verdict(!a.boundaries.at("NAME").pressure &&
               !a.boundaries.at("NAME").traction &&

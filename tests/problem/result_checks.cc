@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/problem/result_checks.h>
+#include <mortise/solvers/linear_solver.h>
 
 #include <cmath>
 #include <functional>
@@ -80,33 +81,31 @@ namespace
   void
   test_loads()
   {
-    BlockSystem system;
-    system.communicator       = MPI_COMM_SELF;
-    system.owned_displacement = dealii::complete_index_set(3);
-    system.load = Vector(system.owned_displacement, MPI_COMM_SELF);
-    verdict(load_scale(system) == 1. &&
-              message_of([&] { check_loads(system); }) == "(no error)",
+    SystemVector rhs;
+    rhs.displacement.reinit(dealii::complete_index_set(3), MPI_COMM_SELF);
+    verdict(unit_scale(rhs) == 1. &&
+              message_of([&] { check_loads(rhs); }) == "(no error)",
             "no loads");
     for (const double load : {1e-100, 0.1, 1., 3e7, 1e100})
       {
-        system.load[1]     = -load;
-        const double scale = load_scale(system);
-        scale_loads(system, scale);
-        const double scaled = -system.load[1];
-        scale_loads(system, 1. / scale);
+        rhs.displacement[1] = -load;
+        const double factor = unit_scale(rhs);
+        scale(rhs, factor);
+        const double scaled = -rhs.displacement[1];
+        scale(rhs, 1. / factor);
         std::ostringstream what;
         what << "a load of " << load;
-        verdict(scaled >= 0.5 && scaled <= 1. && system.load[1] == -load &&
-                  message_of([&] { check_loads(system); }) == "(no error)",
+        verdict(scaled >= 0.5 && scaled <= 1. && rhs.displacement[1] == -load &&
+                  message_of([&] { check_loads(rhs); }) == "(no error)",
                 what.str());
       }
     for (const double load : {1e-101, 1e-320, 1e101, 1e200})
       {
-        system.load[1] = load;
+        rhs.displacement[1] = load;
         std::ostringstream what;
         what << "at most " << load << "; allowed: 0, or from 1e-100 to 1e+100";
         check_message(what.str(),
-                      [&] { check_loads(system); },
+                      [&] { check_loads(rhs); },
                       {what.str(), "other units"});
       }
   }

@@ -88,11 +88,12 @@ namespace mortise::testing
                  const DrawnBox    &box,
                  const unsigned int f)
   {
-    dealii::SymmetricTensor<2, 3> strain;
+    dealii::Tensor<2, 3> gradient;
     for (unsigned int c = 0; c < 3; ++c)
-      for (unsigned int d = c; d < 3; ++d)
-        strain[c][d] = (scene.G[c][d] + scene.G[d][c]) / 2.;
-    const auto stress = LinearElastic{box.young, box.poisson}.stress(strain);
+      for (unsigned int d = 0; d < 3; ++d)
+        gradient[c][d] = scene.G[c][d];
+    const auto stress =
+      Material(LinearElastic{box.young, box.poisson}).stress(gradient);
     std::array<double, 3> traction;
     for (unsigned int c = 0; c < 3; ++c)
       traction[c] = (f % 2 ? 1. : -1.) * stress[c][f / 2];

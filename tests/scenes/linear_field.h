@@ -2,7 +2,7 @@
 // where two boxes do not meet. It never runs anything.
 #pragma once
 
-#include <mortise/material/linear_elastic.h>
+#include <mortise/material/material.h>
 #include <mortise/problem/parameters.h>
 
 #include "scenes.h"
@@ -29,12 +29,9 @@ namespace mortise::testing
     Settings
     loads(const std::string &lower, const std::string &upper) const
     {
-      dealii::SymmetricTensor<2, 3> strain;
-      for (unsigned int c = 0; c < 3; ++c)
-        for (unsigned int d = c; d < 3; ++d)
-          strain[c][d] = (G[c][d] + G[d][c]) / 2.;
-      const auto stress = LinearElastic{900., 0.25}.stress(strain);
-      const auto load   = [&](const double sign, const std::string &factor) {
+      const auto stress =
+        Material(LinearElastic{900., 0.25}).stress(dealii::Tensor<2, 3>(G));
+      const auto load = [&](const double sign, const std::string &factor) {
         std::string text;
         for (unsigned int c = 0; c < 3; ++c)
           text +=

@@ -252,7 +252,7 @@ namespace mortise::testing
     system.communicator       = MPI_COMM_WORLD;
     system.owned_displacement = u.numbering.owned();
     system.owned_pressure     = p.numbering.owned();
-    assemble_bodies(bodies, {Loads()}, u, p, system);
+    assemble_bodies(bodies, {LoadKinds()}, u, p, system);
 
     Indices free;
     for (unsigned int i = 0; i < p.numbering.size(); ++i)

@@ -69,9 +69,8 @@ namespace mortise::testing
       const unsigned int n_b = fe.base_element(0).get_first_hex_index();
       if (n_b == n)
         return;
-      CondensedInteriors     interiors;
-      dealii::Vector<double> load(n);
-      if (!interiors.eliminate(matrix, load, n_b))
+      CondensedInteriors interiors;
+      if (!interiors.eliminate(matrix, n_b))
         throw std::runtime_error("the interior is not positive definite");
     }
 
@@ -225,13 +224,11 @@ namespace mortise::testing
                                           partner_states(couplings)[0],
                                           blocked);
       coupling.multipliers->number(coupling.interface->slave(), 0);
-      Vector     rhs;
       const auto rows =
         dealii::complete_index_set(coupling.multipliers->n_owned());
       assemble_constraint(couplings,
                           {numbering.owned(), rows, MPI_COMM_WORLD},
-                          constraint,
-                          rhs);
+                          constraint);
     }
 
     Bodies                                         bodies;

@@ -1,6 +1,7 @@
 // Proves that the three methods give the same solution and multipliers, in any
 // units, with prescribed jumps, floating bodies, contrast, without an interface
-// and on ranks without dofs; and that failure is reported.
+// and on ranks without dofs; that later solves start from earlier ones; and that
+// failure is reported.
 #include <mortise/base/error.h>
 #include <mortise/solvers/solve.h>
 
@@ -34,11 +35,25 @@ namespace
     mortise::Vector u, lambda;
   };
 
+  struct Scene
+  {
+    explicit Scene(const springs::Options &options)
+      : builder(options, MPI_COMM_WORLD)
+      , system(builder.build())
+      , rhs(builder.load(system))
+    {}
+
+    springs::Builder builder;
+    BlockSystem      system;
+    SystemVector     rhs;
+  };
+
   Result
-  run(const BlockSystem &system,
+  run(const Scene       &scene,
       const std::string &method,
       const unsigned int max_iterations = 500)
   {
+    const BlockSystem &system = scene.system;
     SolverOptions options;
     options.method =
       choose_solver(
@@ -47,9 +62,10 @@ namespace
         .method;
     options.tolerance      = 1e-11;
     options.max_iterations = max_iterations;
-    Result         result;
-    SystemSolution solution;
-    result.report = solve(system, options, solution);
+    Result       result;
+    SystemVector solution;
+    result.report =
+      make_linear_solver(system, options)->solve(scene.rhs, solution);
     result.u      = solution.displacement;
     result.lambda = solution.multiplier;
     return result;
@@ -64,16 +80,17 @@ namespace
   }
 
   void
-  check_agreement(const std::string &name, const springs::Options &scene)
+  check_agreement(const std::string &name, const springs::Options &options)
   {
-    const BlockSystem system = springs::Builder(scene, MPI_COMM_WORLD).build();
-    const Result      direct = run(system, "direct");
+    const Scene        scene(options);
+    const BlockSystem &system = scene.system;
+    const Result       direct = run(scene, "direct");
     verdict(name + ": direct, residual 1e-12",
             direct.report.relative_residual,
             1e-12);
     for (const std::string method : {"condensed", "saddle point", "auto"})
       {
-        const Result result = run(system, method);
+        const Result result = run(scene, method);
         verdict(name + ": " + method + ", converged",
                 result.report.converged ? 0. : 1.,
                 0.);
@@ -90,7 +107,7 @@ namespace
                     1e-8);
             mortise::Vector jump(result.lambda);
             system.coupling.vmult(jump, result.u);
-            jump -= system.coupling_rhs;
+            jump -= scene.rhs.multiplier;
             if (method == std::string("condensed"))
               verdict(name + ": constraint to rounding",
                       jump.linfty_norm() / result.u.linfty_norm(),
@@ -105,10 +122,10 @@ namespace
   {
     springs::Options scene;
     scene.gap               = 0.3;
-    const BlockSystem plain = springs::Builder(scene, MPI_COMM_WORLD).build();
+    const Scene plain(scene);
     scene.stiffness         = 1e9;
     scene.length            = 1e-3;
-    const BlockSystem other = springs::Builder(scene, MPI_COMM_WORLD).build();
+    const Scene other(scene);
     for (const std::string method : {"condensed", "saddle point"})
       {
         const double a = run(plain, method).report.iterations;
@@ -119,11 +136,62 @@ namespace
       }
   }
 
+  /// A later load that is a combination of earlier ones is solved at the start; one that is not
+  /// is solved as by a new solver; other numbers are taken after update().
+  void
+  check_later_solves(const std::string &method)
+  {
+    springs::Options options;
+    options.gap = 0.3;
+    Scene scene(options);
+    options.load = 0.;
+    const Scene   jump(options);
+    SolverOptions solver_options;
+    solver_options.method     = solver_method_from_name(method);
+    solver_options.tolerance  = 1e-11;
+    solver_options.successive = 3;
+    const auto   solver = make_linear_solver(scene.system, solver_options);
+    SystemVector x, other;
+    solver->solve(scene.rhs, x);
+    solver->solve(jump.rhs, other);
+    SystemVector rhs = scene.rhs;
+    scale(rhs, -2.5);
+    add_scaled(rhs, 7., jump.rhs);
+    const auto   report = solver->solve(rhs, x);
+    SystemVector y;
+    make_linear_solver(scene.system, solver_options)->solve(rhs, y);
+    verdict(method + ": a combination of loads is solved at once",
+            method == "direct" ? 0. : report.iterations,
+            0.);
+    verdict(method + ": it is that of a new solver, 1e-8",
+            difference(x.displacement, y.displacement) +
+              difference(x.multiplier, y.multiplier),
+            1e-8);
+    verdict(method + ": no setup for later loads", report.setup_seconds, 0.);
+
+    rhs.displacement = 0.;
+    rhs.multiplier   = 0.;
+    solver->solve(rhs, x);
+    verdict(method + ": no load after loads, no displacement",
+            x.displacement.l2_norm() + x.multiplier.l2_norm(),
+            0.);
+
+    scene.system.stiffness *= 2.;
+    scene.system.jump_penalty *= 2.;
+    solver->update();
+    const auto again = solver->solve(scene.rhs, x);
+    make_linear_solver(scene.system, solver_options)->solve(scene.rhs, y);
+    verdict(method + ": after update() that of the new numbers, 1e-8",
+            difference(x.displacement, y.displacement) +
+              (again.converged ? 0. : 1.),
+            1e-8);
+  }
+
   void
   check_failures()
   {
     springs::Options  scene;
-    const BlockSystem system = springs::Builder(scene, MPI_COMM_WORLD).build();
+    const Scene      system(scene);
     for (const std::string method : {"condensed", "saddle point"})
       {
         const Result result = run(system, method, 3);
@@ -136,9 +204,9 @@ namespace
                 0.);
       }
     scene.load             = 0.;
-    const BlockSystem zero = springs::Builder(scene, MPI_COMM_WORLD).build();
+    const Scene zero(scene);
     scene.load             = std::numeric_limits<double>::quiet_NaN();
-    const BlockSystem nan  = springs::Builder(scene, MPI_COMM_WORLD).build();
+    const Scene nan(scene);
     for (const std::string method : {"direct", "condensed", "saddle point"})
       {
         const Result result = run(zero, method);
@@ -186,5 +254,7 @@ main(int argc, char **argv)
   scene.first_ranks = 1;
   check_agreement("one rank owns all", scene);
   check_units();
+  for (const std::string method : {"direct", "condensed", "saddle point"})
+    check_later_solves(method);
   check_failures();
 }

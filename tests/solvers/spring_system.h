@@ -48,6 +48,25 @@ namespace springs
       owned_ties   = share(o.tied ? n * n : 0, rank, ranks);
     }
 
+    /// f and g.
+    SystemVector
+    load(const BlockSystem &system) const
+    {
+      SystemVector rhs = system.zero_vector();
+      for (unsigned int p = owned_points.first; p < owned_points.second; ++p)
+        for (unsigned int d = 0; d < 3; ++d)
+          if (!is_fixed(p))
+            rhs.displacement[3 * p + d] =
+              o.load * o.stiffness / o.length * ((p * 7 + d * 3) % 5 - 1.5);
+      rhs.displacement.compress(dealii::VectorOperation::insert);
+      for (unsigned int t = owned_ties.first; t < owned_ties.second; ++t)
+        for (unsigned int d = 0; d < 3; ++d)
+          rhs.multiplier[3 * t + d] = area(t) * o.gap * o.length * (1. + d);
+      if (o.tied)
+        rhs.multiplier.compress(dealii::VectorOperation::insert);
+      return rhs;
+    }
+
     BlockSystem
     build() const
     {
@@ -113,6 +132,13 @@ namespace springs
              (block(p) == 1 && x == n - 1 && !o.floating);
     }
 
+    /// What a tie counts.
+    static double
+    area(const unsigned int t)
+    {
+      return 1. + 0.1 * (t % 3);
+    }
+
     /// Each spring between near points p, q: k (d (x) d + 0.2 I) on u_p - u_q.
     void
     fill_bulk(BlockSystem &system) const
@@ -134,7 +160,6 @@ namespace springs
                               system.owned_displacement,
                               pattern,
                               comm);
-      system.load.reinit(system.owned_displacement, comm);
       for (unsigned int p = owned_points.first; p < owned_points.second; ++p)
         {
           const double k = o.stiffness / (o.length * o.length) *
@@ -165,13 +190,9 @@ namespace springs
                 system.stiffness.set(3 * p + c / 3,
                                      3 * p + c % 3,
                                      diagonal[c / 3][c % 3]);
-              for (unsigned int d = 0; d < 3; ++d)
-                system.load[3 * p + d] =
-                  o.load * o.stiffness / o.length * ((p * 7 + d * 3) % 5 - 1.5);
             }
         }
       system.stiffness.compress(dealii::VectorOperation::insert);
-      system.load.compress(dealii::VectorOperation::insert);
     }
 
     /// Tie t joins one point of each block; scaled as a mass matrix would be.
@@ -214,18 +235,15 @@ namespace springs
                                  system.owned_displacement,
                                  j,
                                  comm);
-      system.coupling_rhs.reinit(system.owned_multiplier, comm);
       for (unsigned int t = 0; t < n * n; ++t)
         for (unsigned int d = 0; d < 3; ++d)
           {
             const Index l = 3 * t + d, s = 3 * slave(t) + d,
-                        m     = 3 * master(t) + d;
-            const double area = 1. + 0.1 * (t % 3);
+                        m = 3 * master(t) + d;
             if (system.owned_multiplier.is_element(l))
               {
-                system.coupling.set(l, s, area);
-                system.coupling.set(l, m, -area);
-                system.coupling_rhs[l] = area * o.gap * o.length * (1. + d);
+                system.coupling.set(l, s, area(t));
+                system.coupling.set(l, m, -area(t));
               }
             for (const Index row : {s, m})
               if (system.owned_displacement.is_element(row))
@@ -236,7 +254,6 @@ namespace springs
           }
       for (auto *matrix : {&system.coupling, &system.jump_penalty})
         matrix->compress(dealii::VectorOperation::insert);
-      system.coupling_rhs.compress(dealii::VectorOperation::insert);
     }
 
     const Options      o;

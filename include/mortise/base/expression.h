@@ -1,6 +1,5 @@
-// Expressions in x, y, z with exact first and second derivatives.
-// It never differentiates by finite differences and knows no mesh, time or
-// units.
+// Expressions in x, y, z with exact first and second derivatives; the time t in
+// them has a value from the start. It never differentiates by finite differences.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -16,7 +15,7 @@ namespace mortise
   /// A scalar expression of the position. Grammar, from weak to strong binding:
   ///   c ? a : b    ||    &&    < <= > >= == !=    + -    * /    unary + - ! ^
   ///   (right to left)
-  /// with numbers, parentheses, the variables x, y, z, the constant pi and the
+  /// with numbers, parentheses, the variables x, y, z, the time t, the constant pi and the
   /// functions
   ///   sin cos tan asin acos atan sinh cosh tanh exp log sqrt abs   (one
   ///   argument) atan2 min max pow (two)   if(condition, then, else) (three;
@@ -30,10 +29,12 @@ namespace mortise
     /// The constant zero.
     Expression();
 
-    /// Parse @p text; @p where names the parameter in messages. Throws InputError with the
-    /// position of the first character that is not understood and what is
-    /// allowed there.
-    explicit Expression(const std::string &text, const std::string &where = "");
+    /// Parse @p text, for the given time; @p where names the parameter in messages. Throws
+    /// InputError with the position of the first character that is not
+    /// understood and what is allowed there.
+    explicit Expression(const std::string &text,
+                        const std::string &where = "",
+                        double             time  = 0.);
 
     double
     value(const dealii::Point<3> &p) const;
@@ -48,6 +49,13 @@ namespace mortise
     /// Whether the value is the same at every point (after folding).
     bool
     is_constant() const;
+
+    /// Whether the text says t, so that another time may give other values.
+    bool
+    depends_on_time() const
+    {
+      return has_time;
+    }
 
     /// Value and both derivatives in one pass.
     struct Jet
@@ -88,12 +96,13 @@ namespace mortise
     };
 
   private:
-    /// In source/base/expression_parser.cc.
-    static std::vector<Node>
-    parse(const std::string &text, const std::string &where);
+    /// Sets all members. In source/base/expression_parser.cc.
+    void
+    parse(const std::string &text, const std::string &where, double time);
 
     std::vector<Node>
-      nodes; ///< operands before operations; the last is the root
+         nodes; ///< operands before operations; the last is the root
+    bool has_time = false;
   };
 
   /// Three expressions, the components of a vector.
@@ -103,10 +112,11 @@ namespace mortise
     /// The constant zero.
     VectorExpression() = default;
 
-    /// Parse "ex; ey; ez". Throws InputError as Expression does, and for
-    /// another number of parts.
+    /// Parse "ex; ey; ez" for the given time. Throws InputError as Expression
+    /// does, and for another number of parts.
     explicit VectorExpression(const std::string &text,
-                              const std::string &where = "");
+                              const std::string &where = "",
+                              double             time  = 0.);
 
     dealii::Tensor<1, 3>
     value(const dealii::Point<3> &p) const;

@@ -17,7 +17,7 @@
 #include <mortise/body/hp_constraints.h>
 #include <mortise/body/mesh_source.h>
 #include <mortise/body/pressure_space.h>
-#include <mortise/material/linear_elastic.h>
+#include <mortise/material/material.h>
 
 #include <map>
 #include <memory>
@@ -32,9 +32,7 @@ namespace mortise
     using CellIterator = dealii::DoFHandler<dim>::active_cell_iterator;
 
     /// @p index is the position of the body in the scene.
-    Body(const std::string   &name,
-         unsigned int         index,
-         const LinearElastic &material);
+    Body(const std::string &name, unsigned int index, const Material &material);
 
     /// Mesh of the body, spread over @p comm; the names are those of create_mesh(). Collective;
     /// throws InputError (@p where starts the message).
@@ -47,8 +45,8 @@ namespace mortise
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
     /// of a cell; mapping of the largest degree on curved meshes; conformity
     /// constraints; pressures if the material is mixed, which needs degrees
-    /// above one. Collective; throws InputError for a region that the mesh does
-    /// not have.
+    /// above one. Replaces those of an earlier call. Collective; throws
+    /// InputError for a region that the mesh does not have.
     void
     create_space(
       unsigned int                                          degree,
@@ -89,9 +87,9 @@ namespace mortise
       return fe[fe.size() - 1].degree;
     }
 
-    const std::string   name;
-    const unsigned int  index;
-    const LinearElastic material;
+    const std::string  name;
+    const unsigned int index;
+    const Material     material;
 
     Mesh mesh; ///< first among what refers to it
     /// Systems of three FE_Legendre or FE_SimplexLegendre (two orders of

@@ -16,7 +16,7 @@
 namespace mortise
 {
   /// Displacement on one face: u_c(xi) = sum_k N_k(xi) (sum_j weight_j
-  /// d_column_j + constant), with N_k the functions of basis() and row = c
+  /// d_column_j + g_dof), with N_k the functions of basis() and row = c
   /// n_functions() + k. Constraints of the body are resolved.
   struct FaceTrace
   {
@@ -28,7 +28,8 @@ namespace mortise
     std::vector<dealii::types::global_dof_index>
                         column; ///< numbering of the scene
     std::vector<double> weight;
-    std::vector<double> constant; ///< by row: prescribed displacements
+    /// By row: whose prescribed value is added, invalid where it is free.
+    std::vector<dealii::types::global_dof_index> prescribed;
     /// By level, for iterative solvers that use a NodalSpace, else empty.
     std::vector<FaceNodes> nodes;
 
@@ -50,7 +51,7 @@ namespace mortise
     {
       int shape_number = static_cast<int>(shape);
       archive &shape_number &degree &modulus &depth &begin &column &weight
-        &constant &nodes;
+        &prescribed &nodes;
       shape = static_cast<FaceShape>(shape_number);
     }
   };

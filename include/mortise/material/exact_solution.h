@@ -4,7 +4,7 @@
 
 #include <mortise/base/expression.h>
 #include <mortise/base/rigid_motion.h>
-#include <mortise/material/linear_elastic.h>
+#include <mortise/material/material.h>
 
 #include <string>
 #include <vector>
@@ -41,9 +41,9 @@ namespace mortise
   class ExpressionSolution : public ExactSolution
   {
   public:
-    ExpressionSolution(const VectorExpression           &displacement,
-                       const std::vector<LinearElastic> &materials,
-                       const Expression &pressure = Expression());
+    ExpressionSolution(const VectorExpression      &displacement,
+                       const std::vector<Material> &materials,
+                       const Expression            &pressure = Expression());
 
     dealii::Tensor<1, 3>
     displacement(const dealii::Point<3> &p, unsigned int body) const override;
@@ -57,9 +57,9 @@ namespace mortise
     n_bodies() const override;
 
   private:
-    VectorExpression           expression;
-    std::vector<LinearElastic> materials;
-    Expression                 pressure;
+    VectorExpression      expression;
+    std::vector<Material> materials;
+    Expression            pressure;
   };
 
   /// Lame's thick sphere, or thick cylinder in plane strain, of one or more

@@ -3,11 +3,7 @@
 // displacement and pressure. It never knows a discretisation.
 #pragma once
 
-#include <deal.II/base/symmetric_tensor.h>
-#include <deal.II/base/tensor.h>
-
-#include <array>
-#include <string>
+#include <mortise/material/law.h>
 
 namespace mortise
 {
@@ -20,7 +16,7 @@ namespace mortise
     ///     sigma = 2 mu strain + lambda_u tr(strain) I - p I,  tr(strain) + c p
     ///     = 0,
     ///
-    /// with lambda_u and c below; else by stress(strain).
+    /// with lambda_u and c below; else by law().
     bool mixed = false;
 
     /// lambda = E nu / ((1 + nu) (1 - 2 nu)); infinite for nu = 0.5.
@@ -64,51 +60,20 @@ namespace mortise
              1. / (2. / 3. * lame_mu() + displacement_lambda());
     }
 
-    /// The stress by displacement and pressure, which is zero if not mixed.
-    dealii::SymmetricTensor<2, 3>
-    stress(const dealii::SymmetricTensor<2, 3> &strain,
-           const double                         pressure) const
+    /// The whole law; nu < 0.5.
+    template <typename Number = double>
+    IsotropicLaw<Number>
+    law() const
     {
-      dealii::SymmetricTensor<2, 3> sigma = 2. * lame_mu() * strain;
-      const double mean = displacement_lambda() * trace(strain) - pressure;
-      for (unsigned int d = 0; d < 3; ++d)
-        sigma[d][d] += mean;
-      return sigma;
+      return {Number(lame_lambda()), Number(lame_mu())};
     }
 
-    /// The pressure p of the mixed form that belongs to a strain and its
-    /// stress.
-    double
-    pressure(const dealii::SymmetricTensor<2, 3> &strain,
-             const dealii::SymmetricTensor<2, 3> &stress) const
+    /// The share of the displacement: all of it if not mixed.
+    template <typename Number = double>
+    IsotropicLaw<Number>
+    displacement_law() const
     {
-      return ((2. * lame_mu() + 3. * displacement_lambda()) * trace(strain) -
-              trace(stress)) /
-             3.;
+      return {Number(displacement_lambda()), Number(lame_mu())};
     }
-
-    /// sigma = lambda tr(strain) I + 2 mu strain, tensor components (not
-    /// engineering shears); nu < 0.5.
-    dealii::SymmetricTensor<2, 3>
-    stress(const dealii::SymmetricTensor<2, 3> &strain) const
-    {
-      dealii::SymmetricTensor<2, 3> sigma = 2. * lame_mu() * strain;
-      const double                  mean  = lame_lambda() * trace(strain);
-      for (unsigned int d = 0; d < 3; ++d)
-        sigma[d][d] += mean;
-      return sigma;
-    }
-
-    /// Force per volume that balances a displacement with second derivatives @p hessian
-    /// (hessian[i] of u_i): b = -div sigma = -(lambda + mu) grad div u - mu
-    /// laplace u.
-    dealii::Tensor<1, 3>
-    body_force(
-      const std::array<dealii::SymmetricTensor<2, 3>, 3> &hessian) const;
-
-    /// Throw InputError unless E > 0 and -1 < nu < 0.5, or 0 < nu <= 0.5 if mixed; @p where names the
-    /// subsection in the message.
-    void
-    validate(const std::string &where) const;
   };
 } // namespace mortise

@@ -35,13 +35,20 @@ namespace mortise
     MPI_Comm                comm;
   };
 
-  /// The constraint B u = g of all interfaces: B = [D, -M], multipliers x
-  /// displacements, with Dirichlet values moved to g. Collective.
+  /// The constraint B u = 0 of all interfaces: B = [D, -M], multipliers x
+  /// displacements that are free. Collective.
   void
   assemble_constraint(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition,
-                      SparseMatrix                &coupling,
-                      Vector                      &coupling_rhs);
+                      SparseMatrix                &coupling);
+
+  /// The columns that this B lacks: those of prescribed displacements, and of
+  /// what hangs on them, in the numbering of the scene, which the partition has
+  /// for displacements here. Collective.
+  void
+  assemble_prescribed_columns(const std::vector<Coupling> &couplings,
+                              const CouplingPartition     &partition,
+                              SparseMatrix                &coupling);
 
   /// What preconditioners need: the jump penalty J, see BlockSystem; the
   /// couplings were integrated with the masters' masses. Collective.
@@ -101,4 +108,12 @@ namespace mortise
   multiplier_on_faces(const Coupling &coupling,
                       const Vector   &multiplier,
                       MPI_Comm        comm);
+
+  /// What undoes multiplier_on_faces(): sets the multipliers of @p coupling that stand alone in
+  /// some coefficient; others are left as they are. The caller compresses
+  /// (insert).
+  void
+  set_multiplier(const Coupling                         &coupling,
+                 const std::vector<std::vector<double>> &coefficients,
+                 Vector                                 &multiplier);
 } // namespace mortise

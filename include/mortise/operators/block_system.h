@@ -1,13 +1,13 @@
-// The assembled saddle-point system of a whole scene, all bodies and all
-// interfaces in one numbering:
+// The linear operator of a whole scene, all bodies and all interfaces in one
+// numbering,
 //
-//     [ K  G^T  B^T ] [ u      ]   [ f ]
-//     [ G  -C    0  ] [ p      ] = [ h ]
-//     [ B   0    0  ] [ lambda ]   [ g ]
+//     [ K  G^T  B^T ] [ u      ]
+//     [ G  -C    0  ] [ p      ]
+//     [ B   0    0  ] [ lambda ]
 //
 // where the pressure p is that of bodies in mixed form, if there are any,
-// together with what preconditioners need to know about it. It never solves and
-// knows no mesh.
+// together with what preconditioners need to know about it. Prescribed
+// displacements are zero here: what they bring is part of a step's load.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -22,12 +22,20 @@
 
 namespace mortise
 {
-  /// (u, p, lambda); p has size zero without mixed bodies, lambda without an
-  /// interface.
-  struct SystemSolution
+  /// (u, p, lambda), or what is dual to them: loads (f, h, g) and residuals. p has size zero
+  /// without mixed bodies, lambda without an interface.
+  struct SystemVector
   {
     Vector displacement, pressure, multiplier;
   };
+
+  /// x *= factor.
+  void
+  scale(SystemVector &x, double factor);
+
+  /// x += factor y.
+  void
+  add_scaled(SystemVector &x, double factor, const SystemVector &y);
 
   /// Indices are global, numbered rank by rank, so that what a rank owns is one
   /// contiguous range in the displacement and one in the multiplier numbering;
@@ -48,15 +56,13 @@ namespace mortise
 
     /// K, symmetric, the interiors of cells eliminated; a constrained or
     /// eliminated degree of freedom (Dirichlet, hanging node, interior of a
-    /// cell) has a row and a column that are zero but for a positive diagonal,
-    /// and zero in f. Singular when a body is held only by its interfaces.
+    /// cell) has a row and a column that are zero but for a positive diagonal.
+    /// Singular when a body is held only by its interfaces.
     SparseMatrix stiffness;
-    Vector       load;
 
     /// G = -int q div u and C = int c p q, c the compressibility; constrained
     /// rows and columns are zero, but for a positive diagonal of C.
     SparseMatrix divergence, compliance;
-    Vector       pressure_load;
     /// P = int p q (c + 1 / (2/3 mu + lambda_u)), which C + G K^{-1} G^T is
     /// spectrally equivalent to, whatever c is; in cells some of whose
     /// displacements are prescribed, what element_schur() has instead.
@@ -65,10 +71,8 @@ namespace mortise
     FreePressures free_pressures;
 
     /// B: rows are multipliers, columns displacements; columns of constrained
-    /// dofs are zero. No rows at all when the scene has no interface. The
-    /// constraint reads B u = g.
+    /// dofs are zero. No rows at all when the scene has no interface.
     SparseMatrix coupling;
-    Vector       coupling_rhs;
 
     /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the
     /// softer side: symmetric, positive semi-definite, touches interface dofs
@@ -114,6 +118,14 @@ namespace mortise
     void
     add_pressure_force(Vector &dst, const Vector &p) const;
 
+    /// dst += B^T lambda, the forces of the multipliers. Collective.
+    void
+    add_multiplier_force(Vector &dst, const Vector &lambda) const;
+
+    /// dst = B u, what the constraints see. Collective.
+    void
+    apply_constraint(Vector &dst, const Vector &u) const;
+
     /// dst = P p. Collective.
     void
     apply_pressure_norm(Vector &dst, const Vector &p) const;
@@ -123,8 +135,8 @@ namespace mortise
     copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const;
 
     /// Zero, on the owned ranges. Collective.
-    SystemSolution
-    zero_solution() const
+    SystemVector
+    zero_vector() const
     {
       return {Vector(owned_displacement, communicator),
               Vector(owned_pressure, communicator),

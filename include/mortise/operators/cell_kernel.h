@@ -39,9 +39,9 @@ namespace mortise
 
     /// With H_cd(i, j) = int dN_i/dx_c dN_j/dx_d,
     ///
-    ///     K_(ic)(jd) = lambda H_cd + mu H_dc + delta_cd mu sum_e H_ee
+    ///     K_(ic)(jd) = sum_ef C_cedf H_ef(i, j)
     ///
-    /// in the numbering of the system. False, and @p matrix unusable, if the
+    /// with the moduli C of the law, in the numbering of the system. False, and @p matrix unusable, if the
     /// Jacobian is not positive at a point.
     bool
     compute(const Body::CellIterator &cell, dealii::FullMatrix<double> &matrix);
@@ -58,9 +58,17 @@ namespace mortise
     integrate(const Body::CellIterator &cell);
 
     void
-    combine(dealii::FullMatrix<double> &matrix) const;
+    combine(dealii::FullMatrix<double> &matrix);
 
-    const double                               lambda, mu;
+    struct Term
+    {
+      unsigned int e, f;
+      double       modulus;
+    };
+
+    /// Of the sum in compute(), where the modulus is not zero, [c][d], c <= d.
+    std::array<std::array<std::vector<Term>, dim>, dim> terms;
+
     const unsigned int                         n;
     std::array<std::vector<unsigned int>, dim> system_index;
     /// R_ab(i, j) = int dN_i/dxi_a dN_j/dxi_b over the reference cell, [a][b]
@@ -70,6 +78,7 @@ namespace mortise
     std::vector<double> weights;
     std::vector<double> reference_gradients; ///< [q][a][i]
     std::vector<double> gradients;           ///< G, [q][c][i]
-    std::vector<double> products;            ///< H, [c][i][d][j], c <= d
+    std::vector<double> products; ///< H, [c][i][d][j], at first c <= d
+    std::vector<double> row;      ///< workspace
   };
 } // namespace mortise

@@ -18,18 +18,27 @@ namespace mortise
   class CondensedInteriors
   {
   public:
-    /// Eliminate all but the first @p n_boundary unknowns of a cell's symmetric matrix and load; S
-    /// and g stand in the leading part of both afterwards. False when K_ii is
-    /// not positive definite.
-    bool
-    eliminate(dealii::FullMatrix<double> &matrix,
-              dealii::Vector<double>     &load,
-              unsigned int                n_boundary);
+    /// @p loaded: condense() will be called.
+    explicit CondensedInteriors(const bool loaded = false)
+      : loaded(loaded)
+    {}
 
-    /// u_i of the @p cell-th cell eliminated, from its u_b.
+    /// Eliminate all but the first @p n_boundary unknowns of a cell's symmetric matrix; S stands
+    /// in the leading part afterwards. False when K_ii is not positive definite.
+    bool
+    eliminate(dealii::FullMatrix<double> &matrix, unsigned int n_boundary);
+
+    /// K_ii^{-1} f_i of the load f of the @p cell-th cell eliminated; the leading part of the
+    /// load becomes g.
+    std::vector<double>
+    condense(unsigned int cell, dealii::Vector<double> &load) const;
+
+    /// u_i of the @p cell-th cell eliminated, from its u_b and K_ii^{-1} f_i, empty where there
+    /// is no load.
     std::vector<double>
     recover(unsigned int               cell,
-            const std::vector<double> &boundary_values) const;
+            const std::vector<double> &boundary_values,
+            const std::vector<double> &particular) const;
 
     unsigned int
     n_cells() const
@@ -40,10 +49,12 @@ namespace mortise
   private:
     struct Cell
     {
-      std::vector<double> particular; ///< K_ii^{-1} f_i
-      std::vector<double> extension;  ///< X^T, n_b x n_i, column major
+      int                 n_b, n_i;
+      std::vector<double> extension; ///< X^T, n_b x n_i, column major
+      std::vector<double> factor;    ///< of K_ii = L L^T, if loaded
     };
 
+    bool              loaded;
     std::vector<Cell> cells;
   };
 } // namespace mortise

@@ -1,5 +1,5 @@
-// Linear elasticity of one body assembled into the system of the scene, and its
-// loads. It never knows of interfaces and never solves.
+// Linear elasticity of one body assembled into the matrix of the scene, and its
+// loads.
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>
@@ -13,6 +13,7 @@
 #include <mortise/operators/condensed_interiors.h>
 
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace mortise
@@ -35,20 +36,45 @@ namespace mortise
 
   class PressureScatter;
 
-  /// Add int sigma(u):eps(v) and int b.v + int t.v to @p stiffness and @p load, interiors of cells
-  /// eliminated and constraints resolved; the caller compresses. The row of an
-  /// interior dof has nothing but its diagonal. What pressures bring goes to
-  /// @p pressures, which only bodies in mixed form need. Returns the interiors of the
-  /// owned cells, in the order of iteration, none at degree 1; their boundaries
-  /// include the pressures. Collective; throws InputError on all ranks for a
-  /// cell of negative volume.
-  CondensedInteriors
+  /// What loads there may be at any time.
+  struct LoadKinds
+  {
+    bool body_force = false;
+    bool prescribed = false; ///< displacements that are not zero
+  };
+
+  /// Columns of constrained displacements, which the matrix of the scene lacks, by
+  /// cell: what prescribed values need.
+  struct PrescribedColumns
+  {
+    struct Cell
+    {
+      std::vector<unsigned int>  columns; ///< dofs of the cell
+      dealii::FullMatrix<double> block;   ///< its dofs, interiors eliminated, x columns
+    };
+    std::map<unsigned int, Cell> cells; ///< by active cell index
+  };
+
+  /// What the assembly of a body keeps for loads and solutions. Interiors are
+  /// in the order of iteration over owned cells, none at degree 1; their
+  /// boundaries include the pressures.
+  struct AssembledBody
+  {
+    CondensedInteriors interiors;
+    PrescribedColumns  prescribed;
+  };
+
+  /// Add int sigma(u):eps(v) to @p stiffness, interiors of cells eliminated and constraints
+  /// resolved; the caller compresses. The row of an interior dof has nothing
+  /// but its diagonal. What pressures bring goes to @p pressures, which only bodies in mixed
+  /// form need. Collective; throws InputError on all ranks for a cell of
+  /// negative volume.
+  AssembledBody
   assemble_elasticity(const Body                              &body,
-                      const Loads                             &loads,
                       const FieldNumbering                    &numbering,
                       const dealii::AffineConstraints<double> &constraints,
+                      const LoadKinds                         &kinds,
                       SparseMatrix                            &stiffness,
-                      Vector                                  &load,
                       PressureScatter *pressures = nullptr);
 
   /// Calls @p visit with the owned cells that may have loads and int b.v + int

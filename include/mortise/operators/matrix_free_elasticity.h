@@ -20,9 +20,9 @@ namespace mortise
     bool         tetrahedra = false;
     unsigned int degree     = 1;
     /// Per cell; points only of cells with a Jacobian that varies.
-    unsigned int n_nodes = 0, n_points = 0;
-    double       lambda = 0., mu = 0.;
-    unsigned int n_cells = 0;
+    unsigned int     n_nodes = 0, n_points = 0;
+    PointLaw<Number> law;
+    unsigned int     n_cells = 0;
     /// Batches with constant Jacobians come first.
     unsigned int n_affine = 0, n_batches = 0;
     unsigned int n_affine_cells = 0;

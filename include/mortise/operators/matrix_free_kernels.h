@@ -65,11 +65,14 @@ namespace mortise
           const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
           gather<N>(src, nodes, u);
           evaluate(u, g);
-          const Number lambda = cells.lambda, mu = cells.mu;
-          if (batch < cells.n_affine)
-            at_points<true>(metric, lambda, mu, g);
-          else
-            at_points<false>(metric, lambda, mu, g);
+          std::visit(
+            [&](const auto &law) {
+              if (batch < cells.n_affine)
+                at_points<true>(metric, law, g);
+              else
+                at_points<false>(metric, law, g);
+            },
+            cells.law);
           integrate(g, u);
           scatter_add<N>(u, nodes, dst);
         }
@@ -147,22 +150,21 @@ namespace mortise
     using Antisymmetric = LineMatrix<Number, n, n, true>;
 
     /// Gradients of u to what is tested with gradients of v, weights included.
-    template <bool affine>
+    template <bool affine, typename Law>
     void
-    at_points(const V *metric, const Number lambda, const Number mu, V *g) const
+    at_points(const V *metric, const Law law, V *g) const
     {
       for (int q = 0; q < N; ++q)
         {
           V G[dim][dim], h[dim][dim], s[dim][dim];
           metric_at<affine>(metric, q, G);
           gradient_at(g + q, N, G, h);
-          stress_of(h, lambda, mu, s);
+          law.tangent(Undeformed(), h, s);
           set_stress(s, G, N, g + q);
         }
     }
 
-    /// sum_e (mu + (lambda + mu) delta_ce) G_ie G_je at all points, twice that
-    /// for i != j.
+    /// diagonal_coefficient() at all points.
     void
     coefficients(const CellBatches<Number> &cells,
                  const unsigned int         batch,
@@ -173,18 +175,15 @@ namespace mortise
     {
       const V   *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
       const bool affine = batch < cells.n_affine;
-      for (int q = 0; q < N; ++q)
-        {
-          const V *G   = affine ? metric : metric + q * n9;
-          V        sum = {};
-          for (unsigned int e = 0; e < dim; ++e)
-            sum += Number(cells.mu + (e == c ? cells.lambda + cells.mu : 0.)) *
-                   G[dim * i + e] * G[dim * j + e];
-          const Number factor =
-            (i == j ? 1 : 2) *
-            (affine ? root_weights[q] * root_weights[q] : Number(1));
-          result[q] = factor * sum;
-        }
+      std::visit(
+        [&](const auto &law) {
+          for (int q = 0; q < N; ++q)
+            result[q] =
+              (affine ? root_weights[q] * root_weights[q] : Number(1)) *
+              diagonal_coefficient(
+                law, c, i, j, affine ? metric : metric + q * n9);
+        },
+        cells.law);
     }
 
     /// result_k += sum_q a_q dN_k/dxi_i dN_k/dxi_j; @p a is overwritten.

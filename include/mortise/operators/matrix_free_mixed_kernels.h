@@ -169,14 +169,14 @@ namespace mortise
               V                         *p) const
     {
       const V     *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
-      const Number lambda = cells.lambda, mu = cells.mu,
-                   compressibility = cells.compressibility;
+      const auto   law    = std::get<IsotropicLaw<Number>>(cells.law);
+      const Number compressibility = cells.compressibility;
       for (int q = 0; q < N; ++q)
         {
           V G[dim][dim], h[dim][dim], s[dim][dim];
           this->template metric_at<affine>(metric, q, G);
           gradient_at(g + q, N, G, h);
-          stress_of(h, lambda, mu, s);
+          law.tangent(Undeformed(), h, s);
           const V w = root(G, q), weighted = w * p[q];
           for (unsigned int c = 0; c < dim; ++c)
             s[c][c] -= weighted;

@@ -4,7 +4,6 @@
 
 #include <deal.II/lac/affine_constraints.h>
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/vector.h>
 
 #include <mortise/base/types.h>
 
@@ -12,25 +11,22 @@
 
 namespace mortise
 {
-  /// The same sums as AffineConstraints::distribute_local_to_global(), to
-  /// rounding. Where no dof of a cell depends on others and a row is owned, the
+  /// The same sums as AffineConstraints::distribute_local_to_global() of a
+  /// matrix, to rounding. Where no dof of a cell depends on others and a row is owned, the
   /// entries are added in place: the dofs of a vertex, line or face are
   /// consecutive in the cell and in each row, and the rows of one entity have
   /// the same columns in the same places, so almost nothing is searched for.
   class MatrixScatter
   {
   public:
-    /// All three are kept by reference; @p matrix has its pattern.
+    /// Both are kept by reference; @p matrix has its pattern.
     MatrixScatter(const dealii::AffineConstraints<double> &constraints,
-                  SparseMatrix                            &matrix,
-                  Vector                                  &load);
+                  SparseMatrix                            &matrix);
 
-    /// Add the leading rows and columns of a symmetric @p cell_matrix and
-    /// @p cell_load, as many as there are @p dofs. Rows of constrained dofs get
-    /// a positive diagonal.
+    /// Add the leading rows and columns of a symmetric @p cell_matrix, as many as there are
+    /// @p dofs. Rows of constrained dofs get a positive diagonal.
     void
     add(const dealii::FullMatrix<double>                   &cell_matrix,
-        const dealii::Vector<double>                       &cell_load,
         const std::vector<dealii::types::global_dof_index> &dofs);
 
     /// Add @p value to the diagonal of @p dof, owned.
@@ -54,14 +50,8 @@ namespace mortise
     void
     add_row(Index row, const double *values, const std::vector<Index> &dofs);
 
-    void
-    add_load(const dealii::FullMatrix<double> &cell_matrix,
-             const dealii::Vector<double>     &cell_load,
-             const std::vector<Index>         &dofs);
-
     const dealii::AffineConstraints<double> &constraints;
     SparseMatrix                            &matrix;
-    Vector                                  &load;
 
     std::vector<char> constrained; ///< of the dofs of the cell
     std::vector<Run>  runs;

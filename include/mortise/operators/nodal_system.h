@@ -9,12 +9,15 @@
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/held_pressures.h>
 #include <mortise/operators/leading_displacements.h>
+#include <mortise/operators/prescribed_values.h>
 
 #include <memory>
 #include <vector>
 
 namespace mortise
 {
+  struct SceneLoad;
+
   class NodalSystem
   {
   public:
@@ -100,19 +103,32 @@ namespace mortise
       return leading;
     }
 
-    /// int b.v + int t.v less the work of prescribed displacements, zero where
-    /// held, and what these leave to the pressures (not touched without mixed
-    /// bodies). @p loads: by body. Collective.
+    /// Set the right hand side of @p load: int b.v + int t.v less the work of the prescribed
+    /// displacements in it, zero where held, and what these leave to the
+    /// pressures. @p loads: by body. Collective.
     void
     assemble_load(const std::vector<Loads> &loads,
-                  const Scene              &scene,
-                  Vector                   &load,
-                  Vector                   &pressure_load) const;
+                  const FieldNumbering     &numbering,
+                  SceneLoad                &load) const;
 
     /// B without the columns of prescribed components, which hanging nodes
     /// bring in. Collective.
     void
     drop_held_columns(SparseMatrix &coupling) const;
+
+    /// A hierarchical coefficient, by body and dof.
+    using Coefficients =
+      std::function<double(unsigned int, dealii::types::global_dof_index)>;
+
+    /// What undoes for_each_coefficient(): the values at nodes, zero where held. Collective.
+    void
+    set_displacement(const Coefficients &coefficient,
+                     Vector             &displacement) const;
+
+    /// What undoes for_each_pressure_coefficient(): zero where nodes hang.
+    /// Collective.
+    void
+    set_pressure(const Coefficients &coefficient, Vector &pressure) const;
 
     /// Hierarchical coefficients in the numbering of the scene's bodies, one
     /// per dof of each owned cell: calls set(body, dof, value). Prescribed ones
@@ -134,10 +150,9 @@ namespace mortise
                                double value)> &set) const;
 
   private:
+    /// in = the function whose coefficients @p coefficient(body, dof) gives.
     void
-    subtract_prescribed(const Scene         &scene,
-                        LevelVector<double> &load,
-                        Vector              &pressure_load) const;
+    interpolate(const Coefficients &coefficient) const;
 
     /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is held.
     void

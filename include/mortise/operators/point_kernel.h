@@ -1,6 +1,9 @@
-// Linear elasticity at one point of several cells, one per lane. It never knows
-// where points lie; only sources of kernels include it.
+// Between derivatives on the reference cell and what a law has at one point of
+// several cells, one per lane. It never knows where points lie; only sources of
+// kernels include it.
 #pragma once
+
+#include <mortise/material/law.h>
 
 namespace mortise
 {
@@ -32,21 +35,6 @@ namespace mortise
       }
   }
 
-  template <typename V, typename Number>
-  inline __attribute__((always_inline)) void
-  stress_of(const V (&h)[3][3],
-            const Number lambda,
-            const Number mu,
-            V (&s)[3][3])
-  {
-    const V mean = lambda * (h[0][0] + h[1][1] + h[2][2]);
-    for (unsigned int c = 0; c < 3; ++c)
-      for (unsigned int e = c; e < 3; ++e)
-        s[c][e] = s[e][c] = mu * (h[c][e] + h[e][c]);
-    for (unsigned int c = 0; c < 3; ++c)
-      s[c][c] += mean;
-  }
-
   /// What is tested with gradients of v with respect to xi, from a stress times
   /// sqrt(w |J|); places as for gradient_at().
   template <typename V>
@@ -57,5 +45,25 @@ namespace mortise
       for (unsigned int a = 0; a < 3; ++a)
         g[(3 * c + a) * stride] =
           s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
+  }
+
+  /// What the component c of a function alone contributes to its diagonal by
+  /// its derivatives with respect to xi_i and xi_j, both terms for i != j:
+  /// sum_ef C_cecf G_ie G_jf, @p G as the rows of the metric.
+  template <typename Law, typename V>
+  inline __attribute__((always_inline)) V
+  diagonal_coefficient(const Law         &law,
+                       const unsigned int c,
+                       const unsigned int i,
+                       const unsigned int j,
+                       const V           *G)
+  {
+    V h[3][3] = {}, s[3][3];
+    for (unsigned int e = 0; e < 3; ++e)
+      h[c][e] = G[3 * i + e];
+    law.tangent(Undeformed(), h, s);
+    const V sum =
+      s[c][0] * G[3 * j] + s[c][1] * G[3 * j + 1] + s[c][2] * G[3 * j + 2];
+    return i == j ? sum : sum + sum;
   }
 } // namespace mortise

@@ -3,28 +3,20 @@
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/vector.h>
 
 #include <mortise/operators/block_system.h>
+#include <mortise/operators/scene_field.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// One field of all bodies in the numbering of the scene.
-  struct SceneField
-  {
-    FieldNumbering                    numbering;
-    dealii::AffineConstraints<double> constraints; ///< closed
-  };
-
   /// The blocks of one cell, rows by pressure.
   struct PressureBlocks
   {
     dealii::FullMatrix<double> divergence; ///< G
     dealii::FullMatrix<double> compliance; ///< C
     dealii::FullMatrix<double> norm;       ///< P, see BlockSystem
-    dealii::Vector<double>     load;
   };
 
   class PressureScatter

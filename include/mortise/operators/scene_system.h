@@ -1,5 +1,5 @@
 // The system of a scene from its bodies: constraints in one numbering, the
-// stiffness of all bodies, and the structure that preconditioners use. It never
+// stiffness of all bodies, their loads, and the structure that preconditioners use. It never
 // looks at interfaces.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 #include <mortise/operators/block_system.h>
 #include <mortise/operators/elasticity.h>
-#include <mortise/operators/pressure_scatter.h>
+#include <mortise/operators/scene_load.h>
 
 #include <memory>
 #include <vector>
@@ -16,9 +16,16 @@ namespace mortise
 {
   using Bodies = std::vector<std::unique_ptr<Body>>;
 
+  struct SceneFields
+  {
+    SceneField displacement;
+    SceneField pressure; ///< of size 0 without mixed bodies
+  };
+
   /// The constraints of all bodies (conformity and Dirichlet, each in its
   /// body's numbering, not closed) in the numbering of the scene, closed.
-  /// Bodies without the field have empty ones.
+  /// Bodies without the field have empty ones. Inhomogeneous where theirs are:
+  /// see prescribed_values().
   dealii::AffineConstraints<double>
   scene_constraints(
     const FieldNumbering                                 &numbering,
@@ -28,15 +35,25 @@ namespace mortise
   SceneField
   pressure_field(const Bodies &bodies, MPI_Comm comm);
 
-  /// Assemble stiffness and load of @p system, and what pressures need, the
-  /// interiors of cells eliminated; these are returned by body. Collective;
-  /// throws InputError for tangled cells.
-  std::vector<CondensedInteriors>
-  assemble_bodies(const Bodies             &bodies,
-                  const std::vector<Loads> &loads,
-                  const SceneField         &displacement,
-                  const SceneField         &pressure,
-                  BlockSystem              &system);
+  /// Assemble the stiffness of @p system, and what pressures need, the interiors of cells
+  /// eliminated. @p kinds, and what is returned, by body. Collective; throws
+  /// InputError for tangled cells.
+  std::vector<AssembledBody>
+  assemble_bodies(const Bodies                 &bodies,
+                  const std::vector<LoadKinds> &kinds,
+                  const SceneField             &displacement,
+                  const SceneField             &pressure,
+                  BlockSystem                  &system);
+
+  /// The right hand side of displacements and pressures; that of multipliers is zero. @p loads and
+  /// @p assembled by body, the latter empty where @p system has nodes. Collective.
+  SceneLoad
+  assemble_load(const std::vector<Loads>         &loads,
+                const PrescribedValues           &prescribed,
+                const Bodies                     &bodies,
+                const std::vector<AssembledBody> &assembled,
+                const SceneFields                &fields,
+                const BlockSystem                &system);
 
   /// A field of one body in the numbering of its DoFHandler, with ghost values.
   using BodyVector = dealii::LinearAlgebra::distributed::Vector<double>;
@@ -48,22 +65,24 @@ namespace mortise
     BodyVector pressure; ///< in mixed form, else empty
   };
 
-  /// The solution by body: constraints distributed, interiors of cells
-  /// recovered. Collective.
+  /// The solution by body: constraints distributed, what is prescribed added, interiors of cells
+  /// recovered. @p assembled: by body, empty where @p system has nodes. Collective.
   std::vector<BodySolution>
-  body_solutions(const Bodies                          &bodies,
-                 const SceneField                      &displacement,
-                 const SceneField                      &pressure,
-                 const std::vector<CondensedInteriors> &interiors,
-                 const SystemSolution                  &solution);
+  body_solutions(const Bodies                     &bodies,
+                 const std::vector<AssembledBody> &assembled,
+                 const SceneFields                &fields,
+                 const BlockSystem                &system,
+                 const SceneLoad                  &load,
+                 const SystemVector               &solution);
 
-  /// The same where @p solution holds values at the nodes of @p nodal.
-  std::vector<BodySolution>
-  body_solutions(const Bodies         &bodies,
-                 const SceneField     &displacement,
-                 const SceneField     &pressure,
-                 const NodalSystem    &nodal,
-                 const SystemSolution &solution);
+  /// What undoes body_solutions(), for displacements and pressures: @p solutions less what is
+  /// @p prescribed in them, as unknowns of @p system; multipliers are zero. Collective.
+  SystemVector
+  system_vector(const Bodies                    &bodies,
+                const SceneFields               &fields,
+                const BlockSystem               &system,
+                const PrescribedValues          &prescribed,
+                const std::vector<BodySolution> &solutions);
 
   /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
   void

@@ -17,16 +17,16 @@ namespace mortise
     bool traction     = false; ///< on slave surfaces: traction and gap
   };
 
-  /// DIRECTORY/NAME.vtu with displacement, stress and pressure of one body;
+  /// @p file (.vtu) with displacement, stress and pressure of one body;
   /// higher-order cells, so that a high degree looks as smooth as it is.
   /// Collective; all ranks write one file.
   void
   write_body_fields(const Body           &body,
                     const BodySolution   &solution,
                     const FieldSelection &selection,
-                    const std::string    &directory);
+                    const std::string    &file);
 
-  /// DIRECTORY/NAME.vtu with the traction that the slave side bears (force per
+  /// @p file (.vtu) with the traction that the slave side bears (force per
   /// area), the displacement, and the gap (x_master - x_slave before
   /// deformation, a length) on the slave surface. @p coefficients as of
   /// multiplier_on_faces(). Collective.
@@ -35,5 +35,5 @@ namespace mortise
                          const Coupling                         &coupling,
                          const std::vector<std::vector<double>> &coefficients,
                          const BodyVector                       &displacement,
-                         const std::string                      &directory);
+                         const std::string                      &file);
 } // namespace mortise

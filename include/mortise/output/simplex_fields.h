@@ -14,12 +14,11 @@ namespace mortise
   write_tetrahedra(const Body           &body,
                    const BodySolution   &solution,
                    const FieldSelection &selection,
-                   const std::string    &directory);
+                   const std::string    &file);
 
   struct FieldFile
   {
-    std::string name;
-    std::string directory;
+    std::string name; ///< with its directory
     MPI_Comm    comm;
   };
 

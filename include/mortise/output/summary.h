@@ -83,8 +83,9 @@ namespace mortise
 
   struct StepSummary
   {
-    unsigned int                  step  = 0;
+    unsigned int step = 0; ///< from 1 on, or 0 in a scene without steps
     unsigned int                  cycle = 0;
+    std::optional<double>         time; ///< in a scene with steps
     std::vector<BodySummary>      bodies;
     DofSummary                    dofs;
     std::vector<InterfaceSummary> interfaces;
@@ -120,6 +121,14 @@ namespace mortise
   /// null.
   std::string
   to_json(const Summary &summary);
+
+  /// The entries of "steps" in it, on one line.
+  std::string
+  steps_to_json(const std::vector<StepSummary> &steps);
+
+  /// What steps_to_json() wrote.
+  std::vector<StepSummary>
+  steps_from_json(const std::string &text);
 
   /// Write @p directory /summary.json as write_whole_file() does. Collective.
   void

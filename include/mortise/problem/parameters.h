@@ -10,6 +10,9 @@
 #include <deal.II/base/point.h>
 
 #include <mortise/body/mesh_source.h>
+#include <mortise/material/factory.h>
+#include <mortise/problem/load_steps.h>
+#include <mortise/problem/parameter_file.h>
 #include <mortise/solvers/solver_options.h>
 #include <mpi.h>
 
@@ -29,13 +32,6 @@ namespace mortise
   /// "ex; ey; ez", as VectorExpression takes it.
   std::string
   joined(const Components &components);
-
-  struct MaterialParameters
-  {
-    std::string law           = "linear elastic";
-    double      young_modulus = 1.;  ///< force per area
-    double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
-  };
 
   /// What acts on one named boundary. Nothing at all: free of traction.
   struct BoundaryParameters
@@ -135,6 +131,7 @@ namespace mortise
     std::string directory; ///< for summary.json and the files of fields
     std::vector<std::string>
       fields; ///< of field_names(); empty: no files of fields
+    unsigned int checkpoint_every = 0; ///< steps; 0: no checkpoints
     std::vector<PointQuantity>     points;
     std::vector<ResultantQuantity> resultants;
   };
@@ -146,9 +143,11 @@ namespace mortise
     std::vector<InterfaceParameters> interfaces;
     ExactSolutionParameters          exact_solution;
     SolverParameters                 solver;
+    StepParameters                   steps;
     OutputParameters                 output;
 
     std::string file; ///< the parameter file, as it was given
+    std::vector<Assignment> assignments; ///< its lines and those of --set
     std::map<std::string, std::string>
       origins; ///< "Body inner/Degree" -> "line 7 of FILE", "--set"
 
@@ -176,6 +175,11 @@ namespace mortise
   parse_parameters(const std::string &text,
                    const std::string &file,
                    const Settings    &settings = {});
+
+  /// The parameters that @p assignments make, later ones first. Throws InputError.
+  Parameters
+  parse_parameters(const std::vector<Assignment> &assignments,
+                   const std::string             &file);
 
   /// Read and parse @p file. Collective: rank 0 reads, every rank gets the same parameters or
   /// the same InputError.

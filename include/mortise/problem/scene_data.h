@@ -1,6 +1,5 @@
-// What the parameters of a scene mean as functions: exact solution, loads,
-// prescribed displacements. It never touches a mesh beyond the ids of its
-// boundaries.
+// What the parameters of a scene mean as functions at one time: exact solution,
+// loads, prescribed displacements.
 #pragma once
 
 #include <mortise/base/field_checks.h>
@@ -15,28 +14,39 @@
 namespace mortise
 {
   /// Material of each body.
-  std::vector<LinearElastic>
+  std::vector<Material>
   materials(const Parameters &parameters);
 
-  /// The exact solution that the parameters name; null if there is none. The
-  /// named ones take radii, pressures, materials and the motion of the scene
-  /// from the bodies. Throws InputError if the bodies are not what the named
-  /// solution is for. What these three return tells @p checks, which must live
-  /// on, of values that no run can use.
-  std::shared_ptr<const ExactSolution>
-  make_exact_solution(const Parameters &parameters, FieldChecks &checks);
+  /// What acts on a scene at one time. Both arguments of the constructor must
+  /// live on; @p checks is told of values that no run can use.
+  class SceneData
+  {
+  public:
+    /// Throws InputError if the bodies are not what a named exact solution is
+    /// for.
+    SceneData(const Parameters &parameters, double time, FieldChecks &checks);
 
-  /// Body force and tractions of @p body. The result refers to @p exact.
-  Loads
-  make_loads(const Parameters                           &parameters,
-             const Body                                 &body,
-             const std::shared_ptr<const ExactSolution> &exact,
-             FieldChecks                                &checks);
+    /// The exact solution that the parameters name; null if there is none. The
+    /// named ones take radii, pressures, materials and the motion of the scene
+    /// from the bodies.
+    const std::shared_ptr<const ExactSolution> &
+    exact() const
+    {
+      return solution;
+    }
 
-  /// Prescribed displacements of @p body.
-  std::vector<DirichletCondition>
-  make_dirichlet(const Parameters                           &parameters,
-                 const Body                                 &body,
-                 const std::shared_ptr<const ExactSolution> &exact,
-                 FieldChecks                                &checks);
+    /// Body force and tractions of @p body.
+    Loads
+    loads(const Body &body) const;
+
+    /// Prescribed displacements of @p body; a condition without a value is zero at all times.
+    std::vector<DirichletCondition>
+    dirichlet(const Body &body) const;
+
+  private:
+    const Parameters                    &parameters;
+    const double                         time;
+    FieldChecks                         &checks;
+    std::shared_ptr<const ExactSolution> solution;
+  };
 } // namespace mortise

@@ -1,23 +1,18 @@
-// The composition root: one run of a scene, from parameters to results. Its
-// members stand in the order of the data flow. It never computes anything
-// itself.
+// The composition root: a scene from parameters to results, step by step. Its
+// members stand in the order in which data flows.
 #pragma once
 
-#include <mortise/base/field_checks.h>
-#include <mortise/base/run_log.h>
-#include <mortise/base/timers.h>
-#include <mortise/material/exact_solution.h>
-#include <mortise/mortar/coupling.h>
-#include <mortise/operators/scene_system.h>
-#include <mortise/output/errors.h>
-#include <mortise/output/summary.h>
-#include <mortise/output/whole_file.h>
-#include <mortise/problem/parameters.h>
-#include <mortise/problem/rigid_support.h>
+#include <mortise/problem/discretisation.h>
+#include <mortise/problem/field_files.h>
+#include <mortise/problem/load_steps.h>
+#include <mortise/problem/run_checkpoint.h>
+#include <mortise/problem/run_context.h>
+#include <mortise/problem/state.h>
+#include <mortise/problem/step_results.h>
 #include <mortise/solvers/solve.h>
-#include <mortise/solvers/solve_report.h>
 
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mortise
@@ -32,7 +27,11 @@ namespace mortise
     void
     create_meshes();
 
-    /// Everything up to errors and functionals; writes nothing. Collective;
+    /// Go on from @p checkpoint, in @p directory: run() and compute() do the steps behind it.
+    void
+    resume(const RunCheckpoint &checkpoint, const std::string &directory);
+
+    /// All steps up to errors and functionals; writes nothing. Collective;
     /// throws InputError.
     void
     compute();
@@ -51,84 +50,44 @@ namespace mortise
     }
 
   private:
+    /// What no step changes.
     void
-    create_spaces();
-    /// Choose the method, and the nodal spaces if it works without a matrix.
+    discretise();
+    /// All steps; with files if @p writes.
     void
-    choose_method(unsigned int max_degree);
+    march(bool writes);
+    /// One step, or half of it if it does not converge and may be halved.
     void
-    find_pairs();
+    step(bool writes);
+    /// Set the state to that of the checkpoint in @p directory.
     void
-    couple();
-    Coupling
-    make_coupling(const InterfaceParameters &given) const;
+    restore(const std::string &directory);
+    SystemVector
+    solve(const SceneLoad &load);
+    StepSummary
+    summarise(const SolvedStep &solved, const StepFields &fields);
     void
-    integrate(Coupling &coupling) const;
-    /// The multipliers, with slave and master exchanged where other interfaces
-    /// and prescribed displacements leave too few to hold the bodies together.
-    /// Throws InputError where a body can move.
+    print_progress();
     void
-    choose_multipliers();
+    write_results(const StepFields &fields);
     void
-    number_multipliers();
-    std::vector<TieSupport>
-    tie_supports() const;
-    /// Throws InputError where constant tractions do not pass interface @p i, though its master
-    /// could follow. @p states: of its slave faces.
+    write_checkpoint(const StepFields &fields);
     void
-    check_constants(unsigned int i, const std::vector<PartnerState> &states);
-    void
-    assemble();
-    /// Which constants of the pressure nothing determines; throws InputError
-    /// where prescribed displacements change the volume of an incompressible
-    /// body.
-    void
-    find_free_pressures();
-    void
-    solve();
-    /// Throws InputError where multipliers depend on each other.
-    void
-    check_multipliers();
-    void
-    postprocess();
-    /// Write what was asked for; what could not be written.
-    std::vector<OutputError>
-    write_fields();
-    std::vector<OutputError>
-    write_results();
-    void
-    summarise_interface(unsigned int i);
-    void
-    print_table();
+    write_summary();
 
-    /// Owned displacement dofs of body @p b that are prescribed or among @p taken, those of the scene.
-    std::vector<bool>
-    blocked_dofs(unsigned int b, const std::vector<bool> &taken) const;
+    Timers           timers;
+    const RunContext context;
+    FieldChecks      field_checks; ///< of what is given
 
-    const Parameters                &parameters;
-    RunLog                          &log;
-    const MPI_Comm                   comm;
-    Timers                           timers;
-    Summary                          summary;
-    std::vector<InterfaceParameters> interfaces; ///< sides as they are solved
-
-    FieldChecks                          field_checks; ///< of what is given
-    std::shared_ptr<const ExactSolution> exact;
-    Bodies                               bodies;
-    std::vector<std::vector<DirichletCondition>>   dirichlet;
-    std::vector<dealii::AffineConstraints<double>> body_constraints;
-    SceneField                                     displacement_field;
-    SceneField                                     pressure_field;
-    SolverChoice choice{SolverMethod::automatic, ""};
-    NodalSpaces  nodal_spaces; ///< for a bulk without a matrix, until assembly
-    std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
-    std::vector<Coupling>       couplings;
-    BlockSystem                 system;
-    std::vector<CondensedInteriors> interiors; ///< by body
-    SystemSolution                  solution;
-    SolveReport                     solve_report;
-    std::vector<BodySolution>       solutions; ///< by body
-    std::vector<std::vector<std::vector<double>>>
-      tractions; ///< by interface and face
+    LoadSteps                       steps;
+    std::string                     restart; ///< directory of a checkpoint
+    Bodies                          bodies;
+    std::unique_ptr<Discretisation> discretisation;
+    std::unique_ptr<LinearSolver>   solver;
+    SolveReport                     report; ///< of the last step
+    State                           state;
+    Summary                         summary;
+    FieldFiles                      files;
+    std::vector<OutputError>        unwritten;
   };
 } // namespace mortise

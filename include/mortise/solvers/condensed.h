@@ -3,17 +3,29 @@
 // interface, ordinary conjugate gradients. It never forms the condensed matrix.
 #pragma once
 
-#include <mortise/operators/block_system.h>
-#include <mortise/solvers/solve_report.h>
-#include <mortise/solvers/solver_options.h>
+#include <mortise/solvers/bulk_preconditioner.h>
+#include <mortise/solvers/linear_solver.h>
 
 namespace mortise
 {
-  /// Solve by preconditioned conjugate gradients on the positive definite
-  /// system that is left when the constraint B u = g has been eliminated;
-  /// lambda is recovered at the end. See solve().
-  SolveReport
-  solve_condensed(const BlockSystem   &system,
-                  const SolverOptions &options,
-                  SystemSolution      &x);
+  /// Preconditioned conjugate gradients on the positive definite system that is
+  /// left when the constraint B u = g has been eliminated; lambda is recovered
+  /// at the end.
+  class CondensedSolver : public LinearSolver
+  {
+  public:
+    CondensedSolver(const BlockSystem &system, const SolverOptions &options);
+
+  private:
+    bool
+    set_up() override;
+
+    void
+    run(const SystemVector &rhs,
+        SystemVector       &x,
+        bool                is_zero,
+        SolveReport        &report) override;
+
+    std::unique_ptr<BulkPreconditioner> preconditioner;
+  };
 } // namespace mortise

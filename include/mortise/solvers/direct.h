@@ -3,16 +3,29 @@
 // approximates and never looks at the preconditioner's data except for scaling.
 #pragma once
 
-#include <mortise/operators/block_system.h>
-#include <mortise/solvers/solve_report.h>
-#include <mortise/solvers/solver_options.h>
+#include <mortise/solvers/linear_solver.h>
 
 namespace mortise
 {
-  /// Solve by a sparse factorisation. Works on any number of ranks, those
-  /// without dofs included. See solve() for the arguments.
-  SolveReport
-  solve_direct(const BlockSystem   &system,
-               const SolverOptions &options,
-               SystemSolution      &x);
+  /// A sparse factorisation (MUMPS). Works on any number of ranks, those
+  /// without dofs included.
+  class DirectSolver : public LinearSolver
+  {
+  public:
+    DirectSolver(const BlockSystem &system, const SolverOptions &options);
+    ~DirectSolver() override;
+
+  private:
+    bool
+    set_up() override;
+
+    void
+    run(const SystemVector &rhs,
+        SystemVector       &x,
+        bool                is_zero,
+        SolveReport        &report) override;
+
+    struct Factors;
+    std::unique_ptr<Factors> factors;
+  };
 } // namespace mortise

@@ -6,18 +6,21 @@
 
 namespace mortise
 {
-  /// How little of the force of a constant pressure is left when multipliers
-  /// have taken what they can.
-  struct EnclosureTest
+  /// What is known of a pressure that is constant on some bodies and zero
+  /// elsewhere.
+  struct Enclosure
   {
-    bool   enclosed = false;
-    double flux     = 0.; ///< net over total flux of what is prescribed
+    bool         enclosed = false; ///< the pressure moves nothing
+    SystemVector state;            ///< it, with the multipliers that balance it
+
+    /// Net over total flux of what @p rhs prescribes; 0 where nothing flows. Collective.
+    double
+    flux(const SystemVector &rhs) const;
   };
 
-  /// Is the pressure @p one, constant on some bodies and zero elsewhere, without
-  /// effect on displacements? To rounding where no interface is near; where
-  /// curved interfaces tie the bodies, to one per cent, since normals are no
-  /// multipliers there. Collective.
-  EnclosureTest
+  /// Is the pressure @p one without effect on displacements? To rounding where no interface is
+  /// near; where curved interfaces tie the bodies, to one per cent, since
+  /// normals are no multipliers there. Collective.
+  Enclosure
   test_enclosure(const BlockSystem &system, const Vector &one);
 } // namespace mortise

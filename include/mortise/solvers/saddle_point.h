@@ -2,17 +2,30 @@
 // with a block factorisation as preconditioner. It never needs K to be regular.
 #pragma once
 
-#include <mortise/operators/block_system.h>
-#include <mortise/solvers/solve_report.h>
-#include <mortise/solvers/solver_options.h>
+#include <mortise/solvers/linear_solver.h>
 
 namespace mortise
 {
-  /// Solve by preconditioned GMRES; the preconditioner takes a
-  /// BulkPreconditioner, the Schur complement of its Lifting for the
-  /// multipliers and a PressurePreconditioner. See solve().
-  SolveReport
-  solve_saddle_point(const BlockSystem   &system,
-                     const SolverOptions &options,
-                     SystemSolution      &x);
+  /// Preconditioned GMRES; the preconditioner takes a BulkPreconditioner, the
+  /// Schur complement of its Lifting for the multipliers and a
+  /// PressurePreconditioner. Only for systems with multipliers or pressures.
+  class SaddlePointSolver : public LinearSolver
+  {
+  public:
+    SaddlePointSolver(const BlockSystem &system, const SolverOptions &options);
+    ~SaddlePointSolver() override;
+
+  private:
+    bool
+    set_up() override;
+
+    void
+    run(const SystemVector &rhs,
+        SystemVector       &x,
+        bool                is_zero,
+        SolveReport        &report) override;
+
+    struct Parts; ///< scaled operator and preconditioner
+    std::unique_ptr<Parts> parts;
+  };
 } // namespace mortise

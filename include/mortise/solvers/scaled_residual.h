@@ -24,41 +24,44 @@ namespace mortise
   public:
     explicit ScaledResidual(const BlockSystem &system);
 
-    /// r = (f, h, g) - [K G^T B^T; G -C 0; B 0 0] x. Collective.
+    /// r = rhs - [K G^T B^T; G -C 0; B 0 0] x. Collective.
     void
-    compute(const SystemSolution &x, SystemSolution &r) const;
+    compute(const SystemVector &rhs,
+            const SystemVector &x,
+            SystemVector       &r) const;
 
     /// The norm above. Collective.
     double
-    norm(const SystemSolution &r) const;
+    norm(const SystemVector &r) const;
 
-    /// Note the residual @p r of @p x in @p report, and whether that is
-    /// converged: the relative residual is at most @p tolerance; or all that is
-    /// left of it is rounding, its backward error against |K| |u| + |B|^T
-    /// |lambda| + |f| (Oettli, Prager 1964), and @p relative_error, an estimate
-    /// of the error in the energy norm over that of the solution, is below
-    /// 1e-6. Collective.
+    /// The product that belongs to it. Collective.
+    double
+    product(const SystemVector &a, const SystemVector &b) const;
+
+    /// A solution x and its residual r.
+    struct Solved
+    {
+      const SystemVector &rhs, &x, &r;
+    };
+
+    /// Note the residual in @p report, and whether that is converged: relative to the right hand
+    /// side it is at most @p tolerance; or all that is left of it is rounding, its backward error
+    /// against |K| |u| + |B|^T |lambda| + |f| (Oettli, Prager 1964), and @p relative_error, an
+    /// estimate of the error in the energy norm over that of the solution, is
+    /// below 1e-6. Collective.
     void
-    judge(const SystemSolution          &x,
-          const SystemSolution          &r,
+    judge(const Solved                  &solved,
           double                         tolerance,
           const std::function<double()> &relative_error,
           SolveReport                   &report) const;
 
-    /// Norm of the right hand side, for relative residuals.
-    double
-    right_hand_side_norm() const
-    {
-      return rhs_norm;
-    }
-
-    /// A lower bound of the energy of displacements that balance the right hand
-    /// side f without multipliers: f D_u^{-1} f over the largest eigenvalue of
+    /// A lower bound of the energy of displacements that balance a right hand
+    /// side of norm @p rhs_norm without multipliers: f D_u^{-1} f over the largest eigenvalue of
     /// D_u^{-1} K, 22 at most (degree 8 on tetrahedra). Where multipliers
     /// balance it and displacements are zero to rounding, what is small beside
     /// it is rounding.
-    double
-    least_energy() const
+    static double
+    least_energy(const double rhs_norm)
     {
       return rhs_norm * rhs_norm / 25.;
     }
@@ -88,11 +91,10 @@ namespace mortise
     /// The norm of the terms that compute() adds up, with diag(K) for |K|: a
     /// lower bound.
     double
-    magnitude(const SystemSolution &x) const;
+    magnitude(const SystemVector &rhs, const SystemVector &x) const;
 
     const BlockSystem             &system;
     std::unique_ptr<Epetra_Vector> weight_u, weight_p, weight_lambda;
-    double                         rhs_norm          = 0.;
     bool                           interface_present = false;
   };
 } // namespace mortise

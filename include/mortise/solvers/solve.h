@@ -1,10 +1,8 @@
-// The one entrance to the solvers: chooses a method, and runs one. It never
-// changes the system.
+// The one entrance to the linear solvers: chooses a method, and makes its
+// solver.
 #pragma once
 
-#include <mortise/operators/block_system.h>
-#include <mortise/solvers/solve_report.h>
-#include <mortise/solvers/solver_options.h>
+#include <mortise/solvers/linear_solver.h>
 
 namespace mortise
 {
@@ -29,16 +27,8 @@ namespace mortise
   SolverChoice
   choose_solver(SolverMethod asked, const SceneSize &scene);
 
-  /// Solve the system by the method of the options, which is never automatic.
-  /// Collective.
-  ///
-  /// @p x is (re)initialised to the owned ranges of the system; what it held is
-  /// not used.
-  /// A solve that does not reach the tolerance returns converged == false and
-  /// the last iterate; nothing is thrown. The reported residual is always
-  /// recomputed from the equations.
-  SolveReport
-  solve(const BlockSystem   &system,
-        const SolverOptions &options,
-        SystemSolution      &x);
+  /// The solver of the method in @p options, which is never automatic; to be
+  /// updated before its first solve. @p system must stay alive.
+  std::unique_ptr<LinearSolver>
+  make_linear_solver(const BlockSystem &system, const SolverOptions &options);
 } // namespace mortise

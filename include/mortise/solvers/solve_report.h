@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace mortise
 {
@@ -13,13 +12,12 @@ namespace mortise
     unsigned int iterations =
       0; ///< of the outer iteration; 0 for a direct solve
     double relative_residual = 0.; ///< |(f - K u - B^T lambda, g - B u)| / |(f,
-                                   ///< g)|, scaled as documented
+                                   ///< g)|, as of ScaledResidual
     /// What rounding leaves of it with the numbers of this system; 0 where the
     /// tolerance was reached, so that it was not looked at.
-    double              attainable = 0.;
-    bool                converged  = false;
-    std::vector<double> history; ///< residual of each iteration
-    double              setup_seconds = 0.;
-    double              solve_seconds = 0.;
+    double attainable    = 0.;
+    bool   converged     = false;
+    double setup_seconds = 0.; ///< since the last report
+    double solve_seconds = 0.;
   };
 } // namespace mortise

@@ -28,6 +28,10 @@ namespace mortise
     /// + 27.8 s of setup and solve, 11.1 + 29.4 s by parts.
     unsigned int max_gathered = 30000;
 
+    /// So many earlier solutions are kept to start from, see
+    /// SuccessiveSolutions.
+    unsigned int successive = 0;
+
     /// Iterative solvers go on until the root of the estimated energy of the
     /// error, too, is below this fraction of the solution's: on fine meshes a
     /// small residual alone says little.

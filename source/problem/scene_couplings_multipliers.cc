@@ -3,9 +3,8 @@
 #include <mortise/base/error.h>
 #include <mortise/mortar/shared_displacements.h>
 #include <mortise/problem/rigid_motions.h>
-#include <mortise/problem/simulation.h>
+#include <mortise/problem/scene_couplings.h>
 #include <mortise/problem/weak_ties.h>
-#include <mortise/solvers/dependent_multipliers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,22 +15,22 @@ namespace mortise
   using namespace dealii;
 
   std::vector<bool>
-  Simulation::blocked_dofs(const unsigned int       b,
+  SceneCouplings::blocked_dofs(const unsigned int       b,
                            const std::vector<bool> &taken) const
   {
-    const auto       &numbering = displacement_field.numbering;
+    const auto       &numbering = spaces.fields.displacement.numbering;
     std::vector<bool> blocked;
-    for (const auto dof : bodies[b]->dof_handler.locally_owned_dofs())
+    for (const auto dof : spaces.bodies[b]->dof_handler.locally_owned_dofs())
       blocked.push_back(
         taken[numbering.owned().index_within_set(numbering(b, dof))] ||
-        (body_constraints[b].is_constrained(dof) &&
-         !bodies[b]->conformity.is_constrained(dof)));
+        (spaces.constraints[b].is_constrained(dof) &&
+         !spaces.bodies[b]->conformity.is_constrained(dof)));
     return blocked;
   }
 
   void
-  Simulation::check_constants(const unsigned int               i,
-                              const std::vector<PartnerState> &states)
+  SceneCouplings::check_constants(const unsigned int               i,
+                                  const std::vector<PartnerState> &states) const
   {
     const std::string name    = interfaces[i].name;
     const auto       &rows    = couplings[i].multipliers->rows();
@@ -59,30 +58,30 @@ namespace mortise
                     "the slave there; exchange slave and master";
             lost = text.str();
           }
-    throw_if_any(lost, comm);
-    n_fixed   = Utilities::MPI::sum(n_fixed, comm);
-    n_covered = Utilities::MPI::sum(n_covered, comm);
+    throw_if_any(lost, run.comm);
+    n_fixed   = Utilities::MPI::sum(n_fixed, run.comm);
+    n_covered = Utilities::MPI::sum(n_covered, run.comm);
     if (n_covered == 0)
-      log.warning("interface " + name +
+      run.log.warning("interface " + name +
                   ": the surfaces hardly meet; nothing is tied");
     else if (n_fixed == n_covered)
-      log.warning("interface " + name +
+      run.log.warning("interface " + name +
                   ": no multipliers are left, since every displacement of both "
                   "surfaces is prescribed; nothing is tied");
   }
 
   void
-  Simulation::number_multipliers()
+  SceneCouplings::number_multipliers()
   {
     const auto          states = partner_states(couplings);
     SharedDisplacements shared(couplings,
                                states,
-                               displacement_field.numbering,
-                               comm);
+                               spaces.fields.displacement.numbering,
+                               run.comm);
     for (const unsigned int i : shared.order())
       {
         const SideParameters &slave    = interfaces[i].slave;
-        const Body           &body     = *bodies[slave.body];
+        const Body           &body     = *spaces.bodies[slave.body];
         Coupling             &coupling = couplings[i];
         coupling.multipliers           = std::make_unique<MultiplierSpace>(
           body,
@@ -95,15 +94,15 @@ namespace mortise
     types::global_dof_index mine = 0, first = 0, total = 0;
     for (const Coupling &coupling : couplings)
       mine += coupling.multipliers->n_owned();
-    const auto counts = Utilities::MPI::all_gather(comm, mine);
+    const auto counts = Utilities::MPI::all_gather(run.comm, mine);
     for (unsigned int rank = 0; rank < counts.size(); ++rank)
       {
-        if (rank < Utilities::MPI::this_mpi_process(comm))
+        if (rank < Utilities::MPI::this_mpi_process(run.comm))
           first += counts[rank];
         total += counts[rank];
       }
-    system.owned_multiplier = IndexSet(total);
-    system.owned_multiplier.add_range(first, first + mine);
+    owned = IndexSet(total);
+    owned.add_range(first, first + mine);
     for (Coupling &coupling : couplings)
       {
         coupling.multipliers->number(coupling.interface->slave(), first);
@@ -111,9 +110,8 @@ namespace mortise
       }
   }
 
-
   std::vector<TieSupport>
-  Simulation::tie_supports() const
+  SceneCouplings::tie_supports() const
   {
     std::vector<TieSupport> ties;
     for (unsigned int i = 0; i < couplings.size(); ++i)
@@ -123,7 +121,7 @@ namespace mortise
           {interfaces[i].name,
            interfaces[i].slave.body,
            interfaces[i].master.body,
-           multiplier_moments(couplings[i], system.owned_multiplier, comm),
+           multiplier_moments(couplings[i], owned, run.comm),
            report.covered_area / report.slave_area,
            {}});
         const BodySurface &slave = couplings[i].interface->slave();
@@ -140,17 +138,17 @@ namespace mortise
   }
 
   void
-  Simulation::choose_multipliers()
+  SceneCouplings::choose_multipliers()
   {
     number_multipliers();
     std::vector<bool> tried(couplings.size(), false);
     auto              ties = tie_supports();
-    auto              weak = weak_ties(bodies, dirichlet, ties);
+    auto              weak = weak_ties(spaces.bodies, spaces.dirichlet, ties);
     for (unsigned int k = 0; k < weak.size();)
       {
         const unsigned int   i     = weak[k++];
         InterfaceParameters &given = interfaces[i];
-        const auto &master = parameters.bodies[given.master.body].boundaries;
+        const auto &master = run.parameters.bodies[given.master.body].boundaries;
         const auto  side   = master.find(given.master.boundary);
         if (tried[i] || (side != master.end() && side->second.displacement))
           continue;
@@ -161,10 +159,10 @@ namespace mortise
         std::swap(couplings[i], other);
         number_multipliers();
         const auto other_ties = tie_supports();
-        const auto still      = weak_ties(bodies, dirichlet, other_ties);
+        const auto still      = weak_ties(spaces.bodies, spaces.dirichlet, other_ties);
         if (still.size() < weak.size())
           {
-            log.line("  interface " + given.name +
+            run.log.line("  interface " + given.name +
                      ": slave and master exchanged, since too few "
                      "displacements of the slave are left for multipliers");
             ties = other_ties;
@@ -181,43 +179,30 @@ namespace mortise
     const auto states = partner_states(couplings);
     for (unsigned int i = 0; i < couplings.size(); ++i)
       check_constants(i, states[i]);
-    check_rigid_motions(bodies, dirichlet, ties);
-    summary.steps.back().dofs.multiplier = system.owned_multiplier.size();
-    summary.steps.back().dofs.total += system.owned_multiplier.size();
+    check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
   }
 
-  void
-  Simulation::check_multipliers()
+  std::string
+  SceneCouplings::count_by_name(
+    const std::vector<types::global_dof_index> &indices) const
   {
-    if (couplings.size() < 2)
-      return; // those of one interface are independent by their rules
-    const auto dependent = find_dependent_multipliers(system);
-    if (dependent.empty())
-      return;
     std::vector<unsigned int> counts;
-    auto                      first = system.owned_multiplier.n_elements() > 0 ?
-                                        system.owned_multiplier.nth_index_in_set(0) :
-                                        0;
+    auto first = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
     for (const Coupling &coupling : couplings)
       {
         const auto end = first + coupling.multipliers->n_owned();
         counts.push_back(
-          std::count_if(dependent.begin(), dependent.end(), [&](const auto k) {
+          std::count_if(indices.begin(), indices.end(), [&](const auto k) {
             return k >= first && k < end;
           }));
         first = end;
       }
-    Utilities::MPI::sum(counts, comm, counts);
+    Utilities::MPI::sum(counts, run.comm, counts);
     std::string names;
     for (unsigned int i = 0; i < counts.size(); ++i)
       if (counts[i] > 0)
         names += (names.empty() ? "" : ", ") + interfaces[i].name + " (" +
                  std::to_string(counts[i]) + ")";
-    throw InputError(
-      "Interfaces tie the same displacements more than once, so that tractions "
-      "are not determined; multipliers that depend on others: " +
-      names +
-      ". Drop one of the interfaces that meet there, or exchange slave and "
-      "master of one");
+    return names;
   }
 } // namespace mortise

@@ -1,0 +1,34 @@
+// Materials by the name of their law. It never reads a file.
+#pragma once
+
+#include <mortise/material/material.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// A law and the constants of all laws, of which it takes its own.
+  struct MaterialParameters
+  {
+    std::string law           = "linear elastic";
+    double      young_modulus = 1.;  ///< force per area
+    double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
+    Orthotropic orthotropic;
+  };
+
+  /// Names of the laws.
+  std::vector<std::string>
+  law_names();
+
+  /// Throws InputError for a law that does not exist, listing those that do,
+  /// for constants with which it is none, and for those of another law that are
+  /// not left at their defaults; @p where is the place of a parameter of the
+  /// material by its name, for messages.
+  Material
+  make_material(
+    const MaterialParameters                                  &parameters,
+    bool                                                       mixed,
+    const std::function<std::string(const std::string &name)> &where);
+} // namespace mortise

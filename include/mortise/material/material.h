@@ -1,0 +1,113 @@
+// The material of a body: one of the laws there are, and what operators,
+// solvers and output ask of it. It never knows a discretisation.
+#pragma once
+
+#include <mortise/material/orthotropic.h>
+
+namespace mortise
+{
+  class Material
+  {
+  public:
+    Material(const LinearElastic &law = LinearElastic())
+      : law(law)
+    {}
+
+    Material(const Orthotropic &law)
+      : law(law)
+    {}
+
+    /// What acts between gradients of the displacement and stresses in the form
+    /// that the body has, see LinearElastic::mixed.
+    template <typename Number = double>
+    PointLaw<Number>
+    displacement_law() const
+    {
+      return std::visit(
+        [](const auto &any) {
+          return PointLaw<Number>(any.template displacement_law<Number>());
+        },
+        law);
+    }
+
+    /// The stress without regard to the form, @p gradient [i][j] = du_i/dx_j;
+    /// not of incompressible materials.
+    dealii::SymmetricTensor<2, 3>
+    stress(const dealii::Tensor<2, 3> &gradient) const;
+
+    /// The stress by displacement and pressure, which is zero if not mixed.
+    dealii::SymmetricTensor<2, 3>
+    stress(const dealii::Tensor<2, 3> &gradient, double pressure) const;
+
+    /// The pressure of the mixed form that belongs to a gradient and its
+    /// stress.
+    double
+    pressure(const dealii::Tensor<2, 3>          &gradient,
+             const dealii::SymmetricTensor<2, 3> &stress) const
+    {
+      return trace(this->stress(gradient, 0.) - stress) / 3.;
+    }
+
+    /// Twice the elastic energy per volume, of displacement and pressure.
+    double
+    twice_energy(const dealii::Tensor<2, 3> &gradient, double pressure) const;
+
+    /// Force per volume that balances a displacement with second derivatives
+    /// @p hessian (hessian[i] of u_i): -div sigma; of incompressible materials
+    /// without the gradient of the pressure.
+    dealii::Tensor<1, 3>
+    body_force(
+      const std::array<dealii::SymmetricTensor<2, 3>, 3> &hessian) const;
+
+    /// Null if the law has directions.
+    const LinearElastic *
+    isotropic() const
+    {
+      return std::get_if<LinearElastic>(&law);
+    }
+
+    bool
+    mixed() const
+    {
+      return isotropic() && isotropic()->mixed;
+    }
+
+    bool
+    incompressible() const
+    {
+      return isotropic() && isotropic()->incompressible();
+    }
+
+    /// See LinearElastic; only in mixed form.
+    double
+    compressibility() const
+    {
+      return std::get<LinearElastic>(law).compressibility();
+    }
+
+    double
+    pressure_norm() const
+    {
+      return std::get<LinearElastic>(law).pressure_norm();
+    }
+
+    /// Young's modulus as it is, or bounds of what it is in the mean over
+    /// directions: what differs from body to body by orders of magnitude.
+    double
+    softest_modulus() const;
+    double
+    stiffest_modulus() const;
+
+    /// Their geometric mean.
+    double
+    modulus() const;
+
+    /// The largest stiffness against plane waves by the smallest of any
+    /// direction and polarisation, (lambda + 2 mu) / mu if isotropic.
+    double
+    stiffness_ratio() const;
+
+  private:
+    std::variant<LinearElastic, Orthotropic> law;
+  };
+} // namespace mortise

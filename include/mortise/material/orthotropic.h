@@ -1,0 +1,56 @@
+// Linear elasticity with three planes of symmetry, as of wood, layers and
+// fibres. It never knows a discretisation.
+#pragma once
+
+#include <mortise/material/linear_elastic.h>
+
+#include <optional>
+#include <string>
+
+namespace mortise
+{
+  /// Constants in the axes x, y, z of the material. nu_ij is the contraction
+  /// along j per extension along i under tension along i; with the stiffness
+  /// symmetric nu_ij / E_i = nu_ji / E_j.
+  struct Orthotropic
+  {
+    std::array<double, 3> young_moduli   = {{0., 0., 0.}}; ///< E_x, E_y, E_z
+    std::array<double, 3> poisson_ratios = {{0., 0., 0.}}; ///< xy, yz, zx
+    std::array<double, 3> shear_moduli   = {{0., 0., 0.}}; ///< G_xy, G_yz, G_zx
+    /// How the axes of the material are turned from those of the scene, in
+    /// degrees about the fixed x, then y, then z.
+    std::array<double, 3> axes = {{0., 0., 0.}};
+
+    /// A constant, by its name in a parameter file, that cannot be.
+    struct Defect
+    {
+      std::string constant, got, allowed;
+    };
+
+    /// What keeps the stiffness from being positive definite, if anything.
+    std::optional<Defect>
+    defect() const;
+
+    /// The law in the axes of the scene.
+    template <typename Number = double>
+    AnisotropicLaw<Number>
+    law() const;
+
+    /// All of it: there is no mixed form.
+    template <typename Number = double>
+    AnisotropicLaw<Number>
+    displacement_law() const
+    {
+      return law<Number>();
+    }
+
+    /// Averages over all directions of the stiffness (Voigt), an upper bound,
+    /// and of the compliance (Reuss), a lower one.
+    struct Averages
+    {
+      LinearElastic voigt, reuss;
+    };
+    Averages
+    averages() const;
+  };
+} // namespace mortise

@@ -1,0 +1,93 @@
+// A scene on given meshes as a linear system: spaces, interfaces and operators, which
+// stand while loads change. Other meshes need another one.
+#pragma once
+
+#include <mortise/output/checkpoint.h>
+#include <mortise/problem/scene_couplings.h>
+#include <mortise/problem/scene_spaces.h>
+#include <mortise/solvers/find_free_pressures.h>
+
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  class Discretisation
+  {
+  public:
+    /// @p run and @p bodies, which get their spaces, must live on. @p data: at any time.
+    /// Collective; throws InputError.
+    Discretisation(const RunContext &run,
+                   const SceneData  &data,
+                   Bodies           &bodies);
+
+    /// The right hand side at the time of @p data. Collective; throws InputError where prescribed
+    /// displacements change the volume of an incompressible body.
+    SceneLoad
+    load(const SceneData &data) const;
+
+    /// The solution by body. Collective.
+    std::vector<BodySolution>
+    solutions(const SceneLoad &load, const SystemVector &solution) const;
+
+    /// The unknowns in a checkpoint of the time of @p load. Collective.
+    SystemVector
+    system_vector(const Checkpoint &checkpoint, const SceneLoad &load) const;
+
+    /// Throws InputError where multipliers depend on each other. Collective.
+    void
+    check_multipliers() const;
+
+    /// What is known of every step: bodies, unknowns, interfaces.
+    StepSummary
+    summary() const;
+
+    const Bodies &
+    bodies() const
+    {
+      return spaces.bodies;
+    }
+
+    const SolverChoice &
+    choice() const
+    {
+      return spaces.choice;
+    }
+
+    const SceneCouplings &
+    interfaces() const
+    {
+      return couplings;
+    }
+
+    const BlockSystem &
+    linear_system() const
+    {
+      return system;
+    }
+
+  private:
+    /// A constant pressure of incompressible bodies that nothing determines.
+    struct FreePressure
+    {
+      Enclosure   enclosure;
+      std::string bodies; ///< names
+    };
+
+    void
+    couple();
+    void
+    assemble(const SceneData &data);
+    void
+    find_free_pressures();
+
+    const RunContext          &run;
+    SceneSpaces                spaces;
+    SceneCouplings             couplings;
+    BlockSystem                system;
+    SparseMatrix               prescribed_columns; ///< of B, if there are any
+    std::vector<AssembledBody> assembled; ///< by body, where K has a matrix
+    std::vector<FreePressure>  free_pressures;
+    std::vector<InterfaceSummary> interface_summaries;
+  };
+} // namespace mortise

@@ -1,0 +1,94 @@
+// The interfaces of a scene: pairs of faces, integrals, and multipliers.
+#pragma once
+
+#include <mortise/output/summary.h>
+#include <mortise/problem/rigid_support.h>
+#include <mortise/problem/scene_spaces.h>
+
+#include <vector>
+
+namespace mortise
+{
+  class SceneCouplings
+  {
+  public:
+    /// Both must live on.
+    SceneCouplings(const RunContext &run, const SceneSpaces &spaces);
+
+    /// Find what faces each other, and integrate. Collective; throws InputError
+    /// where surfaces do not meet.
+    void
+    couple();
+
+    /// The multipliers, with slave and master exchanged where other interfaces
+    /// and prescribed displacements leave too few to hold the bodies together. Throws InputError where a body can move or
+    /// constant tractions do not pass. Collective.
+    void
+    choose_multipliers();
+
+    /// By interface, with the sides as they are solved.
+    const std::vector<InterfaceParameters> &
+    sides() const
+    {
+      return interfaces;
+    }
+
+    const std::vector<Coupling> &
+    all() const
+    {
+      return couplings;
+    }
+
+    /// Of the scene; of size 0 without interfaces.
+    const dealii::IndexSet &
+    owned_multiplier() const
+    {
+      return owned;
+    }
+
+    /// What is known of interface @p i before anything is solved. Collective.
+    InterfaceSummary
+    summary(unsigned int i) const;
+
+    /// How evenly the ranks share the interfaces.
+    std::vector<BalanceSummary>
+    balance() const;
+
+    /// How many of the owned multipliers in @p indices (of all ranks) each
+    /// interface has: "name (12), other (3)", without those that have none.
+    /// Collective.
+    std::string
+    count_by_name(
+      const std::vector<dealii::types::global_dof_index> &indices) const;
+
+  private:
+    void
+    find_pairs();
+    Coupling
+    make_coupling(const InterfaceParameters &given) const;
+    void
+    integrate(Coupling &coupling) const;
+    /// Throws or warns where the surfaces of interface @p i do not meet.
+    void
+    check_overlap(unsigned int i) const;
+    void
+    number_multipliers();
+    std::vector<TieSupport>
+    tie_supports() const;
+    /// Throws InputError where constant tractions do not pass interface @p i, though its master
+    /// could follow. @p states: of its slave faces.
+    void
+    check_constants(unsigned int                     i,
+                    const std::vector<PartnerState> &states) const;
+    /// Owned displacement dofs of body @p b that are prescribed or among @p taken, those of the
+    /// scene.
+    std::vector<bool>
+    blocked_dofs(unsigned int b, const std::vector<bool> &taken) const;
+
+    const RunContext                &run;
+    const SceneSpaces               &spaces;
+    std::vector<InterfaceParameters> interfaces;
+    std::vector<Coupling>            couplings;
+    dealii::IndexSet                 owned;
+  };
+} // namespace mortise

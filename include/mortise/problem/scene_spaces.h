@@ -1,0 +1,55 @@
+// The bodies of a scene with their meshes and spaces, in one numbering.
+#pragma once
+
+#include <mortise/operators/scene_system.h>
+#include <mortise/problem/run_context.h>
+#include <mortise/problem/scene_data.h>
+#include <mortise/solvers/solve.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  struct SceneSpaces
+  {
+    explicit SceneSpaces(Bodies &bodies)
+      : bodies(bodies)
+    {}
+
+    Bodies &bodies; ///< with their meshes
+    /// By body: what is prescribed, and whether it is ever different from zero.
+    std::vector<std::vector<DirichletCondition>> dirichlet;
+    /// By body: conformity, and what is prescribed as zero; not closed.
+    std::vector<dealii::AffineConstraints<double>> constraints;
+    SceneFields                                    fields;
+    SolverChoice choice{SolverMethod::automatic, ""};
+    NodalSpaces  nodal; ///< for a bulk without a matrix, which takes them
+    std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
+
+    /// May a displacement other than zero be prescribed?
+    bool
+    has_prescribed_values() const;
+
+    /// Indices of the unknowns, nodal ones where there are.
+    dealii::IndexSet
+    owned_displacement() const;
+    dealii::IndexSet
+    owned_pressure() const;
+  };
+
+  /// Open the meshes and check what depends on them. Collective; throws
+  /// InputError.
+  Bodies
+  create_meshes(const RunContext &run);
+
+  /// Spaces, constraints, numbering and the choice of the method. Collective.
+  void
+  create_spaces(const RunContext &run,
+                const SceneData  &data,
+                SceneSpaces      &spaces);
+
+  /// The displacements that @p data prescribes. Collective.
+  PrescribedValues
+  prescribed_values(const SceneSpaces &spaces, const SceneData &data);
+} // namespace mortise

@@ -1,0 +1,40 @@
+// What a step has computed, as users see it: fields, errors, quantities.
+#pragma once
+
+#include <mortise/output/errors.h>
+#include <mortise/output/summary.h>
+#include <mortise/problem/discretisation.h>
+
+#include <vector>
+
+namespace mortise
+{
+  struct StepFields
+  {
+    std::vector<BodySolution> solutions; ///< by body
+    std::vector<std::vector<std::vector<double>>>
+      tractions; ///< by interface and slave face, see multiplier_on_faces()
+  };
+
+  struct SolvedStep
+  {
+    const SceneData    &data;
+    const SceneLoad    &load;
+    const SystemVector &solution;
+  };
+
+  /// Collective.
+  StepFields
+  step_fields(const RunContext     &run,
+              const Discretisation &discretisation,
+              const SolvedStep     &solved);
+
+  /// Add to @p summary the balance of interfaces, errors against the exact solution, and the
+  /// quantities that were asked for. Collective.
+  void
+  evaluate_step(const RunContext     &run,
+                const Discretisation &discretisation,
+                const SolvedStep     &solved,
+                const StepFields     &fields,
+                StepSummary          &summary);
+} // namespace mortise

@@ -1,0 +1,275 @@
+#include <mortise/base/error.h>
+#include <mortise/operators/constant_pressure.h>
+#include <mortise/problem/discretisation.h>
+#include <mortise/problem/rigid_motions.h>
+#include <mortise/solvers/dependent_multipliers.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  Discretisation::Discretisation(const RunContext &run,
+                                 const SceneData  &data,
+                                 Bodies           &bodies)
+    : run(run)
+    , spaces(bodies)
+    , couplings(run, spaces)
+  {
+    create_spaces(run, data, spaces);
+    system.communicator       = run.comm;
+    system.owned_displacement = spaces.owned_displacement();
+    if (spaces.fields.pressure.numbering.size() > 0)
+      system.owned_pressure = spaces.owned_pressure();
+    system.owned_multiplier.set_size(0);
+    for (const auto &body : spaces.bodies)
+      system.max_degree = std::max(system.max_degree, body->max_degree());
+    if (couplings.sides().empty())
+      check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
+    else
+      couple();
+    assemble(data);
+    if (system.mixed())
+      find_free_pressures();
+  }
+
+  void
+  Discretisation::couple()
+  {
+    couplings.couple();
+    auto stage = run.log.stage(run.timers, "coupling");
+    couplings.choose_multipliers();
+    system.owned_multiplier = couplings.owned_multiplier();
+    if (system.owned_multiplier.size() > 0)
+      {
+        const CouplingPartition partition{system.owned_displacement,
+                                          system.owned_multiplier,
+                                          run.comm};
+        assemble_constraint(couplings.all(), partition, system.coupling);
+        if (spaces.choice.method != SolverMethod::direct &&
+            spaces.nodal.empty())
+          assemble_jump_penalty(couplings.all(),
+                                partition,
+                                system.jump_penalty);
+        if (spaces.has_prescribed_values())
+          assemble_prescribed_columns(
+            couplings.all(),
+            {spaces.fields.displacement.numbering.owned(),
+             system.owned_multiplier,
+             run.comm},
+            prescribed_columns);
+      }
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      interface_summaries.push_back(couplings.summary(i));
+    stage.details(std::to_string(system.owned_multiplier.size()) +
+                  " multipliers");
+  }
+
+  void
+  Discretisation::assemble(const SceneData &data)
+  {
+    auto              stage  = run.log.stage(run.timers, "bulk");
+    const SceneFields &fields = spaces.fields;
+    if (!spaces.nodal.empty())
+      {
+        system.nodal = std::make_unique<NodalSystem>(
+          std::move(spaces.nodal),
+          std::move(spaces.nodal_pressures),
+          NodalSystem::Scene{fields.displacement.numbering,
+                             fields.displacement.constraints,
+                             couplings.all()},
+          run.comm);
+        if (system.owned_multiplier.size() > 0)
+          system.nodal->drop_held_columns(system.coupling);
+        stage.details("without a matrix");
+        return;
+      }
+    std::vector<LoadKinds> kinds;
+    for (const auto &body : spaces.bodies)
+      kinds.push_back({static_cast<bool>(data.loads(*body).body_force),
+                       spaces.has_prescribed_values()});
+    assembled = assemble_bodies(
+      spaces.bodies, kinds, fields.displacement, fields.pressure, system);
+    describe_structure(spaces.bodies, fields.displacement.numbering, system);
+    stage.details(std::to_string(system.stiffness.n_nonzero_elements()) +
+                  " entries");
+  }
+
+  namespace
+  {
+    /// The bodies that interfaces hold together, group by group.
+    std::vector<std::vector<unsigned int>>
+    tied_groups(const std::vector<InterfaceParameters> &interfaces,
+                const unsigned int                      n_bodies)
+    {
+      std::vector<unsigned int> group(n_bodies);
+      std::iota(group.begin(), group.end(), 0);
+      for (const InterfaceParameters &interface : interfaces)
+        {
+          const unsigned int a = group[interface.slave.body],
+                             b = group[interface.master.body];
+          std::replace(group.begin(), group.end(), a, b);
+        }
+      std::vector<std::vector<unsigned int>> result(group.size());
+      for (unsigned int b = 0; b < group.size(); ++b)
+        result[group[b]].push_back(b);
+      result.erase(std::remove_if(result.begin(),
+                                  result.end(),
+                                  [](const auto &list) {
+                                    return list.empty();
+                                  }),
+                   result.end());
+      return result;
+    }
+  } // namespace
+
+  void
+  Discretisation::find_free_pressures()
+  {
+    const Bodies &bodies = spaces.bodies;
+    for (const auto &group : tied_groups(couplings.sides(), bodies.size()))
+      {
+        if (!std::all_of(group.begin(), group.end(), [&](const auto b) {
+              return bodies[b]->material.mixed() &&
+                     bodies[b]->material.incompressible();
+            }))
+          continue;
+        Vector              all(system.owned_pressure, run.comm);
+        std::vector<Vector> ones;
+        std::string         names;
+        for (const unsigned int b : group)
+          {
+            ones.push_back(
+              constant_pressure(*bodies[b], spaces.fields.pressure, system));
+            all += ones.back();
+            names += (names.empty() ? "" : ", ") + bodies[b]->name;
+          }
+        const Enclosure enclosure = test_enclosure(system, all);
+        if (!enclosure.enclosed)
+          continue;
+        Vector integrals(system.owned_pressure, run.comm);
+        for (unsigned int i = 0; i < group.size(); ++i)
+          integrals += pressure_integrals(*bodies[group[i]],
+                                          spaces.fields.pressure,
+                                          system,
+                                          ones[i]);
+        system.free_pressures.add(all, integrals);
+        free_pressures.push_back({enclosure, names});
+      }
+  }
+
+  SceneLoad
+  Discretisation::load(const SceneData &data) const
+  {
+    const auto         scope = run.timers.scope("bulk");
+    std::vector<Loads> loads;
+    for (const auto &body : spaces.bodies)
+      loads.push_back(data.loads(*body));
+    SceneLoad load = assemble_load(loads,
+                                   prescribed_values(spaces, data),
+                                   spaces.bodies,
+                                   assembled,
+                                   spaces.fields,
+                                   system);
+    if (prescribed_columns.m() > 0)
+      {
+        const auto &numbering = spaces.fields.displacement.numbering;
+        Vector      g(numbering.owned(), run.comm);
+        for (const auto &[dof, value] : load.prescribed)
+          if (numbering.owned().is_element(dof))
+            g[dof] = -value;
+        g.compress(VectorOperation::insert);
+        prescribed_columns.vmult(load.rhs.multiplier, g);
+      }
+    for (const FreePressure &free : free_pressures)
+      {
+        if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)
+          throw InputError(
+            "Body " + free.bodies +
+            ": the displacements prescribed all around change the volume (" +
+            RunLog::number(100. * flux) +
+            " % of what flows in and out does not cancel), and Poisson ratio "
+            "0.5 lets no volume change; allowed: displacements that keep it, "
+            "a boundary that is free, or a smaller ratio");
+        run.log.warning(
+          "body " + free.bodies +
+          ": incompressible and held all around, so a constant "
+          "pressure has no effect; the mean pressure is set to zero");
+      }
+    if (system.mixed())
+      system.free_pressures.project_residual(load.rhs.pressure);
+    return load;
+  }
+
+  std::vector<BodySolution>
+  Discretisation::solutions(const SceneLoad    &load,
+                            const SystemVector &solution) const
+  {
+    return body_solutions(
+      spaces.bodies, assembled, spaces.fields, system, load, solution);
+  }
+
+  SystemVector
+  Discretisation::system_vector(const Checkpoint &checkpoint,
+                                const SceneLoad  &load) const
+  {
+    SystemVector x = mortise::system_vector(spaces.bodies,
+                                            spaces.fields,
+                                            system,
+                                            load.prescribed,
+                                            checkpoint.solutions);
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      set_multiplier(couplings.all()[i],
+                     checkpoint.multipliers[i],
+                     x.multiplier);
+    if (x.multiplier.size() > 0)
+      x.multiplier.compress(VectorOperation::insert);
+    return x;
+  }
+
+  void
+  Discretisation::check_multipliers() const
+  {
+    if (couplings.all().size() < 2)
+      return; // those of one interface are independent by their rules
+    const auto dependent = find_dependent_multipliers(system);
+    if (!dependent.empty())
+      throw InputError(
+        "Interfaces tie the same displacements more than once, so that tractions "
+        "are not determined; multipliers that depend on others: " +
+        couplings.count_by_name(dependent) +
+        ". Drop one of the interfaces that meet there, or exchange slave and "
+        "master of one");
+  }
+
+  StepSummary
+  Discretisation::summary() const
+  {
+    StepSummary step;
+    for (const auto &body : spaces.bodies)
+      {
+        const auto statistics = body->statistics();
+        step.bodies.push_back(
+          {body->name,
+           body->mesh.tetrahedra ? "tetrahedra" : "hexahedra",
+           statistics.cells,
+           statistics.degree_min,
+           statistics.degree_max,
+           body->dof_handler.n_dofs()});
+      }
+    const auto n_pressures  = spaces.fields.pressure.numbering.size();
+    step.dofs.displacement  = spaces.fields.displacement.numbering.size();
+    step.dofs.total         = step.dofs.displacement + n_pressures;
+    if (n_pressures > 0)
+      step.dofs.pressure = n_pressures;
+    if (!couplings.all().empty())
+      {
+        step.dofs.multiplier = system.owned_multiplier.size();
+        step.dofs.total += system.owned_multiplier.size();
+      }
+    step.interfaces = interface_summaries;
+    return step;
+  }
+} // namespace mortise

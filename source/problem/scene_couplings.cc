@@ -1,0 +1,171 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/base/error.h>
+#include <mortise/problem/scene_couplings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  SceneCouplings::SceneCouplings(const RunContext  &run,
+                                 const SceneSpaces &spaces)
+    : run(run)
+    , spaces(spaces)
+    , interfaces(run.parameters.interfaces)
+    , owned(0)
+  {}
+
+  Coupling
+  SceneCouplings::make_coupling(const InterfaceParameters &given) const
+  {
+    const auto surface = [&](const SideParameters &side) {
+      const Body &body = *spaces.bodies[side.body];
+      return extract_surface(body,
+                             body.boundary_id(side.boundary,
+                                              "Interface " + given.name),
+                             spaces.fields.displacement.numbering,
+                             spaces.fields.displacement.constraints,
+                             spaces.nodal);
+    };
+    InterfaceOptions options;
+    options.search_fraction      = given.search_distance;
+    options.points_per_direction = given.quadrature_points;
+    Coupling coupling;
+    coupling.interface = std::make_unique<InterfaceHandler>(given.name,
+                                                            surface(given.slave),
+                                                            surface(
+                                                              given.master),
+                                                            options,
+                                                            run.comm);
+    return coupling;
+  }
+
+  void
+  SceneCouplings::integrate(Coupling &coupling) const
+  {
+    coupling.local =
+      integrate_coupling(*coupling.interface,
+                         spaces.choice.method != SolverMethod::direct);
+  }
+
+  void
+  SceneCouplings::find_pairs()
+  {
+    auto          stage = run.log.stage(run.timers, "interface_search");
+    std::uint64_t faces = 0;
+    for (const InterfaceParameters &given : interfaces)
+      {
+        couplings.push_back(make_coupling(given));
+        faces +=
+          Utilities::MPI::sum(couplings.back().interface->slave().faces.size(),
+                              run.comm);
+      }
+    stage.details(std::to_string(faces) + " slave faces");
+  }
+
+  void
+  SceneCouplings::check_overlap(const unsigned int i) const
+  {
+    const InterfaceReport     &report = couplings[i].interface->report();
+    const InterfaceParameters &given  = interfaces[i];
+    if (report.pairs == 0)
+      throw InputError(
+        "Interface " + given.name + ": the surfaces " +
+        spaces.bodies[given.slave.body]->name + ": " + given.slave.boundary +
+        " and " + spaces.bodies[given.master.body]->name + ": " +
+        given.master.boundary +
+        " do not meet: no pair of faces overlaps within the search distance of " +
+        RunLog::number(given.search_distance) +
+        " face sizes. Check positions, names and Search distance");
+    if (report.failed_pairs > 0)
+      run.log.warning("interface " + given.name + ": the projection of " +
+                      std::to_string(report.failed_pairs) +
+                      " pairs of faces did not converge");
+    if (report.covered_area < 0.999 * report.slave_area)
+      {
+        std::ostringstream text;
+        text << "interface " << given.name << ": only "
+             << RunLog::number(100. * report.covered_area / report.slave_area)
+             << " % of the slave surface has a partner; worst is the face at "
+             << report.worst_face_centre << " ("
+             << RunLog::number(100. * report.worst_face_error) << " % off)";
+        run.log.warning(text.str());
+      }
+  }
+
+  void
+  SceneCouplings::couple()
+  {
+    find_pairs();
+    const auto  total    = run.timers.scope("coupling");
+    double      clipping = 0.;
+    std::string balance;
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      {
+        integrate(couplings[i]);
+        const InterfaceReport &report = couplings[i].interface->report();
+        clipping += report.clipping_seconds;
+        if (const unsigned int n_ranks =
+              Utilities::MPI::n_mpi_processes(run.comm);
+            n_ranks > 1)
+          balance +=
+            (i ? ", " : "") + std::to_string(report.largest_integration_cells) +
+            " cells on the busiest rank, " +
+            RunLog::number(double(report.integration_cells) / n_ranks) +
+            " on average";
+        if (report.coinciding_faces > 0)
+          balance += (balance.empty() ? "" : ", ") +
+                     std::to_string(report.coinciding_faces) + " of " +
+                     std::to_string(report.slave_faces) +
+                     " faces coincide with a partner";
+        check_overlap(i);
+      }
+    clipping = Utilities::MPI::max(clipping, run.comm);
+    if (clipping == 0.)
+      return; // all faces coincide
+    run.timers.add("interface_clipping", clipping);
+    run.timers.add("coupling", -clipping);
+    run.log.stage_line("interface_clipping", clipping, balance);
+  }
+
+  InterfaceSummary
+  SceneCouplings::summary(const unsigned int i) const
+  {
+    const InterfaceReport &report = couplings[i].interface->report();
+    const TransferErrors   errors =
+      transfer_errors(couplings[i], owned, run.comm);
+    InterfaceSummary result;
+    result.name                      = couplings[i].interface->name();
+    result.slave_faces               = report.slave_faces;
+    result.master_faces              = report.master_faces;
+    result.candidate_pairs           = report.candidate_pairs;
+    result.pairs                     = report.pairs;
+    result.integration_cells         = report.integration_cells;
+    result.quadrature_points         = report.quadrature_points;
+    result.slave_area                = report.slave_area;
+    result.covered_area              = report.covered_area;
+    result.worst_face_coverage_error = report.worst_face_error;
+    result.partition_of_unity_error  = errors.partition_of_unity;
+    result.linear_completeness_error = errors.linear_completeness;
+    return result;
+  }
+
+  std::vector<BalanceSummary>
+  SceneCouplings::balance() const
+  {
+    std::vector<BalanceSummary> result;
+    for (const Coupling &coupling : couplings)
+      {
+        const InterfaceReport &report = coupling.interface->report();
+        result.push_back({coupling.interface->name(),
+                          report.largest_integration_cells,
+                          double(report.integration_cells) /
+                            Utilities::MPI::n_mpi_processes(run.comm)});
+      }
+    return result;
+  }
+} // namespace mortise

@@ -1,0 +1,182 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/base/error.h>
+#include <mortise/problem/formulation.h>
+#include <mortise/problem/scene_spaces.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  IndexSet
+  SceneSpaces::owned_displacement() const
+  {
+    return nodal.empty() ? fields.displacement.numbering.owned() :
+                           displacement_indices(nodal.front()->owned_nodes());
+  }
+
+  IndexSet
+  SceneSpaces::owned_pressure() const
+  {
+    return nodal_pressures ? nodal_pressures->owned_nodes() :
+                             fields.pressure.numbering.owned();
+  }
+
+  bool
+  SceneSpaces::has_prescribed_values() const
+  {
+    for (const auto &of_body : dirichlet)
+      for (const DirichletCondition &condition : of_body)
+        if (condition.value)
+          return true;
+    return false;
+  }
+
+  Bodies
+  create_meshes(const RunContext &run)
+  {
+    auto              stage      = run.log.stage(run.timers, "mesh");
+    const Parameters &parameters = run.parameters;
+    std::vector<std::set<std::string>> tied_boundaries(
+      parameters.bodies.size());
+    for (const InterfaceParameters &interface : parameters.interfaces)
+      for (const SideParameters &side : {interface.slave, interface.master})
+        tied_boundaries[side.body].insert(side.boundary);
+    Bodies                                bodies;
+    std::vector<std::vector<std::string>> boundary_names;
+    std::uint64_t                         n_cells = 0;
+    for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
+      {
+        const BodyParameters &body = parameters.bodies[b];
+        bodies.push_back(
+          std::make_unique<Body>(body.name, b, materials(parameters)[b]));
+        bodies[b]->create_mesh(body.mesh,
+                               run.comm,
+                               "Body " + body.name + ", Mesh",
+                               tied_boundaries[b]);
+        n_cells += bodies[b]->triangulation().n_global_active_cells();
+        boundary_names.emplace_back();
+        for (const auto &name : bodies[b]->mesh.names.boundaries)
+          boundary_names.back().push_back(name.first);
+      }
+    check_boundary_names(parameters, boundary_names);
+    stage.details(std::to_string(bodies.size()) +
+                  (bodies.size() == 1 ? " body, " : " bodies, ") +
+                  std::to_string(n_cells) + " cells");
+    return bodies;
+  }
+
+  namespace
+  {
+    /// The same conditions with the value zero.
+    std::vector<DirichletCondition>
+    homogeneous(std::vector<DirichletCondition> conditions)
+    {
+      for (DirichletCondition &condition : conditions)
+        condition.value = {};
+      return conditions;
+    }
+
+    std::vector<AffineConstraints<double>>
+    constraints_of(const Bodies                                       &bodies,
+                   const std::vector<std::vector<DirichletCondition>> &dirichlet)
+    {
+      std::vector<AffineConstraints<double>> constraints(bodies.size());
+      for (const auto &body : bodies)
+        {
+          auto &own = constraints[body->index];
+          own.copy_from(body->conformity);
+          add_dirichlet_constraints(*body, dirichlet[body->index], own);
+        }
+      return constraints;
+    }
+
+    /// The method, and the nodal spaces if it works without a matrix.
+    void
+    choose_method(const RunContext &run, SceneSpaces &spaces)
+    {
+      std::vector<const Body *> scene;
+      double softest = std::numeric_limits<double>::max(), stiffest = 0.;
+      unsigned int max_degree = 1;
+      for (const auto &body : spaces.bodies)
+        {
+          scene.push_back(body.get());
+          softest    = std::min(softest, body->material.softest_modulus());
+          stiffest   = std::max(stiffest, body->material.stiffest_modulus());
+          max_degree = std::max(max_degree, body->statistics().degree_max);
+        }
+      const bool nodal = NodalSpace::represents(scene);
+      const bool mixed = spaces.fields.pressure.numbering.size() > 0;
+      spaces.choice =
+        choose_solver(run.parameters.solver.method,
+                      {spaces.fields.displacement.numbering.size(),
+                       max_degree,
+                       nodal,
+                       mixed,
+                       stiffest / softest});
+      if (!nodal || spaces.choice.method == SolverMethod::direct)
+        return;
+      spaces.nodal = make_nodal_spaces(scene, run.comm);
+      if (mixed)
+        spaces.nodal_pressures = make_nodal_pressures(scene, run.comm);
+    }
+  } // namespace
+
+  void
+  create_spaces(const RunContext &run,
+                const SceneData  &data,
+                SceneSpaces      &spaces)
+  {
+    auto stage = run.log.stage(run.timers, "spaces");
+
+    std::vector<const DoFHandler<dim> *>         handlers;
+    std::vector<std::vector<DirichletCondition>> zero;
+    for (const auto &body : spaces.bodies)
+      {
+        const BodyParameters &given = run.parameters.bodies[body->index];
+        body->create_space(given.degree,
+                           given.degree_by_region,
+                           "Body " + body->name);
+        handlers.push_back(&body->dof_handler);
+        if (locks(given))
+          run.log.warning(
+            "body " + body->name + " with Poisson ratio " +
+            RunLog::number(given.material.poisson_ratio) +
+            " and degree 1 is too stiff (it locks); a higher Degree "
+            "gives it a pressure of its own");
+        spaces.dirichlet.push_back(data.dirichlet(*body));
+        zero.push_back(homogeneous(spaces.dirichlet.back()));
+      }
+    spaces.constraints = constraints_of(spaces.bodies, zero);
+    SceneField &displacement = spaces.fields.displacement;
+    displacement.numbering   = FieldNumbering(handlers, run.comm);
+    displacement.constraints =
+      scene_constraints(displacement.numbering, spaces.constraints);
+    spaces.fields.pressure = pressure_field(spaces.bodies, run.comm);
+    choose_method(run, spaces);
+
+    const auto n_pressures = spaces.fields.pressure.numbering.size();
+    stage.details(std::to_string(displacement.numbering.size()) +
+                  " displacement dofs" +
+                  (n_pressures > 0 ?
+                     ", " + std::to_string(n_pressures) + " pressures" :
+                     ""));
+  }
+
+  PrescribedValues
+  prescribed_values(const SceneSpaces &spaces, const SceneData &data)
+  {
+    if (!spaces.has_prescribed_values())
+      return {};
+    std::vector<std::vector<DirichletCondition>> dirichlet;
+    for (const auto &body : spaces.bodies)
+      dirichlet.push_back(data.dirichlet(*body));
+    return prescribed_values(
+      scene_constraints(spaces.fields.displacement.numbering,
+                        constraints_of(spaces.bodies, dirichlet)));
+  }
+} // namespace mortise

@@ -1,0 +1,98 @@
+#include <mortise/problem/step_results.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  StepFields
+  step_fields(const RunContext     &run,
+              const Discretisation &discretisation,
+              const SolvedStep     &solved)
+  {
+    StepFields fields;
+    fields.solutions = discretisation.solutions(solved.load, solved.solution);
+    for (const Coupling &coupling : discretisation.interfaces().all())
+      fields.tractions.push_back(
+        multiplier_on_faces(coupling, solved.solution.multiplier, run.comm));
+    return fields;
+  }
+
+  namespace
+  {
+    ErrorSummary
+    errors_of(const RunContext     &run,
+              const Discretisation &discretisation,
+              const ExactSolution  &exact,
+              const StepFields     &fields)
+    {
+      const Bodies         &bodies     = discretisation.bodies();
+      const SceneCouplings &interfaces = discretisation.interfaces();
+      const SolutionErrors  errors =
+        solution_errors(bodies, fields.solutions, exact);
+      ErrorSummary result;
+      result.displacement_l2 = errors.displacement_l2;
+      result.displacement_h1 = errors.displacement_h1;
+      result.energy          = errors.energy;
+      if (discretisation.linear_system().mixed())
+        result.pressure_l2 = errors.pressure_l2;
+      if (interfaces.all().empty())
+        return result;
+      std::vector<TiedBodies> tied;
+      for (unsigned int i = 0; i < interfaces.all().size(); ++i)
+        tied.push_back({interfaces.sides()[i].slave.body,
+                        run.parameters.interfaces[i].slave.body});
+      result.multiplier_l2 = multiplier_error(
+        bodies, interfaces.all(), tied, fields.tractions, exact);
+      return result;
+    }
+
+    std::vector<double>
+    components(const Tensor<1, dim> &value)
+    {
+      return {value[0], value[1], value[2]};
+    }
+  } // namespace
+
+  void
+  evaluate_step(const RunContext     &run,
+                const Discretisation &discretisation,
+                const SolvedStep     &solved,
+                const StepFields     &fields,
+                StepSummary          &summary)
+  {
+    const Bodies &bodies     = discretisation.bodies();
+    const auto   &interfaces = discretisation.interfaces().all();
+    for (unsigned int i = 0; i < interfaces.size(); ++i)
+      {
+        const ResultantErrors errors =
+          resultant_errors(interfaces[i], solved.solution.multiplier, run.comm);
+        summary.interfaces[i].force_residual  = errors.force;
+        summary.interfaces[i].moment_residual = errors.moment;
+      }
+    if (const auto &exact = solved.data.exact())
+      summary.errors = errors_of(run, discretisation, *exact, fields);
+    for (const PointQuantity &quantity : run.parameters.output.points)
+      {
+        const auto value =
+          point_value(*bodies[quantity.body],
+                      fields.solutions[quantity.body].displacement,
+                      quantity.point);
+        if (!value)
+          run.log.warning("Output/Points: " + quantity.name +
+                          " lies outside of body " +
+                          bodies[quantity.body]->name);
+        summary.quantities.emplace_back(quantity.name,
+                                        value ? components(*value) :
+                                                std::vector<double>{});
+      }
+    for (const ResultantQuantity &quantity : run.parameters.output.resultants)
+      {
+        const Body &body = *bodies[quantity.body];
+        summary.quantities.emplace_back(
+          quantity.name,
+          components(resultant(body,
+                               fields.solutions[quantity.body],
+                               body.boundary_id(quantity.boundary, ""))));
+      }
+  }
+} // namespace mortise

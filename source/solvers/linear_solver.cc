@@ -1,0 +1,93 @@
+#include <deal.II/base/timer.h>
+
+#include <mortise/base/timers.h>
+#include <mortise/solvers/linear_solver.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  double
+  largest_entry(const SystemVector &rhs)
+  {
+    double largest = 0.;
+    for (const Vector *part :
+         {&rhs.displacement, &rhs.pressure, &rhs.multiplier})
+      if (part->size() > 0)
+        largest = std::max(largest, part->linfty_norm());
+    return largest;
+  }
+
+  double
+  unit_scale(const SystemVector &rhs)
+  {
+    const double largest  = largest_entry(rhs);
+    int          exponent = 0;
+    if (!std::isfinite(largest) || largest == 0.)
+      return 1.;
+    std::frexp(largest, &exponent);
+    return std::ldexp(1., -exponent);
+  }
+
+  LinearSolver::LinearSolver(const BlockSystem   &system,
+                             const SolverOptions &options,
+                             const std::string   &method)
+    : system(system)
+    , options(options)
+    , method(method)
+    , earlier(options.successive)
+  {}
+
+  void
+  LinearSolver::update()
+  {
+    announce_stage("solver_setup");
+    const Timer timer;
+    residual = std::make_unique<ScaledResidual>(system);
+    valid    = set_up();
+    earlier  = SuccessiveSolutions(options.successive);
+    setup_seconds += timer.wall_time();
+  }
+
+  SolveReport
+  LinearSolver::solve(const SystemVector &rhs, SystemVector &x)
+  {
+    if (!residual)
+      update();
+    announce_stage("solve");
+    const Timer timer;
+    SolveReport report;
+    report.method         = method;
+    report.preconditioner = description;
+
+    const bool is_zero = earlier.empty() || largest_entry(rhs) == 0.;
+    x = is_zero ? system.zero_vector() : earlier.start(rhs, *residual);
+    const double factor = unit_scale(rhs);
+    SystemVector scaled = rhs;
+    scale(scaled, factor);
+    scale(x, factor);
+    if (valid)
+      run(scaled, x, is_zero, report);
+    else
+      report.relative_residual = 1.;
+    scale(x, 1. / factor);
+    if (report.converged)
+      remember(rhs, x);
+
+    report.setup_seconds = setup_seconds;
+    setup_seconds        = 0.;
+    report.solve_seconds = timer.wall_time();
+    return report;
+  }
+
+  void
+  LinearSolver::remember(const SystemVector &rhs, const SystemVector &x)
+  {
+    if (!residual)
+      update();
+    earlier.add(rhs, x, *residual);
+  }
+} // namespace mortise

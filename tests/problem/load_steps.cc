@@ -1,0 +1,136 @@
+// Proves which times a run goes to: planned ones exactly, halves of them where
+// steps fail, longer ones after easy steps, and the same after a restart.
+#include <mortise/problem/load_steps.h>
+
+#include <cmath>
+#include <iostream>
+#include <string>
+#include <vector>
+
+using namespace mortise;
+
+namespace
+{
+  void
+  verdict(const bool good, const std::string &what)
+  {
+    std::cout << (good ? "OK  " : "FAILED  ") << what << std::endl;
+  }
+
+  StepParameters
+  planned(const std::vector<double> &times)
+  {
+    StepParameters parameters;
+    parameters.given = true;
+    parameters.times = times;
+    return parameters;
+  }
+
+  void
+  check_planned()
+  {
+    StepParameters parameters = planned({0.1, 0.3, 1., 1.5, 2.});
+    parameters.output_every   = 2;
+    LoadSteps           steps(parameters, false);
+    std::vector<double> reached, written;
+    while (!steps.finished())
+      {
+        reached.push_back(steps.next());
+        steps.accept(true);
+        if (steps.output_due())
+          written.push_back(steps.time());
+      }
+    verdict(reached == parameters.times, "planned times exactly");
+    verdict(written == std::vector<double>({0.3, 1.5, 2.}),
+            "output at every second one and the last");
+    verdict(steps.share() == 1. && steps.n_done() == 5, "all is done");
+    LoadSteps linear(parameters, false);
+    verdict(!linear.halve() && linear.next() == 0.1,
+            "a linear scene does not halve");
+  }
+
+  void
+  check_halving()
+  {
+    LoadSteps steps(planned({1., 2.}), true);
+    verdict(steps.halve() && steps.halve() && steps.next() == 0.25,
+            "halved twice: a quarter");
+    steps.accept(false);
+    verdict(!steps.output_due() && steps.next() == 0.5,
+            "not easy: the next is as long, no output in between");
+    steps.accept(true);
+    verdict(steps.next() == 1., "easy: twice as long, up to the planned time");
+    steps.accept(true);
+    verdict(steps.output_due() && steps.next() == 2.,
+            "easy again: the whole planned step");
+    steps.accept(true);
+    verdict(steps.finished() && steps.n_done() == 4, "four steps");
+
+    StepParameters parameters = planned({1.});
+    parameters.smallest_step  = 0.2;
+    LoadSteps    coarse(parameters, true);
+    unsigned int halvings = 0;
+    while (coarse.halve())
+      ++halvings;
+    verdict(halvings == 2 && coarse.next() == 0.25,
+            "no step below the smallest");
+
+    // thirds of a step leave no sliver
+    LoadSteps thirds(planned({0.3}), true);
+    thirds.resume(0., 0, 0.1);
+    unsigned int n = 0;
+    for (; !thirds.finished() && n < 10; ++n)
+      thirds.accept(false);
+    verdict(n == 3 && thirds.time() == 0.3, "three thirds, exactly at the end");
+  }
+
+  /// 3 * 0.1 is not 0.3: no step is left between them.
+  void
+  check_rounding()
+  {
+    LoadSteps steps(planned({0.1, 2 * 0.1, 3 * 0.1, 0.4}), false);
+    steps.resume(0.3, 3, 1.);
+    verdict(steps.next() == 0.4, "a planned time with another rounding");
+  }
+
+  void
+  check_resume()
+  {
+    StepParameters parameters = planned({});
+    for (unsigned int i = 1; i <= 10; ++i)
+      parameters.times.push_back(0.1 * i);
+    for (unsigned int stop = 1; stop <= 12; ++stop)
+      {
+        LoadSteps           whole(parameters, true);
+        std::vector<double> expected, got;
+        const auto          run = [](LoadSteps           &steps,
+                            std::vector<double> &times,
+                            const unsigned int   until) {
+          while (!steps.finished() && steps.n_done() < until)
+            {
+              if (steps.n_done() == 3)
+                steps.halve();
+              times.push_back(steps.next());
+              steps.accept(steps.n_done() % 2 == 0);
+            }
+        };
+        run(whole, expected, 100);
+        LoadSteps first(parameters, true), second(parameters, true);
+        run(first, got, stop);
+        second.resume(first.time(), first.n_done(), first.longest());
+        run(second, got, 100);
+        verdict(got == expected && second.n_done() == whole.n_done(),
+                "stopped after " + std::to_string(stop) +
+                  " steps: the same times");
+      }
+  }
+} // namespace
+
+int
+main()
+{
+  check_planned();
+  check_halving();
+  check_rounding();
+  check_resume();
+}
