@@ -31,12 +31,18 @@ without_verdicts() {
 exec {messages}> >(without_verdicts)
 filter=$!
 
-# A session of its own: what the keyboard sends comes here and is handed on once (mpirun leaves its
-# ranks behind when it hears it twice).
+# A session of its own: what the keyboard sends comes here and is handed on, at first to the ranks, since mpirun
+# of Open MPI 5 would end without what they say (and leaves them behind when it hears it twice).
 mpirun="" interrupted=0 code=0
-trap 'interrupted=130; kill -TERM $mpirun' INT
-trap 'interrupted=143; kill -TERM $mpirun' TERM
-trap 'interrupted=129; kill -TERM $mpirun' HUP
+hand_on() {
+  local processes=""
+  [ "$interrupted" != 0 ] || processes=$(cat "/proc/$mpirun/task/"*/children 2>/dev/null) || true
+  interrupted=$1
+  kill -TERM ${processes:-$mpirun} 2>/dev/null || true
+}
+trap 'hand_on 130' INT
+trap 'hand_on 143' TERM
+trap 'hand_on 129' HUP
 setsid mpirun "${options[@]}" "$@" <&0 2>&"$messages" {messages}>&- &
 mpirun=$!
 exec {messages}>&-
