@@ -79,7 +79,9 @@ int
 main(int argc, char *argv[])
 {
   mortise::prepare_process();
-  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  // PETSc, which deal.II may be built with, takes all arguments for its own
+  int                                      n_for_libraries = 1;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(n_for_libraries, argv, 1);
   mortise::interruption::catch_signals(); // libraries have taken some of them
   mortise::interruption::share_silence(MPI_COMM_WORLD);
   const std::vector<std::string> arguments(argv + 1, argv + argc);

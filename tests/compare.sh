@@ -5,11 +5,7 @@ program=$1 expected=$2 ranks=$3
 got=$(mktemp)
 trap 'rm -f "$got"' EXIT
 run=("$program")
-if [ "$ranks" -gt 1 ]; then
-  run=(mpirun -q --mca mpi_yield_when_idle 1 -n "$ranks" --oversubscribe --bind-to none)
-  [ "$(id -u)" = 0 ] && run+=(--allow-run-as-root)
-  run+=("$program")
-fi
+[ "$ranks" -eq 1 ] || run=("$(dirname "${BASH_SOURCE[0]}")/../tools/mpi.sh" "$ranks" "$program")
 "${run[@]}" >"$got"
 code=$?
 grep -a FAILED "$got" && exit 1

@@ -171,7 +171,10 @@ namespace mortise::interruption
     speaks = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
     if (dealii::Utilities::MPI::n_mpi_processes(comm) > 1)
       if (std::atomic<int> *shared = shared_integer(comm))
-        spoken = shared;
+        {
+          spoken = shared;
+          speaks = true;
+        }
   }
 
   bool

@@ -4,6 +4,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <mortise/base/compatibility.h>
 #include <mortise/body/entity_degrees.h>
 #include <mortise/body/fe_legendre.h>
 #include <mortise/body/fe_simplex_legendre.h>
@@ -165,7 +166,7 @@ namespace mortise
     if (Utilities::MPI::n_mpi_processes(dof_handler.get_communicator()) == 1)
       return;
     const auto pack =
-      [&](const CellIterator &cell) -> std_cxx17::optional<Degrees> {
+      [&](const CellIterator &cell) -> compatibility::optional<Degrees> {
       Degrees degrees;
       for (const unsigned int l : cell->line_indices())
         degrees[l] = line_degrees[cell->line_index(l)];

@@ -2,6 +2,7 @@
 
 #include <deal.II/fe/fe_system.h>
 
+#include <mortise/base/compatibility.h>
 #include <mortise/body/fe_simplex_legendre.h>
 
 #include <algorithm>
@@ -245,7 +246,7 @@ namespace mortise
 
   namespace
   {
-    /// For FESystem of deal.II 9.4 only.
+    /// For an FESystem that does not order triangles.
     class WithoutFaceTable : public FE_SimplexLegendre
     {
     public:
@@ -264,9 +265,10 @@ namespace mortise
       }
     };
 
-    using SystemPart = std::conditional_t<DEAL_II_VERSION_GTE(9, 5, 0),
-                                          FE_SimplexLegendre,
-                                          WithoutFaceTable>;
+    using SystemPart =
+      std::conditional_t<compatibility::system_orders_triangles,
+                         FE_SimplexLegendre,
+                         WithoutFaceTable>;
   } // namespace
 
   std::unique_ptr<FiniteElement<3>>

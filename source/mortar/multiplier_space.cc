@@ -193,7 +193,7 @@ namespace mortise
             add_mean(dof, {*constant}, reduction);
           if (reduction.is_constrained(dof))
             continue;
-            owned_dofs.push_back(dof);
+          owned_dofs.push_back(dof);
           const auto record = records.find(dof);
           at_vertices.push_back(record == records.end() ||
                                 record->second.vertex);

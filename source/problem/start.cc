@@ -8,9 +8,9 @@
 
 #include <csignal>
 #include <cstddef>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <iostream>
 
 extern "C"
 {
@@ -24,6 +24,69 @@ extern "C"
 
 namespace
 {
+  constexpr std::size_t blas_buffer = 128 << 20;
+
+  bool
+  has_room(const std::size_t bytes)
+  {
+    void *memory = mmap(nullptr,
+                        bytes,
+                        PROT_READ | PROT_WRITE,
+                        MAP_PRIVATE | MAP_ANONYMOUS,
+                        -1,
+                        0);
+    if (memory == MAP_FAILED)
+      return false;
+    munmap(memory, bytes);
+    return true;
+  }
+
+  /// The value of a variable, or nullptr: getenv() for those who are called
+  /// before the libraries are initialised.
+  const char *
+  value_of(const char *name, char *const *environment)
+  {
+    const std::size_t length = std::strlen(name);
+    for (; *environment != nullptr; ++environment)
+      if (std::strncmp(*environment, name, length) == 0 &&
+          (*environment)[length] == '=')
+        return *environment + length + 1;
+    return nullptr;
+  }
+
+  /// May be called before the libraries are initialised, streams with them.
+  [[noreturn]] void
+  end_without_room(const std::size_t bytes, char *const *environment)
+  {
+    // Most often all ranks are here: the first ends them all. Another speaks if
+    // it is here alone.
+    for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
+      if (const char *rank = value_of(name, environment);
+          rank != nullptr && std::strcmp(rank, "0") != 0)
+        {
+          sleep(3); // mpirun takes one second
+          break;
+        }
+    rlimit limit;
+    char   message[300];
+    int    length = std::snprintf(
+      message,
+      sizeof message,
+      "error: not enough memory to start: %zu MiB of address space are needed beside the program",
+      bytes >> 20);
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      length += std::snprintf(
+        message + length,
+        sizeof message - length,
+        ", and a process may have %zu MiB in all (ulimit -v); raise this limit",
+        static_cast<std::size_t>(limit.rlim_cur >> 20));
+    message[length++] = '\n';
+    // nobody is left to hear of an error
+    [[maybe_unused]] const ssize_t ignored =
+      write(STDERR_FILENO, message, length);
+    _exit(static_cast<int>(mortise::ExitCode::memory));
+  }
+
   // Parallelism is between ranks: threads of BLAS would fight with them for the
   // cores (the assembly of a scene of degree 4 took four times as long).
   // OpenBLAS starts a thread for each processor that it sees, when it is
@@ -35,11 +98,10 @@ namespace
   bool      loaded_on_one = false;
 
   void
-  load_on_one_processor(int, char **, char **environment)
+  load_on_one_processor(char *const *environment)
   {
-    for (char **entry = environment; *entry != nullptr; ++entry)
-      if (std::strncmp(*entry, "OPENBLAS_NUM_THREADS=", 21) == 0)
-        return;
+    if (value_of("OPENBLAS_NUM_THREADS", environment) != nullptr)
+      return;
     cpu_set_t one;
     CPU_ZERO(&one);
     const int here = sched_getcpu();
@@ -50,9 +112,18 @@ namespace
     loaded_on_one = sched_setaffinity(0, sizeof one, &one) == 0;
   }
 
+  void
+  prepare_libraries(int, char **, char **environment)
+  {
+    // OpenBLAS 0.3.29 takes a buffer when it is loaded; see take_blas_buffer()
+    if (!has_room(2 * blas_buffer))
+      end_without_room(2 * blas_buffer, environment);
+    load_on_one_processor(environment);
+  }
+
   __attribute__((section(".preinit_array"),
                  used)) void (*const before_libraries)(int, char **, char **) =
-    load_on_one_processor;
+    prepare_libraries;
 
   void
   use_one_blas_thread()
@@ -79,54 +150,16 @@ namespace
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }
 
-  bool
-  has_room(const std::size_t bytes)
-  {
-    void *memory = mmap(nullptr,
-                        bytes,
-                        PROT_READ | PROT_WRITE,
-                        MAP_PRIVATE | MAP_ANONYMOUS,
-                        -1,
-                        0);
-    if (memory == MAP_FAILED)
-      return false;
-    munmap(memory, bytes);
-    return true;
-  }
-
-  [[noreturn]] void
-  end_without_room(const std::size_t bytes)
-  {
-    // Most often all ranks are here: the first ends them all. Another speaks if
-    // it is here alone.
-    for (const char *name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
-      if (const char *rank = std::getenv(name);
-          rank != nullptr && std::strcmp(rank, "0") != 0)
-        {
-          sleep(3); // mpirun takes one second
-          break;
-        }
-    rlimit limit;
-    std::cerr << "error: not enough memory to start: " << (bytes >> 20)
-              << " MiB of address space are needed beside the program";
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-      std::cerr << ", and a process may have " << (limit.rlim_cur >> 20)
-                << " MiB in all (ulimit -v); raise this limit";
-    std::cerr << std::endl;
-    _exit(static_cast<int>(mortise::ExitCode::memory));
-  }
-
   /// OpenBLAS takes its buffer, at first twice of it, when a function first
   /// needs one, and tries for ever: let it be now, when there is room.
   void
   take_blas_buffer()
   {
-    constexpr std::size_t buffer = 128 << 20;
-    const std::size_t     n_threads =
+    const std::size_t n_threads =
       openblas_get_num_threads != nullptr ? openblas_get_num_threads() : 1;
-    const std::size_t needed = (n_threads + 1) * buffer;
+    const std::size_t needed = (n_threads + 1) * blas_buffer;
     if (!has_room(needed))
-      end_without_room(needed);
+      end_without_room(needed, environ);
     const int n      = 1;
     double    matrix = 1.;
     int       info   = 0;

@@ -6,12 +6,13 @@ import os
 import subprocess
 import sys
 
+from processor import on_ranks
+
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
 def rows(program, ranks):
-    root = ["--allow-run-as-root"] if os.getuid() == 0 else []
-    command = ["mpirun", "-q", "-n", str(ranks), "--bind-to", "none"] + root + [program, str(3e5 * ranks)]
+    command = on_ranks(ranks) + [program, str(3e5 * ranks)]
     lines = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
     peak = lines[-1].split()
     return [line.rsplit(None, 4) for line in lines[:-1]], *(float(peak[k]) for k in (3, 4, 6, 8, 10))

@@ -17,7 +17,7 @@ import subprocess
 import tempfile
 import time
 
-from processor import openblas
+from processor import on_ranks, openblas
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 FILES = os.path.join(TOP, "doc", "incompressible")
@@ -52,8 +52,7 @@ def run(mortise, scene, settings, ranks=1):
         for setting in ["Output/Fields=", *settings]:
             command += ["--set", setting]
         if ranks > 1:
-            root = ["--allow-run-as-root"] if os.getuid() == 0 else []
-            command = ["mpirun", "-q", *root, "-n", str(ranks), "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1"] + command
+            command = on_ranks(ranks) + command
         environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", **openblas())
         start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
         result = subprocess.run(command, stdout=subprocess.DEVNULL, cwd=TOP, env=environment)

@@ -10,6 +10,8 @@ import os
 import subprocess
 import tempfile
 
+from processor import on_ranks
+
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 MESHES = {1: ("4,2:6,3", "8,4:12,6", "16,8:24,12"), 2: ("4,2:6,3", "8,4:12,6", "16,8:24,12"),
           3: ("2,1:3,2", "4,2:6,3", "8,4:12,6"), 4: ("2,1:3,2", "4,2:6,3", "8,4:12,6"),
@@ -29,9 +31,7 @@ def run(mortise, scene, settings, ranks=1):
         for setting in ["Solver/Tolerance=1e-8", "Output/Fields=", *settings]:
             command += ["--set", setting]
         if ranks > 1:
-            root = ["--allow-run-as-root"] if os.getuid() == 0 else []
-            command = ["mpirun", "-q", "-n", str(ranks), "--oversubscribe", "--bind-to", "none",
-                       "--mca", "mpi_yield_when_idle", "1"] + root + command
+            command = on_ranks(ranks) + command
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, cwd=TOP)
         return json.load(open(os.path.join(work, "summary.json")))["steps"][-1]["solver"]["iterations"]
 

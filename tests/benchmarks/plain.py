@@ -18,7 +18,7 @@ import subprocess
 import tempfile
 import time
 
-from processor import openblas
+from processor import on_ranks, openblas
 from scaling import busy, is_quiet, wait_for_quiet
 from scaling_report import machine, table
 
@@ -34,17 +34,11 @@ ERRORS = ("energy", "l2")
 COMPARED = {"process": "s of the process", "stages": "s of stages", "memory": "MiB", "own memory": "MiB above start"}
 
 
-def parallel(ranks):
-    root = ["--allow-run-as-root"] if os.getuid() == 0 else []
-    return ["mpirun", "-q", *root, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
-            "-n", str(ranks)] if ranks > 1 else []
-
-
 def timed(command, ranks=1):
     """Output of the program, and seconds of the process, of all its cores, and whether it had the cores to itself."""
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", **openblas()}
     before, start = busy(), time.perf_counter()
-    output = subprocess.run(parallel(ranks) + command, check=True, capture_output=True, text=True, env=environment).stdout
+    output = subprocess.run((on_ranks(ranks) if ranks > 1 else []) + command, check=True, capture_output=True, text=True, env=environment).stdout
     seconds, after = time.perf_counter() - start, busy()
     cpu = after[1] - before[1]
     return output, {"process": seconds, "cpu": cpu, "quiet": is_quiet((after[0] - before[0] - cpu) / seconds, ranks)}

@@ -1,4 +1,13 @@
-"""What the benchmarks tell programs about the processor."""
+"""What the benchmarks tell programs about the processor, and how they start several ranks."""
+
+import os
+
+MPI = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "tools", "mpi.sh")
+
+
+def on_ranks(ranks):
+    """The start of a command on several ranks, which give way while they wait."""
+    return ["env", "OMPI_MCA_mpi_yield_when_idle=1", MPI, str(ranks)]
 
 
 def openblas():

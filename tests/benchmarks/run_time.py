@@ -25,7 +25,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plot
 import numpy
 
-from processor import openblas
+from processor import on_ranks, openblas
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 STAGES = ("spaces", "interface_search", "interface_clipping", "coupling", "bulk", "solver_setup", "solve")
@@ -76,10 +76,8 @@ def jobs_of_mortise(mortise, scene, cells, meshes, cores=(1, 2)):
                 settings += [f"Body {body}/Degree={p}", f"Body {body}/Mesh/Cells={cells}", f"Body {body}/Mesh/Subdivisions={subdivisions}"]
             command = [mortise, file] + [word for s in settings for word in ("--set", s)]
             for n in cores:
-                root = ["--allow-run-as-root"] if os.getuid() == 0 else []
-                parallel = ["mpirun", "-q", *root, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1", "-n", str(n)]
                 yield {"program": "Mortise", "scene": scene, "cells": cells, "degree": degree, "mesh": mesh, "cores": n,
-                       "command": (parallel if n > 1 else []) + command}
+                       "command": (on_ranks(n) if n > 1 else []) + command}
 
 
 def jobs_of_peer(program, lines, directory):

@@ -16,7 +16,7 @@ import time
 
 import numpy as np
 
-from processor import openblas
+from processor import on_ranks, openblas
 from scaling_report import report
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -73,12 +73,10 @@ def run(mortise, library, scene, ranks):
     for body, subdivisions in (("inner", inner), ("outer", outer)):
         settings += [f"Body {body}/Degree={degree}", f"Body {body}/Mesh/Subdivisions={subdivisions}",
                      f"Body {body}/Mesh/Refinements={refinements}"]
-    root = ["--allow-run-as-root"] if os.getuid() == 0 else []
     with tempfile.TemporaryDirectory() as work:
         environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1",
                        **openblas(), "MPI_COUNTS": work}
-        command = ["mpirun", "-q", *root, "--oversubscribe", "--bind-to", "none", "--mca", "mpi_yield_when_idle", "1",
-                   "-n", str(ranks), "-x", f"LD_PRELOAD={library}", "-x", "MPI_COUNTS", mortise,
+        command = [*on_ranks(ranks), "env", f"LD_PRELOAD={library}", mortise,
                    os.path.join(TOP, "prm", "thick_sphere.prm"), "--output", work]
         for setting in settings:
             command += ["--set", setting]

@@ -4,20 +4,21 @@
 # ranks.
 set -u
 mortise=$1 prm=$2 top=$3
+mpi=$top/tools/mpi.sh
 work=$(mktemp -d)
 out=$work/out
 export TMPDIR=$work/sessions # of mpirun: in a namespace of users it is somebody else
 mkdir "$TMPDIR"
 trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 FAULTS_TEST=$work
+export FAULTS_TEST=$work
 
 # on RANKS COMMAND...: sets code, message and milliseconds; what it prints goes to $work/log
 on() {
   local ranks=$1 start=$(date +%s%N)
   shift
   if [ "$ranks" -gt 1 ]; then
-    set -- mpirun -q -n "$ranks" --oversubscribe --bind-to none "$@"
+    set -- "$mpi" "$ranks" "$@"
   fi
   message=$(timeout 60 "$@" 2>&1 >"$work/log")
   code=$?
@@ -84,7 +85,7 @@ for ranks in 1 2 3; do
     fresh
     mkdir "$out" "$work/disk"
     launcher=()
-    [ $ranks -eq 1 ] || launcher=(mpirun -q -n $ranks --oversubscribe --bind-to none)
+    [ $ranks -eq 1 ] || launcher=("$mpi" $ranks)
     on 1 unshare -rm bash -c 'mount -t tmpfs -o size=24k none "$1"
       "${@:3}"
       code=$?
@@ -177,7 +178,7 @@ for signal in INT TERM; do
   verdict "SIG$signal" "[ \$code -eq $expected ]" 'says 1 "interrupted by SIG'$signal': nothing was written"' \
     '[ $(wc -l <<<"$message") -eq 1 ]' none '[ $milliseconds -lt 3000 ]'
 done
-stop TERM 1 mpirun -q -n 2 --oversubscribe --bind-to none "${long[@]}"
+stop TERM 1 "$mpi" 2 "${long[@]}"
 verdict "SIGTERM for rank 1 of 2" '[ $code -eq 143 ]' 'says 1 "interrupted by SIGTERM: nothing was written"' none \
   '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 5000 ]'
 

@@ -4,11 +4,11 @@
 # that checkpoints of other scenes, damaged ones and wrong options are refused.
 set -u
 mortise=$1 prm=$2 kills=${3:-6}
+mpi=$(dirname "${BASH_SOURCE[0]}")/../../tools/mpi.sh
 work=$(mktemp -d)
 export TMPDIR=$work/sessions # of mpirun
 mkdir "$TMPDIR"
 trap 'rm -rf "$work"' EXIT
-export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 passed=0 failed=0
 RANDOM=27
 
@@ -31,7 +31,7 @@ on() {
   shift
   set -- "$mortise" "$@"
   if [ "$ranks" -gt 1 ]; then
-    set -- mpirun -q -n "$ranks" --oversubscribe --bind-to none "$@"
+    set -- "$mpi" "$ranks" "$@"
   fi
   timeout 300 "$@" >"$work/log" 2>&1
   code=$?

@@ -6,8 +6,7 @@ mortise=$1 prm=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
-root=()
-[ "$(id -u)" = 0 ] && root=(--allow-run-as-root)
+mpi=$(dirname "${BASH_SOURCE[0]}")/../../tools/mpi.sh
 
 # expect CODE PATTERN ARGUMENT...
 expect() {
@@ -15,8 +14,7 @@ expect() {
   shift 2
   for ranks in 1 2; do
     rm -rf "$work/out"
-    message=$(timeout 120 mpirun -q -n $ranks --oversubscribe --bind-to none "${root[@]}" \
-      "$mortise" --output "$work/out" "$@" 2>&1 >/dev/null)
+    message=$(timeout 120 "$mpi" $ranks "$mortise" --output "$work/out" "$@" 2>&1 >/dev/null)
     got=$?
     if [ $got -ne "$code" ]; then
       echo "FAILED  $* on $ranks ranks: exit code $got, expected $code: $message"

@@ -12,13 +12,15 @@
 namespace mortise::interruption
 {
   /// From now on SIGINT, SIGTERM and their like end the program as said above.
-  /// Of several ranks the first speaks: all of them are ended together. Call
-  /// it before anything else and again when libraries are initialised, which
-  /// may take signals for themselves.
+  /// Of several ranks the first speaks, until share_silence(): all of them are
+  /// ended together. Call it before anything else and again when libraries are
+  /// initialised, which may take signals for themselves.
   void
   catch_signals();
 
-  /// Let ranks on one machine know from each other who has spoken. Collective.
+  /// Let the ranks on the machine of the first know from each other who has
+  /// spoken: from now on the one that is interrupted first speaks, since Open
+  /// MPI 5 may kill the others before they can. Collective.
   void
   share_silence(MPI_Comm comm);
 
