@@ -5,7 +5,7 @@ program=$1 expected=$2 ranks=$3
 got=$(mktemp)
 trap 'rm -f "$got"' EXIT
 run=("$program")
-[ "$ranks" -eq 1 ] || run=("$(dirname "${BASH_SOURCE[0]}")/../tools/mpi.sh" "$ranks" "$program")
+[ "$ranks" -eq 1 ] || run=("$(dirname "${BASH_SOURCE[0]}")/mpi.sh" "$ranks" "$program")
 "${run[@]}" >"$got"
 code=$?
 grep -a FAILED "$got" && exit 1

@@ -51,7 +51,7 @@ namespace
   void
   check(const std::string &cells)
   {
-    Body again("body", 0, {1., 0.5, true}), once("body", 0, {1., 0.5, true});
+    Body again("body", 0, LinearElastic{1., 0.5, true}), once("body", 0, LinearElastic{1., 0.5, true});
     for (Body *body : {&again, &once})
       body->create_mesh(shell(cells), MPI_COMM_WORLD, "");
     again.create_space(2, {}, "");

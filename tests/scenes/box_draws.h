@@ -3,7 +3,7 @@
 // It never runs anything.
 #pragma once
 
-#include <mortise/material/linear_elastic.h>
+#include <mortise/material/material.h>
 
 #include <algorithm>
 #include <array>

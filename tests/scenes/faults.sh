@@ -4,7 +4,7 @@
 # ranks.
 set -u
 mortise=$1 prm=$2 top=$3
-mpi=$top/tools/mpi.sh
+mpi=$top/tests/mpi.sh
 work=$(mktemp -d)
 out=$work/out
 export TMPDIR=$work/sessions # of mpirun: in a namespace of users it is somebody else

@@ -4,7 +4,7 @@
 # that checkpoints of other scenes, damaged ones and wrong options are refused.
 set -u
 mortise=$1 prm=$2 kills=${3:-6}
-mpi=$(dirname "${BASH_SOURCE[0]}")/../../tools/mpi.sh
+mpi=$(dirname "${BASH_SOURCE[0]}")/../mpi.sh
 work=$(mktemp -d)
 export TMPDIR=$work/sessions # of mpirun
 mkdir "$TMPDIR"
@@ -52,7 +52,7 @@ killed() {
 # What a summary says of the solution: no times, no iterations, nothing that is rounding.
 solution() {
   sed -n '/"steps"/,/"timings_s"/p' "$1/summary.json" |
-    grep -v -e iterations -e residual -e preconditioner -e method -e timings
+    grep -v -e iterations -e residual -e preconditioner -e method -e timings | tr -d ,
 }
 
 same() { # DIRECTORY DIRECTORY

@@ -6,7 +6,7 @@ mortise=$1 prm=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 passed=0 failed=0
-mpi=$(dirname "${BASH_SOURCE[0]}")/../../tools/mpi.sh
+mpi=$(dirname "${BASH_SOURCE[0]}")/../mpi.sh
 
 # expect CODE PATTERN ARGUMENT...
 expect() {
