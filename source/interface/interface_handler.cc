@@ -137,7 +137,6 @@ namespace mortise
     totals.failed_pairs      = total(local.n_failures);
     totals.slave_area        = Utilities::MPI::sum(local.slave_area, comm);
     totals.covered_area      = Utilities::MPI::sum(local.covered_area, comm);
-    totals.max_gap           = Utilities::MPI::max(local.max_gap, comm);
     totals.worst_face_error  = Utilities::MPI::max(worst_error, comm);
 
     // several faces may be equally bad: name the one of the lowest rank

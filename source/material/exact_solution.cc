@@ -54,12 +54,6 @@ namespace mortise
                                               force;
   }
 
-  unsigned int
-  ExpressionSolution::n_bodies() const
-  {
-    return materials.size();
-  }
-
   namespace
   {
     using Layer = LameSolution::Layer;
@@ -284,11 +278,5 @@ namespace mortise
   LameSolution::body_force(const Point<3> &, const unsigned int) const
   {
     return Tensor<1, 3>();
-  }
-
-  unsigned int
-  LameSolution::n_bodies() const
-  {
-    return coefficients.size();
   }
 } // namespace mortise

@@ -44,9 +44,7 @@ namespace mortise
         }
     }
 
-    /// Iterations to 1e-8 with factors 1, 1.8, 3, 5: prm/flange.prm 29, 25, 22,
-    /// 21, the thick sphere of tetrahedra of degree 1 13, 12, 13, 15, of degree
-    /// 2 16, 14, 14, 15, of degree 3 14, 13, 12, 13.
+    /// Fewest iterations: doc/tuning.md.
     constexpr double penalty_factor = 1.8;
 
     /// Of the layer of cells behind a face; layers one behind the other add up.
@@ -68,12 +66,7 @@ namespace mortise
     /// How many times as many nodes on an area a slave needs at least to
     /// follow. Where multipliers do not move the master's nodes, those that
     /// meet on a large face do not couple with each other, but two projections
-    /// are needed in place of one. Setup and solve, thick sphere, without and
-    /// with it: p = 4, slave 1.2, 1.5, 2, 5, 10 times as fine .77 and .63 s,
-    /// .60 and .55, .60 and .51, 7.4 and 2.4, 19 and 3.1; p = 2, 1.5, 2, 10
-    /// times .50 and .50, .55 and .47, 9.1 and 2.9; p = 1, 2, 5 times 1.4
-    /// and 1.7 (8, 10 iterations), .57 and .50. Below a ratio of 3 it is not
-    /// worth up to 3 more iterations beside stiff slaves.
+    /// are needed in place of one: doc/tuning.md.
     double
     least_density_ratio(const unsigned int degree)
     {
@@ -81,8 +74,7 @@ namespace mortise
     }
 
     /// A slave that is stiffer than this follows badly where it is covered in
-    /// part: iterations of a box of degree 4 with moduli 100, 1e3, 1e6 : 1 19,
-    /// 34, more than 300 instead of 12, 15, 15.
+    /// part: doc/tuning.md.
     constexpr double largest_modulus_ratio = 100.;
 
     bool

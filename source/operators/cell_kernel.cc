@@ -3,6 +3,8 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/tria.h>
 
+#include <boost/container/static_vector.hpp>
+
 #include <Teuchos_BLAS.hpp>
 #include <mortise/body/simplex_quadrature.h>
 #include <mortise/operators/cell_kernel.h>
@@ -208,29 +210,81 @@ namespace mortise
     return true;
   }
 
+  namespace
+  {
+    /// A row of a product of gradients, or a column of it, times a modulus.
+    struct Source
+    {
+      const double *from;
+      std::size_t   stride;
+      double        modulus;
+    };
+
+    /// to[j] = the sum of the sources' entries j; @p n_sources: their number, or 0 if it is not known
+    /// when this is compiled.
+    template <unsigned int n_sources>
+    void
+    sum(const boost::container::static_vector<Source, 9> &sources,
+        const unsigned int                                begin,
+        const unsigned int                                end,
+        double                                           *to)
+    {
+      const unsigned int n = n_sources == 0 ? sources.size() : n_sources;
+      for (unsigned int j = begin; j < end; ++j)
+        {
+          double value = 0.;
+          for (unsigned int k = 0; k < n; ++k)
+            value +=
+              sources[k].modulus * sources[k].from[j * sources[k].stride];
+          to[j] = value;
+        }
+    }
+  } // namespace
+
+  void
+  CellKernel::sum_terms(const unsigned int c,
+                        const unsigned int d,
+                        const unsigned int i,
+                        const unsigned int begin,
+                        const unsigned int end)
+  {
+    const std::size_t                          size = dim * n;
+    boost::container::static_vector<Source, 9> sources;
+    for (const auto &[e, f, modulus] : terms[c][d])
+      // H_ef(i, j) = H_fe(j, i), of which there is that with e < f, or j >= i
+      // for e = f
+      if (e < f || (e == f && begin >= i))
+        sources.push_back({&products[(e * n + i) * size + f * n], 1, modulus});
+      else
+        sources.push_back({&products[f * n * size + e * n + i], size, modulus});
+    switch (sources.size()) // two and three are those of isotropic bodies
+      {
+        case 2:
+          return sum<2>(sources, begin, end, row.data());
+        case 3:
+          return sum<3>(sources, begin, end, row.data());
+        default:
+          return sum<0>(sources, begin, end, row.data());
+      }
+  }
+
   void
   CellKernel::combine(FullMatrix<double> &matrix)
   {
-    const std::size_t size = dim * n;
+    const auto splits = [](const Term &term) { return term.e == term.f; };
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int d = c; d < dim; ++d)
         for (unsigned int i = 0; i < n; ++i)
           {
             // the blocks of the diagonal are symmetric
             const unsigned int first = c == d ? i : 0;
-            std::fill(row.begin() + first, row.end(), 0.);
-            for (const auto &[e, f, modulus] : terms[c][d])
-              {
-                // H_ef(i, j) = H_fe(j, i), of which there is that with e < f,
-                // or j >= i for e = f
-                const unsigned int begin = e < f ? first : e == f ? i : n;
-                const double *along  = &products[(e * n + i) * size + f * n],
-                             *across = &products[f * n * size + e * n + i];
-                for (unsigned int j = first; j < begin; ++j)
-                  row[j] += modulus * across[j * size];
-                for (unsigned int j = begin; j < n; ++j)
-                  row[j] += modulus * along[j];
-              }
+            const bool         split =
+              first < i && std::any_of(terms[c][d].begin(),
+                                       terms[c][d].end(),
+                                       splits);
+            if (split)
+              sum_terms(c, d, i, first, i);
+            sum_terms(c, d, i, split ? i : first, n);
             const unsigned int index = system_index[c][i];
             for (unsigned int j = first; j < n; ++j)
               {

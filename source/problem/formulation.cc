@@ -145,6 +145,8 @@ namespace mortise
                       "nothing in a scene with Poisson ratio 0.5",
                       "an expression in x, y, z for the mean pressure");
     if (exact.pressure)
-      Expression(*exact.pressure, parameters.where(path));
+      Expression(*exact.pressure,
+                 parameters.where(path),
+                 parameters.steps.times().front());
   }
 } // namespace mortise

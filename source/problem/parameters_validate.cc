@@ -20,12 +20,14 @@ namespace mortise
 {
   namespace
   {
-    /// @p text parses; if it is the same everywhere, a run can use the number.
+    /// @p text parses at the first @p time; if it is the same everywhere, a run can use the number.
     /// What varies is watched while it is evaluated (FieldChecks).
     void
-    check_expression(const std::string &where, const std::string &text)
+    check_expression(const std::string &where,
+                     const std::string &text,
+                     const double       time)
     {
-      const Expression expression(text, where);
+      const Expression expression(text, where, time);
       if (!expression.is_constant() || expression.depends_on_time())
         return;
       const double value = expression.value(dealii::Point<3>());
@@ -47,7 +49,9 @@ namespace mortise
                 const std::string &component = "")
     {
       if (text != "exact")
-        check_expression(parameters.where(path) + component, text);
+        check_expression(parameters.where(path) + component,
+                         text,
+                         parameters.steps.times().front());
       else if (parameters.exact_solution.kind == ExactKind::none)
         parameters.fail(path,
                         "\"exact\" in a scene without an exact solution",

@@ -189,12 +189,6 @@ namespace mortise
         return checks.all(exact->body_force(p, body), p, what[3]);
       }
 
-      unsigned int
-      n_bodies() const override
-      {
-        return exact->n_bodies();
-      }
-
     private:
       static constexpr std::array<const char *, 4> quantities = {
         {"displacement's norm",

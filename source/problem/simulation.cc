@@ -35,6 +35,7 @@ namespace mortise
     summary.steps = checkpoint.steps;
     steps.resume(checkpoint.time, checkpoint.n_steps, checkpoint.longest_step);
     files.resume(checkpoint.files);
+    clock.share = steps.share();
   }
 
   void
@@ -225,13 +226,15 @@ namespace mortise
   Simulation::print_progress()
   {
     const double share = steps.share(), seconds = context.timers.total();
+    const double left  = (seconds - clock.seconds) / (share - clock.share) *
+                        (1. - share);
+    if (clock.seconds == 0.)
+      clock = {share, seconds}; // the first step made the preconditioner, too
     context.log.line("  " + RunLog::number(100. * share) + " % done in " +
                      RunLog::number(seconds) + " s" +
                      (steps.finished() ?
                         "" :
-                        ", about " +
-                          RunLog::number(seconds * (1. - share) / share) +
-                          " s left"));
+                        ", about " + RunLog::number(left) + " s left"));
   }
 
   void
@@ -283,10 +286,9 @@ namespace mortise
       }
     catch (const InputError &)
       {
-        // earlier steps are worth keeping
         summary.status = "stopped";
-        if (!summary.steps.empty())
-          write_summary();
+        if (!report.method.empty() && !summary.steps.empty())
+          write_summary(); // steps of this run are worth keeping
         throw;
       }
     write_summary();

@@ -8,12 +8,8 @@ namespace mortise
 {
   namespace
   {
-    // Iterations on the thick sphere, p = 2..8, with chebyshev.cc's degrees:
-    // hexahedra 8, 10, 9, 11, 11, 13, 12 with `base` for all of them, 8, 9, 8,
-    // 8, 8, 8, 8 as below; tetrahedra 9, 12, 12, 13, 15, 20, 24 and 9, 10, 8,
-    // 8, 9, 9, 11; Poisson's ratio 0.49 (p = 2, 4, 6) 26, 27, 37 and 18, 15,
-    // 14. The times are the same within what can be measured, since polynomials
-    // of higher degree take fewer iterations.
+    // Less for high degrees and towards incompressible materials, so that
+    // iterations stay the same: doc/tuning.md.
     constexpr double base = 0.13;
 
     double

@@ -211,6 +211,23 @@ namespace
             0.);
   }
 
+  /// t is a number from the start.
+  void
+  check_time()
+  {
+    const Expression moving("x * t^2", "", 3.), factor("2 * t", "", 3.);
+    const Point<3>   p(5., 0., 0.);
+    verdict(moving.value(p) == 45. && moving.gradient(p)[0] == 9. &&
+              moving.depends_on_time() && !moving.is_constant() &&
+              factor.is_constant() && factor.depends_on_time() &&
+              factor.value(p) == 6. && !Expression("x").depends_on_time() &&
+              VectorExpression("t; 0; x", "", 0.5).value(p)[0] == 0.5 &&
+              Expression("t").value(p) == 0.,
+            "time: exact",
+            0.,
+            0.);
+  }
+
   /// A sum of many terms is parsed and evaluated like a short one.
   void
   check_long_sum()
@@ -256,6 +273,7 @@ main()
 {
   check_derivatives();
   check_numbers();
+  check_time();
   check_long_sum();
   refused("", {"character 1", "the end", "a number, a name"});
   refused("2*", {"character 3", "the end"});
@@ -263,7 +281,7 @@ main()
   refused(
     "sine(x)",
     {"character 1", "'sine' is not known", "did you mean 'sin'", "atan2"});
-  refused("x + t", {"character 5", "'t' is not known", "x, y, z, pi"});
+  refused("x + w", {"character 5", "'w' is not known", "x, y, z, t, pi"});
   refused("2 x", {"character 3", "an operator or the end"});
   refused("x)", {"character 2"});
   refused("atan2(x)", {"character 8", "2 arguments"});

@@ -1,5 +1,4 @@
 // Errors that end the program with one message and a documented exit code.
-// It never prints.
 #pragma once
 
 #include <mpi.h>

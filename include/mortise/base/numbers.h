@@ -1,5 +1,5 @@
 // Which numbers a scene may hold: those whose products and squares a run can
-// still represent. It never knows what a number is for.
+// still represent.
 #pragma once
 
 #include <string>

@@ -1,5 +1,4 @@
-// The deal.II headers that most sources include, precompiled once. It never
-// defines anything.
+// The deal.II headers that most sources include, precompiled once.
 #pragma once
 
 #include <deal.II/base/mpi.h>

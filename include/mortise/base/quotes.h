@@ -1,5 +1,4 @@
-// Input as messages quote it: short, whatever they got. It never changes what
-// is short already.
+// Input as messages quote it: short, whatever they got.
 #pragma once
 
 #include <string>

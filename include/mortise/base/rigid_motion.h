@@ -1,5 +1,5 @@
 // A rotation about the origin followed by a translation: how a body or a scene
-// is placed. It never scales or mirrors, and knows no mesh.
+// is placed.
 #pragma once
 
 #include <deal.II/base/numbers.h>

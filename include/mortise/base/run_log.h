@@ -1,6 +1,5 @@
 // What a run tells on the screen: a line per stage with its time, warnings
-// once, a table at the end. Only rank 0 prints. It never decides anything and
-// never writes files.
+// once, a table at the end. Only rank 0 prints.
 #pragma once
 
 #include <mortise/base/timers.h>

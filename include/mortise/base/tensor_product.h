@@ -1,6 +1,5 @@
 // Matrices along one direction of a three-dimensional array, for what is done
-// once per cell. It never vectorises over cells (see
-// operators/tensor_kernel.h).
+// once per cell.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

@@ -1,5 +1,5 @@
 // The types of the program: the one place that names the linear algebra
-// backend. It never defines behaviour.
+// backend.
 #pragma once
 
 #include <deal.II/base/types.h>
@@ -21,7 +21,6 @@ namespace mortise
   constexpr unsigned int max_degree = 8;
 
   using SparseMatrix    = dealii::TrilinosWrappers::SparseMatrix;
-  using SparsityPattern = dealii::TrilinosWrappers::SparsityPattern;
   using Vector          = dealii::TrilinosWrappers::MPI::Vector;
 
   /// Triangulation of one hexahedral body, distributed by p4est.

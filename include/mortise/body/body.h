@@ -1,6 +1,5 @@
 // One elastic body: triangulation, hp space of displacements, mapping,
-// conformity constraints and material. It never knows of other bodies, of
-// interfaces or of parameter files.
+// conformity constraints and material.
 #pragma once
 
 #include <deal.II/base/index_set.h>

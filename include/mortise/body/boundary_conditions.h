@@ -1,5 +1,5 @@
 // Prescribed displacements of one body as constraints, and prescribed tractions
-// as data. It never assembles.
+// as data.
 #pragma once
 
 #include <mortise/body/body.h>

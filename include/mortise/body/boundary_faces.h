@@ -1,5 +1,4 @@
-// The faces of a body on one of its boundaries. It never looks at their
-// geometry.
+// The faces of a body on one of its boundaries.
 #pragma once
 
 #include <mortise/body/body.h>

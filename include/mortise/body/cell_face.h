@@ -1,5 +1,5 @@
 // A face of a hexahedron or tetrahedron in the coordinates in which its trace
-// is described (trace_basis.h). It never looks at other cells.
+// is described (trace_basis.h).
 #pragma once
 
 #include <deal.II/base/point.h>

@@ -1,6 +1,5 @@
 // The curved shape of the coarse cells of a second-order mesh: points of
-// refined cells and of mappings of any degree on it. It never knows a file, and
-// never changes the degree of the shape.
+// refined cells and of mappings of any degree on it.
 #pragma once
 
 #include <deal.II/base/point.h>

@@ -1,7 +1,6 @@
 // The minimum rule: the polynomial degree of each edge and face of a mesh is
 // the least of all cells around it, across hanging nodes and ranks, and the
-// degree of freedom that stands for a mode there. It never writes constraints
-// (see hp_constraints.h).
+// degree of freedom that stands for a mode there.
 #pragma once
 
 #include <deal.II/dofs/dof_handler.h>

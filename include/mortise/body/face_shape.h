@@ -1,4 +1,4 @@
-// The reference shapes of faces. It never holds data of a face.
+// The reference shapes of faces.
 #pragma once
 
 namespace mortise

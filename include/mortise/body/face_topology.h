@@ -2,7 +2,7 @@
 // vertices of a face in the coordinates of its own cell. Face f has the normal
 // direction d = f / 2 and the face coordinates (xi, eta) along the cell
 // directions (d + 1) % 3 and (d + 2) % 3, as in deal.II's faces in standard
-// orientation. It never looks at a mesh.
+// orientation.
 #pragma once
 
 #include <deal.II/base/point.h>

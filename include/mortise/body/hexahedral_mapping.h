@@ -1,5 +1,4 @@
-// The mapping of hexahedra: deal.II's cached one, whose nodes can be read. It
-// never evaluates.
+// The mapping of hexahedra: deal.II's cached one, whose nodes can be read.
 #pragma once
 
 #include <deal.II/fe/mapping_q_cache.h>

@@ -1,6 +1,5 @@
 // A function at a point together with its first and second derivatives, for
-// formulas that are written once for numbers and for functions. It never knows
-// which function it is.
+// formulas that are written once for numbers and for functions.
 #pragma once
 
 #include <deal.II/base/tensor.h>

@@ -1,5 +1,5 @@
 // Nodes at the vertices of the coarse mesh of a body that a rank needs to
-// coarsen its lattice. It never coarsens.
+// coarsen its lattice.
 #pragma once
 
 #include <mortise/body/lattice_coarsening.h>

@@ -1,7 +1,6 @@
 // The one-dimensional hierarchical basis on [0,1]: two linear functions and
 // integrated Legendre (Lobatto) bubbles, their restriction to the halves of the
-// interval, and the same functions as polynomials for deal.II. It never knows a
-// mesh, a cell or a numbering of degrees of freedom.
+// interval, and the same functions as polynomials for deal.II.
 #pragma once
 
 #include <deal.II/base/polynomial.h>

@@ -1,5 +1,5 @@
 // The hierarchical elements of a space and which of them each cell takes, for
-// both shapes of cells. It never makes constraints.
+// both shapes of cells.
 #pragma once
 
 #include <deal.II/dofs/dof_handler.h>

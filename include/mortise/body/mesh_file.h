@@ -1,6 +1,6 @@
 // Meshes from gmsh files: .msh of versions 2.2 and 4.1, ASCII and binary, of
 // first and second order, and geometries (.geo, .step, .brep) that are meshed
-// on the fly. It never refines a mesh.
+// on the fly.
 #pragma once
 
 #include <mortise/body/generators.h>

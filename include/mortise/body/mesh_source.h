@@ -1,6 +1,5 @@
 // Where the mesh of a body comes from: a generator or a file, then refinement,
-// then placement. It never distributes degrees of freedom and never reads the
-// parameter file itself.
+// then placement.
 #pragma once
 
 #include <deal.II/distributed/tria_base.h>

@@ -2,8 +2,7 @@
 // (Gauss-Lobatto points of hexahedra, those of simplex_nodes.h of tetrahedra):
 // the space of the hierarchical element, hp and hanging nodes included, in the
 // basis that iterative solvers like better. One numbering of nodes for all
-// bodies, with lower degrees on the same meshes for multigrid. It never
-// evaluates a function and never solves.
+// bodies, with lower degrees on the same meshes for multigrid.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -166,11 +165,9 @@ namespace mortise
   /// Levels of falling degree on the same meshes, the finest first.
   using NodalSpaces = std::vector<std::unique_ptr<NodalSpace>>;
 
-  /// Degree on the next level: half of it, from five on rounded up (p = 7, 9
-  /// instead of 12 iterations of conjugate gradients in 0.59 instead of 0.72 s;
-  /// p = 3 by way of 2 takes 8 instead of 10, but longer). On tetrahedra, whose
-  /// nodes are less regular, by steps of two above four: the iterations for
-  /// degrees 5, 6 on an unstructured mesh are 17, 21 instead of 22, 27.
+  /// Degree on the next level: half of it, from five on rounded up. On
+  /// tetrahedra, whose nodes are less regular, by steps of two above four
+  /// (doc/tuning.md).
   constexpr unsigned int
   lower_degree(const bool tetrahedra, const unsigned int degree)
   {

@@ -1,5 +1,4 @@
-// Which rank gets which cell of a mesh that METIS partitions. It never moves
-// data.
+// Which rank gets which cell of a mesh that METIS partitions.
 #pragma once
 
 #include <deal.II/grid/tria.h>

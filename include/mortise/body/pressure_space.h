@@ -1,8 +1,6 @@
 // The pressures of a body in mixed form: continuous, one degree below the
-// displacement of each cell (Taylor and Hood). It never knows a displacement
-// beyond its degree.
-// Sources: Boffi, Brezzi, Fortin (2013), "Mixed finite element methods and
-// applications", chapter 8.
+// displacement of each cell (Taylor and Hood). Sources: Boffi, Brezzi, Fortin
+// (2013), "Mixed finite element methods and applications", chapter 8.
 #pragma once
 
 #include <deal.II/base/index_set.h>

@@ -1,5 +1,5 @@
 // Nodes at the corners of cells that were refined, however far the cells on
-// which the rank has them are. It never numbers nodes.
+// which the rank has them are.
 #pragma once
 
 #include <mortise/body/nodal_space.h>

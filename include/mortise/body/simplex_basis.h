@@ -1,6 +1,5 @@
 // The hierarchical polynomials of a tetrahedron, as a space of deal.II: two
 // families of one dimension each, orthogonal products on faces and inside.
-// It never knows a mesh or a numbering of degrees of freedom.
 #pragma once
 
 #include <deal.II/base/scalar_polynomials_base.h>

@@ -1,6 +1,5 @@
-// The elements of a space on tetrahedra: one for each degree and each order
-// of vertices, and the one that a cell takes. It never distributes degrees of
-// freedom and never makes constraints.
+// The elements of a space on tetrahedra: one for each degree and each order of
+// vertices, and the one that a cell takes.
 #pragma once
 
 #include <deal.II/dofs/dof_handler.h>

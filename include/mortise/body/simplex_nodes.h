@@ -1,6 +1,5 @@
 // Values at nodes as a basis of the polynomials of a tetrahedron and of its
-// faces: the nodes, and the way from and to hierarchical modes. It never knows
-// a mesh.
+// faces: the nodes, and the way from and to hierarchical modes.
 #pragma once
 
 #include <deal.II/base/point.h>

@@ -1,5 +1,5 @@
 // Quadrature on triangles and tetrahedra for any degree, from the rules that
-// deal.II has. It never tabulates a rule of its own.
+// deal.II has.
 #pragma once
 
 #include <deal.II/base/quadrature.h>

@@ -1,5 +1,5 @@
 // Meshes of tetrahedra: hexahedra cut into them, and the distributed
-// triangulation made of them. It never reads a file and knows no generator.
+// triangulation made of them.
 #pragma once
 
 #include <deal.II/distributed/tria_base.h>

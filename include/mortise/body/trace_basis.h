@@ -1,6 +1,5 @@
 // The functions that the elements leave on a face, for both shapes of faces:
-// values, and to which vertex or edge of the face each belongs. It never knows
-// a cell or a numbering of degrees of freedom.
+// values, and to which vertex or edge of the face each belongs.
 #pragma once
 
 #include <mortise/body/face_shape.h>

@@ -1,6 +1,6 @@
 // The faces of a body on one named boundary: geometry as SurfaceFace, and the
 // trace of the displacement on each as plain data that can travel to another
-// rank. It never clips.
+// rank.
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>

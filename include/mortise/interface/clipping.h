@@ -1,6 +1,5 @@
 // The overlap of a slave face with a master face as a closed loop in the
-// slave's reference domain. It never places quadrature points and never looks
-// at distances or normals.
+// slave's reference domain.
 #pragma once
 
 #include <mortise/interface/projection.h>

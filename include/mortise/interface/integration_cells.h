@@ -1,6 +1,5 @@
 // Quadrature on the overlap of a slave face with a master face: clip, cut into
-// cells, place points and map each back to both faces. It never knows shape
-// functions or degrees of freedom.
+// cells, place points and map each back to both faces.
 #pragma once
 
 #include <mortise/interface/search.h>

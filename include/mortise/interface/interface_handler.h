@@ -1,7 +1,6 @@
 // One interface between a slave and a master surface: finds the pairs of faces,
-// clips them and hands integration points to whoever integrates. The only class
-// of this room that other rooms call. It never evaluates shape functions and
-// assembles nothing.
+// clips them and hands integration points to whoever integrates. It knows no
+// shape functions.
 #pragma once
 
 #include <mortise/interface/body_surface.h>
@@ -42,7 +41,6 @@ namespace mortise
     double        worst_face_error =
       0.; ///< largest |1 - covered / area| of a slave face
     dealii::Point<3> worst_face_centre;
-    double max_gap = 0.; ///< largest |gap| at a quadrature point, a length
     double clipping_seconds =
       0.; ///< spent in clipping and projection, this rank
   };

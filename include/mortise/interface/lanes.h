@@ -1,4 +1,4 @@
-// Eight numbers or vectors at a time. It never knows what they stand for.
+// Eight numbers or vectors at a time.
 #pragma once
 
 #include <deal.II/base/tensor.h>

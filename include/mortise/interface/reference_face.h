@@ -1,6 +1,5 @@
 // The reference domains of faces, see face_shape.h: their centre, area, sides
-// and edges, and what it means to lie inside. It never knows positions in
-// space.
+// and edges, and what it means to lie inside.
 #pragma once
 
 #include <mortise/body/face_shape.h>

@@ -1,5 +1,5 @@
 // Evaluation of the polynomial of one curved face or of one of its edges, eight
-// points at a time. It never iterates, projects or allocates.
+// points at a time.
 #pragma once
 
 #include <mortise/interface/reference_face.h>

@@ -1,6 +1,5 @@
 // One curved face of a body's surface as plain data, with what follows from its
-// points alone: box, size, frame, corner normals, area. It never knows a mesh,
-// a DoFHandler or another face.
+// points alone: box, size, frame, corner normals, area.
 #pragma once
 
 #include <deal.II/base/point.h>

@@ -31,9 +31,6 @@ namespace mortise
     /// Force per volume, -div sigma.
     virtual dealii::Tensor<1, 3>
     body_force(const dealii::Point<3> &p, unsigned int body) const = 0;
-
-    virtual unsigned int
-    n_bodies() const = 0;
   };
 
   /// A displacement given by expressions, the same in every body; stresses by
@@ -53,8 +50,6 @@ namespace mortise
     stress(const dealii::Point<3> &p, unsigned int body) const override;
     dealii::Tensor<1, 3>
     body_force(const dealii::Point<3> &p, unsigned int body) const override;
-    unsigned int
-    n_bodies() const override;
 
   private:
     VectorExpression      expression;
@@ -103,8 +98,6 @@ namespace mortise
     /// Zero.
     dealii::Tensor<1, 3>
     body_force(const dealii::Point<3> &p, unsigned int body) const override;
-    unsigned int
-    n_bodies() const override;
 
     /// u_r at @p radius in layer @p body.
     double

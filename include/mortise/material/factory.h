@@ -1,4 +1,4 @@
-// Materials by the name of their law. It never reads a file.
+// Materials by the name of their law.
 #pragma once
 
 #include <mortise/material/material.h>

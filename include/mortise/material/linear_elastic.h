@@ -1,6 +1,6 @@
 // Isotropic linear elasticity in three dimensions (and plane strain, which is
 // the same law), compressible or not, and how a mixed form shares it between
-// displacement and pressure. It never knows a discretisation.
+// displacement and pressure.
 #pragma once
 
 #include <mortise/material/law.h>

@@ -1,5 +1,5 @@
 // The material of a body: one of the laws there are, and what operators,
-// solvers and output ask of it. It never knows a discretisation.
+// solvers and output ask of it.
 #pragma once
 
 #include <mortise/material/orthotropic.h>

@@ -1,5 +1,5 @@
 // Linear elasticity with three planes of symmetry, as of wood, layers and
-// fibres. It never knows a discretisation.
+// fibres.
 #pragma once
 
 #include <mortise/material/linear_elastic.h>

@@ -1,6 +1,6 @@
 // Coupling of two surfaces by multipliers: D and M as one matrix over the
 // numbering of the scene, what preconditioners need of it, and how well it
-// couples. It never solves.
+// couples.
 #pragma once
 
 #include <deal.II/base/index_set.h>

@@ -1,6 +1,5 @@
 // Integrals of shape functions over one slave face and its partners: the local
-// blocks of D and M. They are the same for the three components. It never knows
-// a global numbering.
+// blocks of D and M. They are the same for the three components.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

@@ -1,6 +1,5 @@
 // What the multiplier space needs to know of the slave faces around this rank:
-// their dofs, degrees, rims and how well they are covered. It never decides
-// what becomes of a multiplier.
+// their dofs, degrees, rims and how well they are covered.
 #pragma once
 
 #include <mortise/interface/body_surface.h>

@@ -1,5 +1,5 @@
 // What a slave face says about the multipliers on it: the reduction beside rims
-// by one face alone. It never knows other faces and makes no constraints.
+// by one face alone.
 #pragma once
 
 #include <mortise/mortar/multiplier_faces.h>

@@ -1,6 +1,6 @@
 // The multipliers of one interface: the trace space of the slave's
 // displacements, component by component, reduced where that keeps the coupling
-// stable. It never integrates.
+// stable.
 //
 // The reduction, without any flag from the user, per component c:
 // - rims: where all displacements of a slave face's edge are prescribed

@@ -1,5 +1,5 @@
 // Integrals of hierarchical functions on faces, turned into those of nodal
-// functions of the same or a lower degree. It never integrates.
+// functions of the same or a lower degree.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

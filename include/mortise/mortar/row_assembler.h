@@ -1,5 +1,5 @@
 // Sums of dense blocks in a sparse matrix, each row and column of a block a
-// combination of global ones. It never integrates.
+// combination of global ones.
 #pragma once
 
 #include <deal.II/base/index_set.h>

@@ -1,6 +1,6 @@
 // Displacements that several interfaces of a scene move: which interface goes
 // first in choosing those that its multipliers determine, and which are then
-// taken. It never decides what becomes of a multiplier.
+// taken.
 #pragma once
 
 #include <mortise/body/numbering.h>

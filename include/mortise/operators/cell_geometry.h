@@ -1,5 +1,5 @@
 // Jacobians of a mapping on the cells of a mesh, at the points of one rule,
-// without what else FEValues computes. It never evaluates shape functions.
+// without what else FEValues computes.
 #pragma once
 
 #include <deal.II/base/quadrature.h>

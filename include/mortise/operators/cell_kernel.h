@@ -1,6 +1,6 @@
 // The stiffness of one cell by dense products: reference matrices where the
 // cell is affine, else the gradients of all functions at all points and one
-// symmetric product. It never knows global degrees of freedom.
+// symmetric product.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -56,6 +56,15 @@ namespace mortise
     /// Jacobian is not positive at a point.
     bool
     integrate(const Body::CellIterator &cell);
+
+    /// Entries @p begin to @p end of row[], row @p i of the block of components @p c and @p d; all
+    /// of them before i, or none.
+    void
+    sum_terms(unsigned int c,
+              unsigned int d,
+              unsigned int i,
+              unsigned int begin,
+              unsigned int end);
 
     void
     combine(dealii::FullMatrix<double> &matrix);

@@ -1,5 +1,4 @@
-// Between values at the nodes of a cell and hierarchical coefficients. It never
-// knows a numbering of a mesh.
+// Between values at the nodes of a cell and hierarchical coefficients.
 #pragma once
 
 #include <deal.II/fe/fe.h>

@@ -1,5 +1,4 @@
 // The pressure that is one on a body and zero on all others, and its integrals.
-// It never looks at displacements.
 #pragma once
 
 #include <mortise/operators/block_system.h>

@@ -1,4 +1,4 @@
-// Between two levels of degrees on the same mesh. It never solves.
+// Between two levels of degrees on the same mesh.
 #pragma once
 
 #include <mortise/operators/nodal_level.h>

@@ -1,7 +1,7 @@
-// How little a pressure finds to press against in a cell some of whose
-// displacements are prescribed. It never knows a mesh.
-// Sources: Kraus (2006), "Algebraic multilevel preconditioning of finite
-// element matrices using local Schur complements"; Neytcheva (2011).
+// The Schur complement C + G K^{-1} G^T of the pressures of one cell some of
+// whose displacements are prescribed. Sources: Kraus (2006), "Algebraic multilevel
+// preconditioning of finite element matrices using local Schur complements";
+// Neytcheva (2011).
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

@@ -1,6 +1,5 @@
 // Constants that may be added to the pressure: those of incompressible bodies
-// that nothing lets expand, or of groups of such bodies tied to each other. It
-// never finds them.
+// that nothing lets expand, or of groups of such bodies tied to each other.
 #pragma once
 
 #include <mortise/base/types.h>

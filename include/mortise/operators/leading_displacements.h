@@ -1,5 +1,5 @@
 // Displacements of masters that are coarser than their slaves: preconditioners
-// move these alone and let the slaves follow. It never solves.
+// move these alone and let the slaves follow.
 #pragma once
 
 #include <mortise/operators/nodal_level.h>

@@ -1,5 +1,5 @@
 // The loads on one cell: by sum factorisation on hexahedra, tractions with the
-// functions of the face alone. It never knows the numbering of a scene.
+// functions of the face alone.
 #pragma once
 
 #include <deal.II/fe/fe_values.h>

@@ -1,5 +1,4 @@
-// The hierarchical functions of one direction at the points of a rule. It never
-// knows a cell.
+// The hierarchical functions of one direction at the points of a rule.
 #pragma once
 
 #include <deal.II/base/quadrature.h>

@@ -1,5 +1,4 @@
-// Adds the matrices of cells to the matrix of the scene. It never computes
-// them and never makes a sparsity pattern.
+// Adds the matrices of cells to the matrix of the scene.
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>

@@ -1,6 +1,5 @@
 // One level of the matrix-free system: its space, where its components stand in
-// vectors, which are held, and the coupling that preconditioners see. It never
-// solves.
+// vectors, which are held, and the coupling that preconditioners see.
 #pragma once
 
 #include <deal.II/base/partitioner.h>

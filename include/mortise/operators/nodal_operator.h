@@ -1,5 +1,4 @@
-// What smoothers need to know of an operator on values at nodes. It never
-// solves.
+// What smoothers need to know of an operator on values at nodes.
 #pragma once
 
 #include <deal.II/lac/la_parallel_vector.h>

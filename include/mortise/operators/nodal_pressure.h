@@ -1,5 +1,5 @@
 // The pressures of a matrix-free system: where they stand in vectors, and those
-// at hanging nodes. It never knows displacements.
+// at hanging nodes.
 #pragma once
 
 #include <mortise/operators/hanging_nodes.h>

@@ -1,6 +1,6 @@
 // The bulk of a scene without a matrix, in values at nodes: its levels, the
 // product with the stiffness, loads, and the way back to hierarchical
-// coefficients. It never solves.
+// coefficients.
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>

@@ -1,4 +1,4 @@
-// Products with a matrix of NodeBlocks. It never assembles.
+// Products with a matrix of NodeBlocks.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>

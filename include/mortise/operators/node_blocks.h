@@ -1,5 +1,5 @@
 // A symmetric matrix by nodes in compressed rows, 3 x 3 entries for a row and a
-// column, and the way to put one together. It never multiplies.
+// column, and the way to put one together.
 #pragma once
 
 #include <deal.II/base/index_set.h>

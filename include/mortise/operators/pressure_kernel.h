@@ -1,5 +1,5 @@
 // What the pressure adds to the matrix of one cell in mixed form, by dense
-// products. It never knows global degrees of freedom.
+// products.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

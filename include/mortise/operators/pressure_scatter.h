@@ -1,5 +1,5 @@
 // Adds what pressures bring to the cells of bodies in mixed form to the system
-// of the scene. It never computes a cell's matrices.
+// of the scene.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

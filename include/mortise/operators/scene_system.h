@@ -1,6 +1,6 @@
 // The system of a scene from its bodies: constraints in one numbering, the
-// stiffness of all bodies, their loads, and the structure that preconditioners use. It never
-// looks at interfaces.
+// stiffness of all bodies, their loads, and the structure that preconditioners
+// use.
 #pragma once
 
 #include <deal.II/lac/la_parallel_vector.h>

@@ -1,5 +1,5 @@
 // The matrix of the coarsest level, degree one, for a factorisation or
-// multigrid on coarser meshes. It never solves.
+// multigrid on coarser meshes.
 #pragma once
 
 #include <mortise/body/vertex_coarsening.h>

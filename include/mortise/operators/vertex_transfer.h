@@ -1,5 +1,5 @@
 // Between the vertices of a mesh and those of a coarser one: functions, and the
-// matrix P^T A P. It never solves.
+// matrix P^T A P.
 #pragma once
 
 #include <mortise/body/vertex_coarsening.h>

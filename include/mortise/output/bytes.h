@@ -1,5 +1,4 @@
-// Plain values as bytes, bit for bit, in the order of this machine. It never
-// knows what they mean.
+// Plain values as bytes, bit for bit, in the order of this machine.
 #pragma once
 
 #include <cstdint>

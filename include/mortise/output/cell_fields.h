@@ -1,6 +1,5 @@
 // A displacement, its gradient and a pressure at the quadrature points of
-// cells, by sum factorisation on hexahedra. It never integrates and never
-// writes.
+// cells, by sum factorisation on hexahedra.
 #pragma once
 
 #include <mortise/operators/cell_geometry.h>

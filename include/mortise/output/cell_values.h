@@ -1,5 +1,4 @@
-// A displacement on one cell or face at quadrature points. It never integrates
-// and never writes.
+// A displacement on one cell or face at quadrature points.
 #pragma once
 
 #include <deal.II/fe/fe_values.h>

@@ -1,6 +1,5 @@
 // The state of a run in a file, from which it goes on after an interruption: on
-// any number of ranks, for values are found by cell, not by rank. It never
-// decides when to write, or what to make of the values.
+// any number of ranks, for values are found by cell, not by rank.
 #pragma once
 
 #include <mortise/mortar/coupling.h>

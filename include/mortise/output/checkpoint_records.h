@@ -1,6 +1,5 @@
-// The values of a checkpoint as records of cells and slave faces: packed on
-// the ranks that own these, and put in their places on others. It never knows a
-// file.
+// The values of a checkpoint as records of cells and slave faces: packed on the
+// ranks that own these, and put in their places on others.
 #pragma once
 
 #include <mortise/output/checkpoint.h>

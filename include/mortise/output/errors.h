@@ -1,5 +1,4 @@
-// Errors against an exact solution, and functionals of a solution. It never
-// prints.
+// Errors against an exact solution, and functionals of a solution.
 #pragma once
 
 #include <mortise/base/types.h>

@@ -1,5 +1,5 @@
 // Fields of a solution as VTU files for ParaView: one file per body, one per
-// interface. It never computes errors or forces.
+// interface.
 #pragma once
 
 #include <mortise/output/errors.h>

@@ -1,5 +1,5 @@
 // Fields on simplices for the writers of deal.II, which have linear ones only:
-// each is shown by many small linear ones. It never evaluates a field.
+// each is shown by many small linear ones.
 #pragma once
 
 #include <deal.II/base/data_out_base.h>

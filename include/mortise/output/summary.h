@@ -1,6 +1,5 @@
 // The summary of a run, `summary.json`, as plain data: what scripts read.
-// Members that a run has no value for are absent in the file, not zero. It
-// never computes anything.
+// Members that a run has no value for are absent in the file, not zero.
 #pragma once
 
 #include <mortise/base/timers.h>

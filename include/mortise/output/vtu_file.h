@@ -1,4 +1,4 @@
-// VTU files of all ranks' cells. It never chooses the fields.
+// VTU files of all ranks' cells.
 #pragma once
 
 #include <deal.II/base/data_out_base.h>

@@ -1,5 +1,4 @@
-// Files that appear whole or not at all: every result goes through here. It
-// never knows what a file holds.
+// Files that appear whole or not at all: every result goes through here.
 #pragma once
 
 #include <mortise/base/error.h>

@@ -1,5 +1,4 @@
-// The command line as data. It never reads the parameter file and never runs a
-// scene.
+// The command line as data.
 #pragma once
 
 #include <mortise/problem/parameters.h>

@@ -1,5 +1,5 @@
 // Which bodies have a pressure of their own, and what that asks of the other
-// parameters. It never builds a space.
+// parameters.
 #pragma once
 
 #include <mortise/problem/parameters.h>

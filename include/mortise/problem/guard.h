@@ -1,5 +1,5 @@
 // The one place where errors become messages and exit codes, on any number of
-// ranks. It never knows what the program does.
+// ranks.
 #pragma once
 
 #include <mpi.h>

@@ -1,6 +1,5 @@
 // The lines of a parameter file in the syntax of dealii::ParameterHandler, each
-// with its origin, so that messages can name the line. It never knows which
-// parameters exist.
+// with its origin, so that messages can name the line.
 #pragma once
 
 #include <string>

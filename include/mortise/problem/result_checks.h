@@ -1,5 +1,5 @@
 // Are the loads of a scene, and then its results, numbers that a run can stand
-// for? It never looks at how they were computed.
+// for?
 #pragma once
 
 #include <mortise/operators/block_system.h>

@@ -1,5 +1,5 @@
 // What prescribed displacements and multipliers do against rigid motions of
-// bodies, as sums of squares. It never says which motion is free.
+// bodies, as sums of squares.
 #pragma once
 
 #include <deal.II/lac/lapack_full_matrix.h>

@@ -75,7 +75,14 @@ namespace mortise
     void
     write_summary();
 
+    /// What was done after so many seconds; from where progress is estimated.
+    struct Clock
+    {
+      double share = 0., seconds = 0.;
+    };
+
     Timers           timers;
+    Clock            clock;
     const RunContext context;
     FieldChecks      field_checks; ///< of what is given
 

@@ -1,5 +1,4 @@
-// What a process settles before MPI starts: processors, memory, signals. It
-// never reads the command line.
+// What a process settles before MPI starts: processors, memory, signals.
 #pragma once
 
 namespace mortise

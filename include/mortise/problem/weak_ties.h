@@ -1,5 +1,4 @@
-// Interfaces whose multipliers hold two bodies together badly. It never changes
-// them.
+// Interfaces whose multipliers hold two bodies together badly.
 #pragma once
 
 #include <mortise/problem/rigid_support.h>

@@ -1,6 +1,5 @@
 // Block Gauss-Seidel on overlapping blocks of rows, which may reach into other
-// ranks; additive between the blocks of different ranks. It never solves
-// exactly.
+// ranks; additive between the blocks of different ranks.
 #pragma once
 
 #include <deal.II/base/types.h>
@@ -18,13 +17,8 @@ namespace mortise
   /// S = omega sum over ranks of R^T G R: R takes the rows in this rank's
   /// blocks, G is a sweep over them from zero. On one rank omega is 1, and I -
   /// S A contracts in the norm of A. The sum over ranks does where omega is
-  /// below one over the largest number of them that share a row: the largest
-  /// eigenvalue of the symmetric sweeps is that number to two digits
-  /// (tetrahedra on 2, 3, 5, 8 ranks). Iterations for the thick sphere of
-  /// degree 2 with 1.1, 1.3, 1.5, 1.7 times that omega, 2 ranks: 14, 13, 14,
-  /// 25; 5 ranks: 22, 20, 18, 17; but one of 27 scenes fails with 1.5, four
-  /// with 1.7. Damping shared blocks alone does not do it: those around them
-  /// undo it.
+  /// below one over the largest number of them that share a row; more than that
+  /// takes fewer iterations, until it fails: doc/tuning.md.
   class BlockSmoother
   {
   public:

@@ -1,5 +1,5 @@
-// A smoother: Chebyshev polynomials in the operator scaled by its
-// diagonal, one value for a node. It never coarsens.
+// A smoother: Chebyshev polynomials in the operator scaled by its diagonal, one
+// value for a node.
 #pragma once
 
 #include <mortise/operators/nodal_operator.h>

@@ -1,5 +1,5 @@
 // The inverse of a matrix for a preconditioner: a factorisation that is kept in
-// single precision where that is accurate enough. It never sees iterations.
+// single precision where that is accurate enough.
 #pragma once
 
 #include <Epetra_Map.h>

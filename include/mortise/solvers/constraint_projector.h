@@ -1,5 +1,4 @@
 // The projector onto { u : B u = 0 } that the condensed system is written with.
-// It never looks at K.
 #pragma once
 
 #include <mortise/solvers/coupling_product.h>

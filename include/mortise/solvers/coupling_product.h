@@ -1,7 +1,7 @@
 // Products with B and B^T by dense blocks: a block is the rows of neighbouring
 // entities of the slave's mesh, and stands once for the components that have
 // the same entries, also where one of them lacks rows or columns, since
-// displacements are prescribed. It never looks at other matrices.
+// displacements are prescribed.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>

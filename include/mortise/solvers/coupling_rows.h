@@ -1,6 +1,6 @@
 // The rows of B by entity and node, once for the components that have the same
 // entries, also where one of them lacks columns, since displacements are
-// prescribed. It never multiplies.
+// prescribed.
 #pragma once
 
 #include <Epetra_CrsMatrix.h>
@@ -38,8 +38,9 @@ namespace mortise
   };
 
   /// All owned rows. Multipliers of a component move displacements of this
-  /// component only. Where one component of SharedRows does not move a node,
-  /// the others may, if no row moves the node's displacement in its component.
+  /// component only. Rows of several components share their entries
+  /// (SharedRows) also where a displacement of one component is prescribed: its
+  /// column is zero in all rows, so it may stand in those of the others.
   struct CouplingRows
   {
     /// @p by_node: displacements are numbered by node, the three components one

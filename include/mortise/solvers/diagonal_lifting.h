@@ -1,5 +1,5 @@
 // How a multiplier moves displacements where these are values at nodes: each
-// node by itself. It never looks at levels below the finest.
+// node by itself.
 #pragma once
 
 #include <mortise/solvers/coupling_product.h>

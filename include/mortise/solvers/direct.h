@@ -1,6 +1,5 @@
 // Direct solution of the monolithic saddle-point system [K G^T B^T; G -C 0; B 0
-// 0] with iterative refinement: small scenes and reference. It never
-// approximates and never looks at the preconditioner's data except for scaling.
+// 0] with iterative refinement: small scenes and reference.
 #pragma once
 
 #include <mortise/solvers/linear_solver.h>

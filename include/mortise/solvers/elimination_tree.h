@@ -1,7 +1,6 @@
 // What a sparse Cholesky factorisation does in which order: nested dissection
-// and the dense blocks that follow from it. It never sees a value.
-// Sources: Liu (1990), "The role of elimination trees in sparse factorization";
-// METIS.
+// and the dense blocks that follow from it. Sources: Liu (1990), "The role of
+// elimination trees in sparse factorization"; METIS.
 #pragma once
 
 #include <deal.II/base/array_view.h>

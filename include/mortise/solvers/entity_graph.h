@@ -1,6 +1,5 @@
 // Which mesh entities of a rank couple with which others in A = K + J, found in
-// the graph of the matrices: the patches around vertices. It never looks at
-// values.
+// the graph of the matrices: the patches around vertices.
 #pragma once
 
 #include <mortise/operators/block_system.h>

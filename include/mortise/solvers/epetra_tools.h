@@ -1,5 +1,4 @@
-// Small helpers for Epetra matrices that several solvers share. It never owns a
-// matrix.
+// Small helpers for Epetra matrices that several solvers share.
 #pragma once
 
 #include <Epetra_CrsMatrix.h>

@@ -1,5 +1,4 @@
-// Finds constants that may be added to the pressure without any effect. It
-// never solves the system.
+// Finds constants that may be added to the pressure without any effect.
 #pragma once
 
 #include <mortise/operators/block_system.h>

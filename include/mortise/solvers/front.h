@@ -1,5 +1,4 @@
-// The dense matrix that a supernode of a factorisation is computed from. It
-// never knows the order of elimination.
+// The dense matrix that a supernode of a factorisation is computed from.
 // Source: Liu (1992), "The multifrontal method for sparse matrix solution".
 #pragma once
 

@@ -1,5 +1,4 @@
-// The rows of all ranks, for a matrix that is factorised on all. It never
-// orders them.
+// The rows of all ranks, for a matrix that is factorised on all.
 #pragma once
 
 #include <mortise/solvers/elimination_tree.h>

@@ -1,7 +1,7 @@
 // Jacobi's method among the displacements that satisfy the constraint: the
 // inverse D^{-1} of a diagonal becomes P D^{-1} P^T with P = I - T B^T C^{-1}
-// B, C = B T B^T. It never looks at K.
-// Sources: Braess, Sarazin (1997); Braess, Dahmen, Wieners (1999).
+// B, C = B T B^T. Sources: Braess, Sarazin (1997); Braess, Dahmen, Wieners
+// (1999).
 #pragma once
 
 #include <mortise/solvers/coupling_product.h>

@@ -1,6 +1,6 @@
 // How a multiplier moves displacements cheaply: exact solves on the patches
 // around the vertices of the interface. Projector and Schur complement of the
-// solvers are made of it. It never sweeps.
+// solvers are made of it.
 #pragma once
 
 #include <mortise/operators/block_system.h>

@@ -1,5 +1,6 @@
-// How a multiplier moves displacements cheaply. Projector and Schur complement
-// of the solvers are made of it. It never looks at K as a whole.
+// T, a cheap approximation of the inverse stiffness for forces B^T lambda on
+// interfaces. The projector and the Schur complement B T B^T of the solvers are
+// made of it.
 #pragma once
 
 #include <mortise/operators/block_system.h>

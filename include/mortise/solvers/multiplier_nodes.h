@@ -1,5 +1,5 @@
 // The rows of B by node: multipliers of one component each that belong
-// together. It never looks at values.
+// together.
 #pragma once
 
 #include <Epetra_CrsMatrix.h>

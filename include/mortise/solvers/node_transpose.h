@@ -1,5 +1,5 @@
 // The rows of T B^T by node of displacements, once for the components that have
-// the same entries. It never multiplies.
+// the same entries.
 #pragma once
 
 #include <mortise/solvers/transposed_rows.h>

@@ -1,7 +1,6 @@
 // An approximate inverse of P, which stands for the Schur complement of the
-// pressures. It never looks at displacements.
-// Sources: Silvester, Wathen (1994); Elman, Silvester, Wathen (2014),
-// chapter 4.
+// pressures. Sources: Silvester, Wathen (1994); Elman, Silvester, Wathen
+// (2014), chapter 4.
 #pragma once
 
 #include <Epetra_Vector.h>

@@ -1,4 +1,4 @@
-// How much of a level's spectrum its smoother treats. It never smooths.
+// How much of a level's spectrum its smoother treats.
 #pragma once
 
 #include <mortise/body/nodal_space.h>

@@ -1,4 +1,4 @@
-// What a solver tells about one solve. It never holds the solution.
+// What a solver tells about one solve.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// What a caller may ask of a solver. It never solves and reads no file.
+// What a caller may ask of a solver.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // T B^T by rows, T diagonal, for the displacements that owned rows of B move,
-// with the multipliers of all ranks. It never multiplies.
+// with the multipliers of all ranks.
 #pragma once
 
 #include <Epetra_Map.h>

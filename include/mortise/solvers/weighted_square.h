@@ -1,4 +1,4 @@
-// C = B T B^T by dense blocks. It never factorises.
+// C = B T B^T by dense blocks.
 #pragma once
 
 #include <mortise/operators/nodal_level.h>
