@@ -32,6 +32,14 @@ namespace mortise
       stiffness.vmult(dst, src);
   }
 
+  double
+  BlockSystem::stiffness_product(const Vector &u) const
+  {
+    Vector force(u);
+    apply_stiffness(force, u);
+    return force * u;
+  }
+
   void
   BlockSystem::apply_mixed(Vector       &dst_u,
                            Vector       &dst_p,

@@ -17,16 +17,11 @@ namespace mortise
                            const SceneField &pressure,
                            const Visit      &visit)
     {
-      std::vector<types::global_dof_index> dofs;
       for (const auto &cell : body.dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
           {
             const auto own = body.pressure->cell(cell);
-            dofs.resize(own->get_fe().n_dofs_per_cell());
-            own->get_dof_indices(dofs);
-            for (auto &dof : dofs)
-              dof = pressure.numbering(body.index, dof);
-            visit(cell, own, dofs);
+            visit(cell, own, scene_dofs(body.index, own, pressure.numbering));
           }
     }
   } // namespace

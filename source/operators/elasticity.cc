@@ -19,19 +19,6 @@ namespace mortise
 
   namespace
   {
-    std::vector<types::global_dof_index>
-    scene_dofs(const Body               &body,
-               const Body::CellIterator &cell,
-               const FieldNumbering     &numbering)
-    {
-      std::vector<types::global_dof_index> dofs(
-        cell->get_fe().n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      for (auto &dof : dofs)
-        dof = numbering(body.index, dof);
-      return dofs;
-    }
-
     struct Kernel
     {
       Kernel(const Body &body, const FiniteElement<dim> &system)
@@ -202,7 +189,7 @@ namespace mortise
               tangled = tangled_message(body, cell);
               break;
             }
-          auto       dofs = scene_dofs(body, cell, numbering);
+          auto       dofs = scene_dofs(body.index, cell, numbering);
           const bool keep =
             kinds.prescribed &&
             std::any_of(dofs.begin(), dofs.end(), [&](const auto dof) {

@@ -41,6 +41,32 @@ namespace mortise
         });
     }
 
+    /// Calls @p visit(body, degree, dofs, nodes) for the pressures of the owned cells of all
+    /// bodies, both in the order of the element of nodes.
+    template <typename Visit>
+    void
+    for_each_pressure_cell(const NodalSpace &space, const Visit &visit)
+    {
+      std::vector<types::global_dof_index> dofs, ordered_dofs;
+      std::vector<NodalSpace::Index>       ordered_nodes;
+      space.for_each_cell(
+        [&](const Body &body, const auto &cell, const auto &nodes) {
+          const auto         own    = body.pressure->cell(cell);
+          const unsigned int degree = own->get_fe().degree;
+          const auto         order  = cell_dof_indices(degree);
+          dofs.resize(order.size());
+          own->get_dof_indices(dofs);
+          ordered_dofs.clear();
+          ordered_nodes.clear();
+          for (const unsigned int i : order)
+            {
+              ordered_dofs.push_back(dofs[i]);
+              ordered_nodes.push_back(nodes[i]);
+            }
+          visit(body, degree, ordered_dofs, ordered_nodes);
+        });
+    }
+
     void
     copy(LevelVector<double> &to, const Vector &from)
     {
@@ -231,8 +257,7 @@ namespace mortise
                             level.layout->get_mpi_communicator()) == 1)
       {
         interpolate([&](const unsigned int body, const auto dof) {
-          const auto found = load.prescribed.find(numbering(body, dof));
-          return found == load.prescribed.end() ? 0. : found->second;
+          return prescribed_value(load.prescribed, numbering(body, dof));
         });
         if (pressures)
           {
@@ -296,26 +321,24 @@ namespace mortise
   NodalSystem::set_pressure(const Coefficients &coefficient,
                             Vector             &pressure) const
   {
-    p_in             = 0.;
-    const auto nodes = pressures->nodes();
-    std::vector<types::global_dof_index> dofs;
-    std::vector<double>                  values;
-    nodes.space.for_each_cell(
-      [&](const Body &body, const auto &cell, const auto &of_cell) {
-        const auto         own    = body.pressure->cell(cell);
-        const unsigned int degree = own->get_fe().degree;
-        const auto         order  = cell_dof_indices(degree);
-        dofs.resize(order.size());
-        own->get_dof_indices(dofs);
-        values.resize(order.size());
-        for (unsigned int i = 0; i < order.size(); ++i)
-          values[i] = coefficient(body.index, dofs[order[i]]);
+    p_in                      = 0.;
+    const auto          nodes = pressures->nodes();
+    std::vector<double> values;
+    for_each_pressure_cell(
+      nodes.space,
+      [&](const Body        &body,
+          const unsigned int degree,
+          const auto        &dofs,
+          const auto        &of_cell) {
+        values.clear();
+        for (const auto dof : dofs)
+          values.push_back(coefficient(body.index, dof));
         transform_along_lines(modes_to_nodes(degree), values);
-        for (unsigned int i = 0; i < order.size(); ++i)
-          if (const auto node = of_cell[order[i]];
-              nodes.layout.in_local_range(node) &&
-              !nodes.space.hanging_nodes().is_constrained(node))
-            p_in.local_element(nodes.layout.global_to_local(node)) = values[i];
+        for (unsigned int i = 0; i < values.size(); ++i)
+          if (nodes.layout.in_local_range(of_cell[i]) &&
+              !nodes.space.hanging_nodes().is_constrained(of_cell[i]))
+            p_in.local_element(nodes.layout.global_to_local(of_cell[i])) =
+              values[i];
       });
     copy(pressure, p_in);
   }
@@ -373,23 +396,21 @@ namespace mortise
   {
     copy(p_in, pressure);
     pressures->complete(p_in);
-    const auto                           nodes = pressures->nodes();
-    std::vector<types::global_dof_index> dofs;
-    std::vector<double>                  values;
-    nodes.space.for_each_cell(
-      [&](const Body &body, const auto &cell, const auto &of_cell) {
-        const auto         own    = body.pressure->cell(cell);
-        const unsigned int degree = own->get_fe().degree;
-        const auto         order  = cell_dof_indices(degree);
-        dofs.resize(order.size());
-        own->get_dof_indices(dofs);
-        values.resize(order.size());
-        for (unsigned int i = 0; i < order.size(); ++i)
-          values[i] =
-            p_in.local_element(nodes.layout.global_to_local(of_cell[order[i]]));
+    const auto          nodes = pressures->nodes();
+    std::vector<double> values;
+    for_each_pressure_cell(
+      nodes.space,
+      [&](const Body        &body,
+          const unsigned int degree,
+          const auto        &dofs,
+          const auto        &of_cell) {
+        values.clear();
+        for (const auto node : of_cell)
+          values.push_back(
+            p_in.local_element(nodes.layout.global_to_local(node)));
         transform_along_lines(nodes_to_modes(degree), values);
-        for (unsigned int i = 0; i < order.size(); ++i)
-          set(body.index, dofs[order[i]], values[i]);
+        for (unsigned int i = 0; i < values.size(); ++i)
+          set(body.index, dofs[i], values[i]);
       });
     pressures->release(p_in);
   }

@@ -40,18 +40,15 @@ namespace mortise
     const IndexSet        &local   = pressure.constraints.get_local_lines();
     DynamicSparsityPattern divergence(rows.size(), columns.size(), local),
       square(rows.size(), rows.size(), local);
-    Dofs cell_dofs;
     for (const Body *body : bodies)
       for (const auto &cell : body->dof_handler.active_cell_iterators())
         if (cell->is_locally_owned())
           {
             const Dofs all = dofs(*body, cell);
             const Dofs p   = resolved(pressure.constraints, all);
-            cell_dofs.resize(cell->get_fe().n_dofs_per_cell());
-            cell->get_dof_indices(cell_dofs);
+            Dofs cell_dofs =
+              scene_dofs(body->index, cell, displacement.numbering);
             cell_dofs.resize(cell->get_fe().get_first_hex_index());
-            for (auto &dof : cell_dofs)
-              dof = displacement.numbering(body->index, dof);
             const Dofs u = resolved(displacement.constraints, cell_dofs);
             for (const auto row : p)
               {
@@ -70,12 +67,9 @@ namespace mortise
   std::vector<types::global_dof_index>
   PressureScatter::dofs(const Body &body, const Body::CellIterator &cell) const
   {
-    const auto own = body.pressure->cell(cell);
-    Dofs       result(own->get_fe().n_dofs_per_cell());
-    own->get_dof_indices(result);
-    for (auto &dof : result)
-      dof = pressure.numbering(body.index, dof);
-    return result;
+    return scene_dofs(body.index,
+                      body.pressure->cell(cell),
+                      pressure.numbering);
   }
 
   void

@@ -11,18 +11,6 @@ namespace mortise
   {
     using Dofs = std::vector<types::global_dof_index>;
 
-    Dofs
-    scene_dofs(const unsigned int                           body,
-               const DoFHandler<dim>::active_cell_iterator &cell,
-               const FieldNumbering                        &numbering)
-    {
-      Dofs dofs(cell->get_fe().n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      for (auto &dof : dofs)
-        dof = numbering(body, dof);
-      return dofs;
-    }
-
     bool
     is_loaded(const Body::CellIterator &cell, const Loads &loads)
     {
@@ -38,10 +26,11 @@ namespace mortise
              dealii::Vector<double>        &load)
     {
       for (unsigned int j = 0; j < cell.columns.size(); ++j)
-        if (const auto found = prescribed.find(dofs[cell.columns[j]]);
-            found != prescribed.end())
+        if (const double value =
+              prescribed_value(prescribed, dofs[cell.columns[j]]);
+            value != 0.)
           for (unsigned int i = 0; i < cell.block.m(); ++i)
-            load(i) -= cell.block(i, j) * found->second;
+            load(i) -= cell.block(i, j) * value;
     }
   } // namespace
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <limits>
+#include <type_traits>
 
 #ifndef MORTISE_VERSION
 #  define MORTISE_VERSION "unknown"
@@ -35,202 +36,212 @@ namespace mortise
 
   namespace
   {
-    /// Set @p key only if there is a value.
-    template <typename T>
+    // The members of each part in the order of the file: calls visit(key,
+    // member). Writing and reading both go through them.
+
+    template <typename Visit>
     void
-    set(Json &object, const std::string &key, const std::optional<T> &value)
+    visit_members(BodySummary &body, const Visit &visit)
     {
-      if (value)
-        object[key] = *value;
+      visit("name", body.name);
+      visit("shape", body.shape);
+      visit("cells", body.cells);
+      visit("degree_min", body.degree_min);
+      visit("degree_max", body.degree_max);
+      visit("dofs", body.dofs);
     }
 
-    Json
-    json_of(const BodySummary &body)
-    {
-      return {{"name", body.name},
-              {"shape", body.shape},
-              {"cells", body.cells},
-              {"degree_min", body.degree_min},
-              {"degree_max", body.degree_max},
-              {"dofs", body.dofs}};
-    }
-
-    Json
-    json_of(const DofSummary &dofs)
-    {
-      Json json = {{"displacement", dofs.displacement}};
-      set(json, "pressure", dofs.pressure);
-      set(json, "multiplier", dofs.multiplier);
-      json["total"] = dofs.total;
-      return json;
-    }
-
-    Json
-    json_of(const InterfaceSummary &interface)
-    {
-      Json json = {{"name", interface.name},
-                   {"slave_faces", interface.slave_faces},
-                   {"master_faces", interface.master_faces},
-                   {"candidate_pairs", interface.candidate_pairs},
-                   {"pairs", interface.pairs},
-                   {"integration_cells", interface.integration_cells},
-                   {"quadrature_points", interface.quadrature_points},
-                   {"slave_area", interface.slave_area},
-                   {"covered_area", interface.covered_area}};
-      set(json,
-          "worst_face_coverage_error",
-          interface.worst_face_coverage_error);
-      set(json, "partition_of_unity_error", interface.partition_of_unity_error);
-      set(json, "force_residual", interface.force_residual);
-      set(json, "moment_residual", interface.moment_residual);
-      set(json,
-          "linear_completeness_error",
-          interface.linear_completeness_error);
-      return json;
-    }
-
-    Json
-    json_of(const SolverSummary &solver)
-    {
-      Json json = {{"method", solver.method}};
-      set(json, "preconditioner", solver.preconditioner);
-      set(json, "iterations", solver.iterations);
-      json["relative_residual"] = solver.relative_residual;
-      return json;
-    }
-
-    Json
-    json_of(const ErrorSummary &errors)
-    {
-      Json json = Json::object();
-      set(json, "displacement_l2", errors.displacement_l2);
-      set(json, "energy", errors.energy);
-      set(json, "multiplier_l2", errors.multiplier_l2);
-      set(json, "displacement_h1", errors.displacement_h1);
-      set(json, "pressure_l2", errors.pressure_l2);
-      return json;
-    }
-
-    Json
-    json_of(const StepSummary &step)
-    {
-      Json json = {{"step", step.step}, {"cycle", step.cycle}};
-      set(json, "time", step.time);
-      json["bodies"] = Json::array();
-      for (const BodySummary &body : step.bodies)
-        json["bodies"].push_back(json_of(body));
-      json["dofs"]       = json_of(step.dofs);
-      json["interfaces"] = Json::array();
-      for (const InterfaceSummary &interface : step.interfaces)
-        json["interfaces"].push_back(json_of(interface));
-      if (step.solver)
-        json["solver"] = json_of(*step.solver);
-      if (step.errors)
-        json["errors"] = json_of(*step.errors);
-      json["quantities"] = Json::object();
-      for (const auto &[name, values] : step.quantities)
-        json["quantities"][name] = values;
-      return json;
-    }
-
-    /// Undoes set().
-    template <typename T>
+    template <typename Visit>
     void
-    get(const Json &object, const std::string &key, std::optional<T> &value)
+    visit_members(DofSummary &dofs, const Visit &visit)
     {
-      if (object.contains(key))
-        value = object[key].is_null() ?
-                  std::numeric_limits<T>::quiet_NaN() :
-                  object[key].get<T>();
+      visit("displacement", dofs.displacement);
+      visit("pressure", dofs.pressure);
+      visit("multiplier", dofs.multiplier);
+      visit("total", dofs.total);
     }
+
+    template <typename Visit>
+    void
+    visit_members(InterfaceSummary &interface, const Visit &visit)
+    {
+      visit("name", interface.name);
+      visit("slave_faces", interface.slave_faces);
+      visit("master_faces", interface.master_faces);
+      visit("candidate_pairs", interface.candidate_pairs);
+      visit("pairs", interface.pairs);
+      visit("integration_cells", interface.integration_cells);
+      visit("quadrature_points", interface.quadrature_points);
+      visit("slave_area", interface.slave_area);
+      visit("covered_area", interface.covered_area);
+      visit("worst_face_coverage_error", interface.worst_face_coverage_error);
+      visit("partition_of_unity_error", interface.partition_of_unity_error);
+      visit("force_residual", interface.force_residual);
+      visit("moment_residual", interface.moment_residual);
+      visit("linear_completeness_error", interface.linear_completeness_error);
+    }
+
+    template <typename Visit>
+    void
+    visit_members(SolverSummary &solver, const Visit &visit)
+    {
+      visit("method", solver.method);
+      visit("preconditioner", solver.preconditioner);
+      visit("iterations", solver.iterations);
+      visit("relative_residual", solver.relative_residual);
+    }
+
+    template <typename Visit>
+    void
+    visit_members(ErrorSummary &errors, const Visit &visit)
+    {
+      visit("displacement_l2", errors.displacement_l2);
+      visit("energy", errors.energy);
+      visit("multiplier_l2", errors.multiplier_l2);
+      visit("displacement_h1", errors.displacement_h1);
+      visit("pressure_l2", errors.pressure_l2);
+    }
+
+    using Quantities = std::vector<std::pair<std::string, std::vector<double>>>;
+
+    template <typename Visit>
+    void
+    visit_members(StepSummary &step, const Visit &visit)
+    {
+      visit("step", step.step);
+      visit("cycle", step.cycle);
+      visit("time", step.time);
+      visit("bodies", step.bodies);
+      visit("dofs", step.dofs);
+      visit("interfaces", step.interfaces);
+      visit("solver", step.solver);
+      visit("errors", step.errors);
+      visit("quantities", step.quantities);
+    }
+
+    /// Numbers and text, which are what they are in a file.
+    template <typename T>
+    constexpr bool is_value =
+      std::is_arithmetic_v<T> || std::is_same_v<T, std::string>;
 
     template <typename T>
     void
-    get(const Json &object, const std::string &key, T &value)
-    {
-      value = object.at(key).get<T>();
-    }
-
+    write_member(Json &json, const char *key, T &member);
+    template <typename T>
     void
-    read(const Json &json, BodySummary &body)
-    {
-      get(json, "name", body.name);
-      get(json, "shape", body.shape);
-      get(json, "cells", body.cells);
-      get(json, "degree_min", body.degree_min);
-      get(json, "degree_max", body.degree_max);
-      get(json, "dofs", body.dofs);
-    }
-
+    write_member(Json &json, const char *key, std::optional<T> &member);
+    template <typename T>
     void
-    read(const Json &json, InterfaceSummary &interface)
-    {
-      get(json, "name", interface.name);
-      get(json, "slave_faces", interface.slave_faces);
-      get(json, "master_faces", interface.master_faces);
-      get(json, "candidate_pairs", interface.candidate_pairs);
-      get(json, "pairs", interface.pairs);
-      get(json, "integration_cells", interface.integration_cells);
-      get(json, "quadrature_points", interface.quadrature_points);
-      get(json, "slave_area", interface.slave_area);
-      get(json, "covered_area", interface.covered_area);
-      get(json,
-          "worst_face_coverage_error",
-          interface.worst_face_coverage_error);
-      get(json, "partition_of_unity_error", interface.partition_of_unity_error);
-      get(json, "force_residual", interface.force_residual);
-      get(json, "moment_residual", interface.moment_residual);
-      get(json,
-          "linear_completeness_error",
-          interface.linear_completeness_error);
-    }
-
+    write_member(Json &json, const char *key, std::vector<T> &member);
     void
-    read(const Json &json, SolverSummary &solver)
-    {
-      get(json, "method", solver.method);
-      get(json, "preconditioner", solver.preconditioner);
-      get(json, "iterations", solver.iterations);
-      get(json, "relative_residual", solver.relative_residual);
-    }
+    write_member(Json &json, const char *key, Quantities &quantities);
 
-    void
-    read(const Json &json, ErrorSummary &errors)
+    template <typename T>
+    Json
+    json_of(T &part)
     {
-      get(json, "displacement_l2", errors.displacement_l2);
-      get(json, "energy", errors.energy);
-      get(json, "multiplier_l2", errors.multiplier_l2);
-      get(json, "displacement_h1", errors.displacement_h1);
-      get(json, "pressure_l2", errors.pressure_l2);
+      if constexpr (is_value<T>)
+        return part;
+      else
+        {
+          Json json = Json::object();
+          visit_members(part, [&](const char *key, auto &member) {
+            write_member(json, key, member);
+          });
+          return json;
+        }
     }
 
     template <typename T>
     void
-    read(const Json &json, const std::string &key, std::optional<T> &value)
+    write_member(Json &json, const char *key, T &member)
+    {
+      json[key] = json_of(member);
+    }
+
+    /// Only if there is a value.
+    template <typename T>
+    void
+    write_member(Json &json, const char *key, std::optional<T> &member)
+    {
+      if (member)
+        json[key] = json_of(*member);
+    }
+
+    template <typename T>
+    void
+    write_member(Json &json, const char *key, std::vector<T> &members)
+    {
+      json[key] = Json::array();
+      for (T &member : members)
+        json[key].push_back(json_of(member));
+    }
+
+    void
+    write_member(Json &json, const char *key, Quantities &quantities)
+    {
+      json[key] = Json::object();
+      for (const auto &[name, values] : quantities)
+        json[key][name] = values;
+    }
+
+    template <typename T>
+    void
+    read_member(const Json &json, const char *key, T &member);
+    template <typename T>
+    void
+    read_member(const Json &json, const char *key, std::optional<T> &member);
+    template <typename T>
+    void
+    read_member(const Json &json, const char *key, std::vector<T> &member);
+    void
+    read_member(const Json &json, const char *key, Quantities &quantities);
+
+    /// A number that is not finite was written as null.
+    template <typename T>
+    void
+    read_part(const Json &json, T &part)
+    {
+      if constexpr (std::is_floating_point_v<T>)
+        part =
+          json.is_null() ? std::numeric_limits<T>::quiet_NaN() : json.get<T>();
+      else if constexpr (is_value<T>)
+        part = json.get<T>();
+      else
+        visit_members(part, [&](const char *key, auto &member) {
+          read_member(json, key, member);
+        });
+    }
+
+    template <typename T>
+    void
+    read_member(const Json &json, const char *key, T &member)
+    {
+      read_part(json.at(key), member);
+    }
+
+    template <typename T>
+    void
+    read_member(const Json &json, const char *key, std::optional<T> &member)
     {
       if (json.contains(key))
-        read(json[key], value.emplace());
+        read_part(json[key], member.emplace());
+    }
+
+    template <typename T>
+    void
+    read_member(const Json &json, const char *key, std::vector<T> &members)
+    {
+      for (const Json &member : json.at(key))
+        read_part(member, members.emplace_back());
     }
 
     void
-    read(const Json &json, StepSummary &step)
+    read_member(const Json &json, const char *key, Quantities &quantities)
     {
-      get(json, "step", step.step);
-      get(json, "cycle", step.cycle);
-      get(json, "time", step.time);
-      for (const Json &body : json["bodies"])
-        read(body, step.bodies.emplace_back());
-      get(json["dofs"], "displacement", step.dofs.displacement);
-      get(json["dofs"], "pressure", step.dofs.pressure);
-      get(json["dofs"], "multiplier", step.dofs.multiplier);
-      get(json["dofs"], "total", step.dofs.total);
-      for (const Json &interface : json["interfaces"])
-        read(interface, step.interfaces.emplace_back());
-      read(json, "solver", step.solver);
-      read(json, "errors", step.errors);
-      for (const auto &quantity : json["quantities"].items())
-        step.quantities.emplace_back(
-          quantity.key(), quantity.value().get<std::vector<double>>());
+      for (const auto &quantity : json.at(key).items())
+        quantities.emplace_back(quantity.key(),
+                                quantity.value().get<std::vector<double>>());
     }
 
     // A title in another encoding than UTF-8 must not end the run.
@@ -245,7 +256,7 @@ namespace mortise
   steps_to_json(const std::vector<StepSummary> &steps)
   {
     Json json = Json::array();
-    for (const StepSummary &step : steps)
+    for (StepSummary step : steps)
       json.push_back(json_of(step));
     return text_of(json, -1);
   }
@@ -255,7 +266,7 @@ namespace mortise
   {
     std::vector<StepSummary> steps;
     for (const Json &step : Json::parse(text))
-      read(step, steps.emplace_back());
+      read_part(step, steps.emplace_back());
     return steps;
   }
 
@@ -271,7 +282,7 @@ namespace mortise
     json["title"]   = summary.title;
     json["status"]  = summary.status;
     json["steps"]   = Json::array();
-    for (const StepSummary &step : summary.steps)
+    for (StepSummary step : summary.steps)
       json["steps"].push_back(json_of(step));
     json["timings_s"] = Json::object();
     for (const auto &[name, seconds] : summary.timings)

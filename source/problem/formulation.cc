@@ -147,6 +147,6 @@ namespace mortise
     if (exact.pressure)
       Expression(*exact.pressure,
                  parameters.where(path),
-                 parameters.steps.times().front());
+                 parameters.steps.first_time());
   }
 } // namespace mortise

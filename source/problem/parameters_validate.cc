@@ -51,7 +51,7 @@ namespace mortise
       if (text != "exact")
         check_expression(parameters.where(path) + component,
                          text,
-                         parameters.steps.times().front());
+                         parameters.steps.first_time());
       else if (parameters.exact_solution.kind == ExactKind::none)
         parameters.fail(path,
                         "\"exact\" in a scene without an exact solution",

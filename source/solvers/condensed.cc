@@ -39,8 +39,7 @@ namespace mortise
       void
       start(const SystemVector &x)
       {
-        system.apply_stiffness(kd, x.displacement);
-        energy_of_u = x.displacement * kd;
+        energy_of_u = system.stiffness_product(x.displacement);
       }
 
       /// Go on from what @p x holds until the residual is small enough.
@@ -101,8 +100,8 @@ namespace mortise
           preconditioner.vmult(z, rest.displacement);
           if (projector != nullptr)
             projector->project(z);
-          system.apply_stiffness(kd, x.displacement);
-          return std::sqrt((z * rest.displacement) / (kd * x.displacement));
+          return std::sqrt((z * rest.displacement) /
+                           system.stiffness_product(x.displacement));
         };
         residual.judge({rhs, x, all_r},
                        options.tolerance,

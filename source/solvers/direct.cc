@@ -210,15 +210,6 @@ namespace mortise
           visit(v[next++], part->begin()[i]);
     }
 
-    /// u . K u
-    double
-    energy(const Vector &u, const BlockSystem &system)
-    {
-      Vector force(u);
-      system.apply_stiffness(force, u);
-      return force * u;
-    }
-
     /// What the system without pins leaves free, a constant pressure of mean
     /// one and the multipliers that come with it, by group of FreePressures:
     /// with a pin c at pressure k, (A + c e e^T) n = c e for A n = 0 and n_k
@@ -338,8 +329,8 @@ namespace mortise
       }
     const auto relative_error = [&] {
       return factors->solve(r, correction) ?
-               std::sqrt(energy(correction.displacement, system) /
-                         energy(x.displacement, system)) :
+               std::sqrt(system.stiffness_product(correction.displacement) /
+                         system.stiffness_product(x.displacement)) :
                1.;
     };
     residual->judge({rhs, x, r}, options.tolerance, relative_error, report);

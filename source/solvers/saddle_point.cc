@@ -198,9 +198,7 @@ namespace mortise
     double
     energy_of(const SystemVector &x, const BlockSystem &system)
     {
-      Vector f(x.displacement);
-      system.apply_stiffness(f, x.displacement);
-      double energy = f * x.displacement;
+      double energy = system.stiffness_product(x.displacement);
       if (system.mixed())
         {
           Vector g(x.pressure);

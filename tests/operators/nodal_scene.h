@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mortise/operators/nodal_system.h>
-#include <mortise/operators/scene_system.h>
+#include <mortise/operators/scene_solution.h>
 
 #include <functional>
 

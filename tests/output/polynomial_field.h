@@ -4,7 +4,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <mortise/operators/scene_system.h>
+#include <mortise/operators/scene_solution.h>
 #include <mortise/output/patches.h>
 
 #include <cmath>

@@ -43,6 +43,17 @@ namespace
     parameters.step = {5.};
     verdict(parameters.times() == std::vector<double>{0.7},
             "a length beyond the end: one step");
+    bool same = true;
+    for (const std::vector<double> &step : std::vector<std::vector<double>>{
+           {}, {0.1}, {0.7}, {5.}, {0.2, 0.3}, {0.3, 0.6}})
+      for (const std::optional<double> end :
+           {std::optional<double>(), std::optional<double>(0.7)})
+        {
+          parameters.step     = step;
+          parameters.end_time = end;
+          same = same && parameters.first_time() == parameters.times().front();
+        }
+    verdict(same, "the first time is that of the list");
   }
 
   void

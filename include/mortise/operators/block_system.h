@@ -106,6 +106,10 @@ namespace mortise
     void
     apply_stiffness(Vector &dst, const Vector &src) const;
 
+    /// u . K u. Collective.
+    double
+    stiffness_product(const Vector &u) const;
+
     /// dst_u = K u + G^T p, dst_p = G u - C p, the latter without the parts
     /// that belong to free constants. Collective.
     void

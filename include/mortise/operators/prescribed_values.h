@@ -13,6 +13,15 @@ namespace mortise
   using PrescribedValues =
     std::unordered_map<dealii::types::global_dof_index, double>;
 
+  /// That of @p dof, zero if it is not among @p values.
+  inline double
+  prescribed_value(const PrescribedValues               &values,
+                   const dealii::types::global_dof_index dof)
+  {
+    const auto found = values.find(dof);
+    return found == values.end() ? 0. : found->second;
+  }
+
   /// The inhomogeneities of closed @p constraints.
   PrescribedValues
   prescribed_values(const dealii::AffineConstraints<double> &constraints);

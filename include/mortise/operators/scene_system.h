@@ -3,8 +3,6 @@
 // use.
 #pragma once
 
-#include <deal.II/lac/la_parallel_vector.h>
-
 #include <mortise/operators/block_system.h>
 #include <mortise/operators/elasticity.h>
 #include <mortise/operators/scene_load.h>
@@ -54,35 +52,6 @@ namespace mortise
                 const std::vector<AssembledBody> &assembled,
                 const SceneFields                &fields,
                 const BlockSystem                &system);
-
-  /// A field of one body in the numbering of its DoFHandler, with ghost values.
-  using BodyVector = dealii::LinearAlgebra::distributed::Vector<double>;
-
-  /// What was solved for on one body.
-  struct BodySolution
-  {
-    BodyVector displacement;
-    BodyVector pressure; ///< in mixed form, else empty
-  };
-
-  /// The solution by body: constraints distributed, what is prescribed added, interiors of cells
-  /// recovered. @p assembled: by body, empty where @p system has nodes. Collective.
-  std::vector<BodySolution>
-  body_solutions(const Bodies                     &bodies,
-                 const std::vector<AssembledBody> &assembled,
-                 const SceneFields                &fields,
-                 const BlockSystem                &system,
-                 const SceneLoad                  &load,
-                 const SystemVector               &solution);
-
-  /// What undoes body_solutions(), for displacements and pressures: @p solutions less what is
-  /// @p prescribed in them, as unknowns of @p system; multipliers are zero. Collective.
-  SystemVector
-  system_vector(const Bodies                    &bodies,
-                const SceneFields               &fields,
-                const BlockSystem               &system,
-                const PrescribedValues          &prescribed,
-                const std::vector<BodySolution> &solutions);
 
   /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
   void

@@ -3,7 +3,7 @@
 
 #include <deal.II/fe/fe_values.h>
 
-#include <mortise/operators/scene_system.h>
+#include <mortise/operators/scene_solution.h>
 
 #include <array>
 #include <functional>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mortise/mortar/coupling.h>
-#include <mortise/operators/scene_system.h>
+#include <mortise/operators/scene_solution.h>
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #include <mortise/base/types.h>
 #include <mortise/material/exact_solution.h>
 #include <mortise/mortar/coupling.h>
-#include <mortise/operators/scene_system.h>
+#include <mortise/operators/scene_solution.h>
 
 #include <optional>
 #include <string>

@@ -24,6 +24,10 @@ namespace mortise
     /// The times at which steps end, ascending; the first begins at 0.
     std::vector<double>
     times() const;
+
+    /// The first of them.
+    double
+    first_time() const;
   };
 
   /// The planned times, and smaller steps to them where one fails: a step that

@@ -16,7 +16,11 @@ namespace mortise
   std::vector<ParameterEntry>
   declare_parameters(Parameters &parameters);
 
-  /// The part of them in a body's subsection Mesh.
+  /// The part of them in the subsection of a body.
+  void
+  declare_body(const ParameterSection &section, BodyParameters &body);
+
+  /// The part of those in its subsection Mesh.
   void
   declare_mesh(const ParameterSection &section, MeshParameters &mesh);
 

@@ -1,0 +1,41 @@
+// The way from the unknowns of a scene to the fields of its bodies, and back.
+#pragma once
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/operators/scene_system.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// A field of one body in the numbering of its DoFHandler, with ghost values.
+  using BodyVector = dealii::LinearAlgebra::distributed::Vector<double>;
+
+  /// What was solved for on one body.
+  struct BodySolution
+  {
+    BodyVector displacement;
+    BodyVector pressure; ///< in mixed form, else empty
+  };
+
+  /// The solution by body: constraints distributed, what is prescribed added,
+  /// interiors of cells
+  /// recovered. @p assembled: by body, empty where @p system has nodes. Collective.
+  std::vector<BodySolution>
+  body_solutions(const Bodies                     &bodies,
+                 const std::vector<AssembledBody> &assembled,
+                 const SceneFields                &fields,
+                 const BlockSystem                &system,
+                 const SceneLoad                  &load,
+                 const SystemVector               &solution);
+
+  /// What undoes body_solutions(), for displacements and pressures: @p solutions less what is
+  /// @p prescribed in them, as unknowns of @p system; multipliers are zero. Collective.
+  SystemVector
+  system_vector(const Bodies                    &bodies,
+                const SceneFields               &fields,
+                const BlockSystem               &system,
+                const PrescribedValues          &prescribed,
+                const std::vector<BodySolution> &solutions);
+} // namespace mortise
