@@ -6,9 +6,9 @@
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/body/body.h>
-#include <mortise/body/hexahedral_mapping.h>
-#include <mortise/body/legendre_elements.h>
-#include <mortise/body/simplex_mapping.h>
+#include <mortise/body/elements/hexahedral_mapping.h>
+#include <mortise/body/elements/legendre_elements.h>
+#include <mortise/body/elements/simplex_mapping.h>
 
 #include <algorithm>
 #include <set>

@@ -4,8 +4,8 @@
 
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/cell_face.h>
-#include <mortise/body/simplex_quadrature.h>
+#include <mortise/body/elements/cell_face.h>
+#include <mortise/body/elements/simplex_quadrature.h>
 
 namespace mortise
 {

@@ -2,7 +2,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/cell_face.h>
+#include <mortise/body/elements/cell_face.h>
 #include <mortise/interface/body_surface.h>
 
 namespace mortise

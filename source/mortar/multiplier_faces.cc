@@ -5,7 +5,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/cell_face.h>
+#include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/multiplier_faces.h>
 
 #include <cstdint>

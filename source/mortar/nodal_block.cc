@@ -1,6 +1,6 @@
 #include <mortise/base/tensor_product.h>
-#include <mortise/body/simplex_basis.h>
-#include <mortise/body/simplex_nodes.h>
+#include <mortise/body/elements/simplex_basis.h>
+#include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/mortar/nodal_block.h>
 
 namespace mortise

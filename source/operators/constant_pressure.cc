@@ -1,5 +1,5 @@
+#include <mortise/operators/cells/pressure_kernel.h>
 #include <mortise/operators/constant_pressure.h>
-#include <mortise/operators/pressure_kernel.h>
 
 #include <map>
 

@@ -1,7 +1,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
-#include <mortise/body/fe_legendre.h>
-#include <mortise/operators/cell_order.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_load.h>
 
@@ -120,9 +120,9 @@ namespace mortise
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})
       pressures->initialize(*vector);
-    held_pressures = HeldPressures(all_levels.front(), *pressures);
+    clamped_cell_pressures = ClampedCellPressures(all_levels.front(), *pressures);
     stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
-    held_pressures.add_diagonal(norm_diagonal.begin());
+    clamped_cell_pressures.add_diagonal(norm_diagonal.begin());
     pressures->gather_diagonal(norm_diagonal);
   }
 
@@ -130,7 +130,7 @@ namespace mortise
   NodalSystem::apply_stiffness(Vector &dst, const Vector &src) const
   {
     copy(in, src);
-    stiffness->clear_held(in);
+    stiffness->clear_constrained(in);
     stiffness->vmult(out, in);
     copy(dst, out);
   }
@@ -157,10 +157,10 @@ namespace mortise
                            const Vector &p) const
   {
     copy(in, u);
-    stiffness->clear_held(in);
+    stiffness->clear_constrained(in);
     copy(p_in, p);
     apply_mixed_free();
-    stiffness->clear_held(out);
+    stiffness->clear_constrained(out);
     copy(dst_u, out);
     copy(dst_p, p_out);
   }
@@ -174,7 +174,7 @@ namespace mortise
     stiffness->elasticity().add_pressure_force(p_in.begin(), out.begin());
     pressures->release(p_in);
     stiffness->gather(out);
-    stiffness->clear_held(out);
+    stiffness->clear_constrained(out);
     for (unsigned int i = 0; i < out.locally_owned_size(); ++i)
       dst.begin()[i] += out.local_element(i);
   }
@@ -186,7 +186,7 @@ namespace mortise
     pressures->complete(p);
     dst = 0.;
     stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
-    held_pressures.add_product(p.begin(), dst.begin());
+    clamped_cell_pressures.add_product(p.begin(), dst.begin());
     pressures->release(p);
     pressures->gather(dst);
   }
@@ -270,7 +270,7 @@ namespace mortise
           stiffness->vmult_free(out, in);
         sum -= out;
       }
-    stiffness->clear_held(sum);
+    stiffness->clear_constrained(sum);
     copy(load.rhs.displacement, sum);
   }
 
@@ -313,7 +313,7 @@ namespace mortise
                                 Vector             &displacement) const
   {
     interpolate(coefficient);
-    stiffness->clear_held(in);
+    stiffness->clear_constrained(in);
     copy(displacement, in);
   }
 
@@ -344,7 +344,7 @@ namespace mortise
   }
 
   void
-  NodalSystem::drop_held_columns(SparseMatrix &coupling) const
+  NodalSystem::drop_constrained_columns(SparseMatrix &coupling) const
   {
     const NodalLevel  &level = all_levels.front();
     const unsigned int n     = level.space->hanging_nodes().n_constraints();
@@ -353,8 +353,8 @@ namespace mortise
     auto &matrix = const_cast<Epetra_CrsMatrix &>(coupling.trilinos_matrix());
     Epetra_Vector kept(matrix.DomainMap());
     kept.PutScalar(1.);
-    for (const unsigned int place : level.held)
-      kept[place] = 0.;
+    for (const unsigned int index : level.constrained)
+      kept[index] = 0.;
     matrix.RightScale(kept);
   }
 

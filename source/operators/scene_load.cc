@@ -1,4 +1,4 @@
-#include <mortise/operators/load_kernel.h>
+#include <mortise/operators/assembled/load_kernel.h>
 #include <mortise/operators/scene_load.h>
 
 #include <memory>
@@ -113,9 +113,9 @@ namespace mortise
           next += n_b < n_u ? 1 : 0;
           const auto columns =
             assembled.prescribed.cells.find(cell->active_cell_index());
-          const bool held = columns != assembled.prescribed.cells.end() &&
+          const bool constrained = columns != assembled.prescribed.cells.end() &&
                             !load.prescribed.empty();
-          if (!is_loaded(cell, loads) && !held)
+          if (!is_loaded(cell, loads) && !constrained)
             continue;
 
           auto &kernel = kernels[cell->active_fe_index()];
@@ -133,7 +133,7 @@ namespace mortise
           if (loads.body_force && n_b < n_u)
             interiors[interior] =
               assembled.interiors.condense(interior, of_cell);
-          if (held)
+          if (constrained)
             subtract(columns->second, load.prescribed, dofs, of_cell);
           dofs.resize(n_b);
           distribute(of_cell,

@@ -1,6 +1,6 @@
 #include <deal.II/base/mpi.h>
 
-#include <mortise/operators/pressure_scatter.h>
+#include <mortise/operators/assembled/pressure_scatter.h>
 #include <mortise/operators/scene_system.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-#include <mortise/body/fe_legendre.h>
-#include <mortise/operators/lobatto_table.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/operators/cells/lobatto_table.h>
 #include <mortise/output/cell_fields.h>
 
 namespace mortise

@@ -1,8 +1,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/simplex_quadrature.h>
-#include <mortise/operators/face_values.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/operators/cells/face_values.h>
 #include <mortise/output/cell_fields.h>
 #include <mortise/output/errors.h>
 

@@ -6,8 +6,8 @@
 #include <deal.II/numerics/data_out_faces.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/legendre_elements.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/legendre_elements.h>
 #include <mortise/output/cell_values.h>
 #include <mortise/output/fields.h>
 #include <mortise/output/simplex_fields.h>

@@ -2,7 +2,7 @@
 #include <mortise/operators/constant_pressure.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/rigid_motions.h>
-#include <mortise/solvers/dependent_multipliers.h>
+#include <mortise/solvers/interface/dependent_multipliers.h>
 
 #include <algorithm>
 #include <numeric>
@@ -82,7 +82,7 @@ namespace mortise
                              couplings.all()},
           run.comm);
         if (system.owned_multiplier.size() > 0)
-          system.nodal->drop_held_columns(system.coupling);
+          system.nodal->drop_constrained_columns(system.coupling);
         stage.details("without a matrix");
         return;
       }

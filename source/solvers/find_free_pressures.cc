@@ -4,7 +4,7 @@
 
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/find_free_pressures.h>
-#include <mortise/solvers/rough.h>
+#include <mortise/solvers/pseudo_random.h>
 #include <mortise/solvers/scaled_residual.h>
 
 #include <cmath>
@@ -70,7 +70,7 @@ namespace mortise
       Vector any(system.owned_multiplier, system.communicator), reached(force),
         outside(force);
       for (unsigned int i = 0; i < any.locally_owned_size(); ++i)
-        any.begin()[i] = 1.5 + 0.5 * rough(i);
+        any.begin()[i] = 1.5 + 0.5 * pseudo_random(i);
       reached = 0.;
       system.add_multiplier_force(reached, any);
       for (unsigned int i = 0; i < reached.locally_owned_size(); ++i)

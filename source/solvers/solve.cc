@@ -2,9 +2,9 @@
 #include <deal.II/base/exceptions.h>
 
 #include <mortise/base/error.h>
-#include <mortise/solvers/condensed.h>
-#include <mortise/solvers/direct.h>
-#include <mortise/solvers/saddle_point.h>
+#include <mortise/solvers/krylov/condensed.h>
+#include <mortise/solvers/factorisation/direct.h>
+#include <mortise/solvers/krylov/saddle_point.h>
 #include <mortise/solvers/solve.h>
 
 #include <algorithm>

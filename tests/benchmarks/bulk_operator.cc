@@ -11,8 +11,8 @@
 // register. Run it under mpirun to see all cores at once.
 #include <deal.II/lac/la_parallel_vector.h>
 
-#include <mortise/operators/matrix_free_elasticity.h>
-#include <mortise/operators/tensor_kernel.h>
+#include <mortise/operators/matrix_free/matrix_free_elasticity.h>
+#include <mortise/operators/matrix_free/tensor_kernel.h>
 
 #include <algorithm>
 #include <chrono>

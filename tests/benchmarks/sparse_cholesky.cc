@@ -14,13 +14,13 @@
 //     runs      factorisations of each, in turn; solves: per run
 #include <Epetra_MpiComm.h>
 #include <malloc.h>
+#include <mortise/operators/levels/nodal_block_matrix.h>
+#include <mortise/operators/levels/vertex_matrix.h>
 #include <mortise/operators/nodal_system.h>
-#include <mortise/operators/node_blocks.h>
-#include <mortise/operators/vertex_matrix.h>
-#include <mortise/solvers/node_matrix.h>
-#include <mortise/solvers/sparse_cholesky.h>
-#include <mortise/solvers/sparse_factorization.h>
-#include <mortise/solvers/weighted_square.h>
+#include <mortise/solvers/factorisation/distributed_nodal_matrix.h>
+#include <mortise/solvers/factorisation/mumps_factorisation.h>
+#include <mortise/solvers/factorisation/sparse_cholesky.h>
+#include <mortise/solvers/interface/weighted_square.h>
 
 #include <ctime>
 #include <iostream>
@@ -87,10 +87,10 @@ namespace
   /// The rows with, by node, the entries of vectors on @p map.
   struct Problem
   {
-    NodeRows                          rows;
-    std::unique_ptr<Epetra_Map>       map;
-    std::unique_ptr<Epetra_CrsMatrix> matrix; ///< of nodes and components
-    std::unique_ptr<NodeMatrix>       product;
+    NodalMatrix                             rows;
+    std::unique_ptr<Epetra_Map>             map;
+    std::unique_ptr<Epetra_CrsMatrix>       matrix; ///< of nodes and components
+    std::unique_ptr<DistributedNodalMatrix> product;
   };
 
   std::vector<Held>
@@ -157,20 +157,21 @@ namespace
       {
         mortise::SparseMatrix B;
         scene.assemble(B, owned);
-        system.drop_held_columns(B);
+        system.drop_constrained_columns(B);
         // as DiagonalLifting
         LevelVector<double> weights(system.node_diagonal());
         for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
           weights.local_element(i) = 1. / weights.local_element(i);
         for (const auto &leading : system.leading_displacements())
-          weights.local_element(leading.place) = 0.;
+          weights.local_element(leading.index) = 0.;
         problem.rows =
           weighted_square(CouplingRows(B.trilinos_matrix(), true), weights);
         problem.map =
           std::make_unique<Epetra_Map>(B.trilinos_matrix().RowMap());
       }
-    problem.matrix  = as_matrix(problem.rows, Epetra_MpiComm(scene.comm));
-    problem.product = std::make_unique<NodeMatrix>(problem.rows, *problem.map);
+    problem.matrix = as_matrix(problem.rows, Epetra_MpiComm(scene.comm));
+    problem.product =
+      std::make_unique<DistributedNodalMatrix>(problem.rows, *problem.map);
     return problem;
   }
 
@@ -209,8 +210,8 @@ namespace
   {
     struct State
     {
-      std::unique_ptr<SparseFactorization> inverse;
-      std::unique_ptr<Epetra_Vector>       x, b;
+      std::unique_ptr<MumpsFactorisation> inverse;
+      std::unique_ptr<Epetra_Vector>      x, b;
     };
     const auto state = std::make_shared<State>();
     state->x = std::make_unique<Epetra_Vector>(problem.matrix->RowMap());
@@ -218,7 +219,7 @@ namespace
     Solver solver;
     solver.name      = "mumps";
     solver.factorise = [=, &problem] {
-      state->inverse = std::make_unique<SparseFactorization>();
+      state->inverse = std::make_unique<MumpsFactorisation>();
       return state->inverse->initialize(*problem.matrix,
                                         MatrixKind::positive_definite);
     };
@@ -326,11 +327,11 @@ namespace
     }
 
   private:
-    const NodeRows &rows;
-    const bool      alike;
-    cholmod_common  common{};
-    cholmod_factor *factor = nullptr;
-    cholmod_dense  *b = nullptr, *result = nullptr, *Y = nullptr, *E = nullptr;
+    const NodalMatrix &rows;
+    const bool         alike;
+    cholmod_common     common{};
+    cholmod_factor    *factor = nullptr;
+    cholmod_dense *b = nullptr, *result = nullptr, *Y = nullptr, *E = nullptr;
   };
 
   Solver

@@ -22,8 +22,8 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/legendre_basis.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/legendre_basis.h>
 
 #include <iostream>
 

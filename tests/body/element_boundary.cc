@@ -19,8 +19,8 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/hp_constraints.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/spaces/hp_constraints.h>
 
 #include <iostream>
 

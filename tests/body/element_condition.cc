@@ -14,7 +14,7 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
-#include <mortise/body/fe_legendre.h>
+#include <mortise/body/elements/fe_legendre.h>
 
 #include <cstdio>
 #include <iostream>

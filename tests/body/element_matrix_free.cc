@@ -18,8 +18,8 @@
 #include <deal.II/matrix_free/fe_evaluation.h>
 #include <deal.II/matrix_free/matrix_free.h>
 
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/hp_constraints.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/spaces/hp_constraints.h>
 
 #include <iostream>
 

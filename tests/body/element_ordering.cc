@@ -5,7 +5,7 @@
 #include <deal.II/grid/grid_generator.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <mortise/body/hp_constraints.h>
+#include <mortise/body/spaces/hp_constraints.h>
 
 #include <iostream>
 

@@ -7,7 +7,7 @@
 
 #include <gmsh.h>
 #include <mortise/base/error.h>
-#include <mortise/body/mesh_file.h>
+#include <mortise/body/mesh/mesh_file.h>
 
 #include <fstream>
 #include <iostream>

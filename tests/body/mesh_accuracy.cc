@@ -9,8 +9,8 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q.h>
 
-#include <mortise/body/manifolds.h>
-#include <mortise/body/mesh_source.h>
+#include <mortise/body/mesh/manifolds.h>
+#include <mortise/body/mesh/mesh_source.h>
 
 #include <cmath>
 #include <functional>

@@ -9,10 +9,10 @@
 
 #include <fcntl.h>
 #include <mortise/body/body.h>
-#include <mortise/body/curved_boundaries.h>
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/fe_simplex_legendre.h>
-#include <mortise/body/simplex_quadrature.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/fe_simplex_legendre.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/body/mesh/curved_boundaries.h>
 #include <unistd.h>
 
 #include <cmath>

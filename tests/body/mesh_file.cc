@@ -6,7 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <mortise/base/error.h>
-#include <mortise/body/mesh_source.h>
+#include <mortise/body/mesh/mesh_source.h>
 
 #include <cmath>
 #include <fstream>

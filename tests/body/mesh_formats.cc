@@ -8,8 +8,8 @@
 
 #include <deal.II/grid/tria.h>
 
-#include <mortise/body/simplex_quadrature.h>
-#include <mortise/body/vertex_order.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/body/mesh/vertex_order.h>
 
 #include <cmath>
 

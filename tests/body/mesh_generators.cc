@@ -10,8 +10,8 @@
 #include <deal.II/fe/mapping_q.h>
 
 #include <mortise/base/error.h>
-#include <mortise/body/manifolds.h>
-#include <mortise/body/mesh_source.h>
+#include <mortise/body/mesh/manifolds.h>
+#include <mortise/body/mesh/mesh_source.h>
 
 #include <cmath>
 #include <iostream>

@@ -4,7 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-#include <mortise/body/mesh_source.h>
+#include <mortise/body/mesh/mesh_source.h>
 
 #include <functional>
 #include <iostream>

@@ -7,9 +7,9 @@
 #include <deal.II/fe/fe_values.h>
 
 #include <mortise/body/body.h>
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/fe_simplex_legendre.h>
-#include <mortise/body/simplex_quadrature.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/fe_simplex_legendre.h>
+#include <mortise/body/elements/simplex_quadrature.h>
 
 #include <cmath>
 

@@ -8,10 +8,10 @@
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
 
-#include <mortise/body/legendre_basis.h>
-#include <mortise/body/simplex_elements.h>
-#include <mortise/body/simplex_quadrature.h>
-#include <mortise/body/trace_basis.h>
+#include <mortise/body/elements/legendre_basis.h>
+#include <mortise/body/elements/simplex_elements.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/body/elements/trace_basis.h>
 
 #include <iostream>
 #include <set>

@@ -14,8 +14,8 @@
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
-#include <mortise/body/fe_simplex_legendre.h>
-#include <mortise/body/simplex_quadrature.h>
+#include <mortise/body/elements/fe_simplex_legendre.h>
+#include <mortise/body/elements/simplex_quadrature.h>
 
 #include <cstdio>
 #include <iostream>

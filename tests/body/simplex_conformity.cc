@@ -18,8 +18,8 @@
 
 #include <deal.II/numerics/vector_tools.h>
 
-#include <mortise/body/hp_constraints.h>
-#include <mortise/body/simplex_elements.h>
+#include <mortise/body/elements/simplex_elements.h>
+#include <mortise/body/spaces/hp_constraints.h>
 
 #include <iostream>
 

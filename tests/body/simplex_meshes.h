@@ -11,7 +11,7 @@
 #include <deal.II/grid/manifold.h>
 #include <deal.II/grid/tria_description.h>
 
-#include <mortise/body/vertex_order.h>
+#include <mortise/body/mesh/vertex_order.h>
 
 #include <algorithm>
 #include <memory>

@@ -2,7 +2,7 @@
 // monomials up to their degree, with positive weights and points inside, none
 // close to a vertex.
 
-#include <mortise/body/simplex_quadrature.h>
+#include <mortise/body/elements/simplex_quadrature.h>
 
 #include <algorithm>
 #include <cmath>

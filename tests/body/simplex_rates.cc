@@ -12,10 +12,10 @@
 #include <deal.II/lac/solver_cg.h>
 #include <deal.II/lac/sparse_matrix.h>
 
-#include <mortise/body/hp_constraints.h>
-#include <mortise/body/simplex_elements.h>
-#include <mortise/body/simplex_mapping.h>
-#include <mortise/body/simplex_quadrature.h>
+#include <mortise/body/elements/simplex_elements.h>
+#include <mortise/body/elements/simplex_mapping.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/body/spaces/hp_constraints.h>
 
 #include <iostream>
 

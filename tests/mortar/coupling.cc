@@ -231,10 +231,10 @@ namespace mortise::testing
                              scene.comm);
     mortise::SparseMatrix B;
     scene.assemble(B, owned);
-    system.drop_held_columns(B);
+    system.drop_constrained_columns(B);
 
     mortise::Vector at_nodes = random(owned, scene.comm);
-    for (const unsigned int place : system.levels().front().held)
+    for (const unsigned int place : system.levels().front().constrained)
       at_nodes.begin()[place] = 0.;
     mortise::Vector u = modal.scene.displacement();
     system.for_each_coefficient(

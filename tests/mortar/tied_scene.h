@@ -8,7 +8,7 @@
 
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/boundary_faces.h>
-#include <mortise/body/cell_face.h>
+#include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/scene_system.h>
 

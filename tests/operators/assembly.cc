@@ -4,8 +4,8 @@
 // and loads, isotropic and orthotropic; that it is symmetric and has rigid
 // motions in its kernel.
 
-#include <mortise/body/simplex_quadrature.h>
-#include <mortise/operators/cell_kernel.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/scene_system.h>
 
 #include <random>

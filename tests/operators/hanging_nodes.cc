@@ -7,11 +7,11 @@
 // from these; that transfers between degrees keep functions and are transposes
 // of each other; that the matrix of vertices is the product on its level. The
 // same on every number of ranks.
-#include <mortise/body/fe_legendre.h>
-#include <mortise/operators/cell_kernel.h>
-#include <mortise/operators/degree_transfer.h>
-#include <mortise/operators/node_block_operator.h>
-#include <mortise/operators/vertex_matrix.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/operators/cells/cell_kernel.h>
+#include <mortise/operators/levels/degree_transfer.h>
+#include <mortise/operators/levels/nodal_block_operator.h>
+#include <mortise/operators/levels/vertex_matrix.h>
 
 #include <cmath>
 
@@ -149,7 +149,7 @@ namespace mortise::testing
                   dim * nodes[i] + c)) = values[i];
           }
       });
-    for (const unsigned int place : level.held)
+    for (const unsigned int place : level.constrained)
       result.local_element(place) = 0.;
     return result;
   }
@@ -238,7 +238,7 @@ namespace mortise::testing
     for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
       result.local_element(i) =
         random_number(seed, level.layout->local_to_global(i));
-    for (const unsigned int place : level.held)
+    for (const unsigned int place : level.constrained)
       result.local_element(place) = 0.;
     return result;
   }
@@ -277,7 +277,7 @@ namespace mortise::testing
   {
     const NodalLevel               &level = scene.levels().back();
     const LevelOperator<double>     K(level, false);
-    const NodeBlockOperator<double> vertices(
+    const NodalBlockOperator<double> vertices(
       assemble_vertex_matrix(level).blocks);
     const auto          u = random_values(level, 1);
     LevelVector<double> expected(level.layout), from, to;

@@ -153,7 +153,7 @@ namespace mortise::testing
     Utilities::MPI::sum(expected, MPI_COMM_WORLD, expected);
     std::map<unsigned int, double> followers; // by place
     for (const auto &leading : squares.leading)
-      followers[leading.place] = leading.followers;
+      followers[leading.index] = leading.followers;
     const unsigned int n_leading =
       Utilities::MPI::sum<unsigned int>(followers.size(), MPI_COMM_WORLD);
     // one component of the nodes at x = 0 is held

@@ -8,12 +8,12 @@
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 
-#include <mortise/body/fe_legendre.h>
-#include <mortise/body/simplex_elements.h>
-#include <mortise/body/simplex_nodes.h>
-#include <mortise/operators/cell_kernel.h>
-#include <mortise/operators/degree_transfer.h>
-#include <mortise/operators/matrix_free_kernel.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/simplex_elements.h>
+#include <mortise/body/elements/simplex_nodes.h>
+#include <mortise/operators/cells/cell_kernel.h>
+#include <mortise/operators/levels/degree_transfer.h>
+#include <mortise/operators/matrix_free/matrix_free_kernel.h>
 #include <mortise/operators/nodal_system.h>
 
 #include <cmath>

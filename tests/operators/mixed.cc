@@ -6,9 +6,9 @@
 // number of ranks.
 #include <deal.II/fe/fe_q.h>
 
-#include <mortise/operators/cell_kernel.h>
+#include <mortise/operators/cells/cell_kernel.h>
+#include <mortise/operators/cells/pressure_kernel.h>
 #include <mortise/operators/nodal_system.h>
-#include <mortise/operators/pressure_kernel.h>
 #include <mortise/operators/scene_system.h>
 
 #include <cmath>

@@ -6,13 +6,13 @@
 // contracts errors. The same on every number of ranks.
 #include <deal.II/dofs/dof_tools.h>
 
+#include <mortise/operators/levels/nodal_block_operator.h>
+#include <mortise/operators/levels/vertex_matrix.h>
+#include <mortise/operators/levels/vertex_transfer.h>
 #include <mortise/operators/nodal_system.h>
-#include <mortise/operators/node_block_operator.h>
 #include <mortise/operators/scene_system.h>
-#include <mortise/operators/vertex_matrix.h>
-#include <mortise/operators/vertex_transfer.h>
-#include <mortise/solvers/rough.h>
-#include <mortise/solvers/vertex_multigrid.h>
+#include <mortise/solvers/multigrid/vertex_multigrid.h>
+#include <mortise/solvers/pseudo_random.h>
 
 #include <cmath>
 
@@ -73,17 +73,18 @@ namespace mortise::testing
   /// The same on every number of ranks as far as norms go.
   template <typename Number>
   void
-  make_rough(const NodeBlockOperator<Number> &matrix, LevelVector<Number> &v)
+  make_pseudo_random(const NodalBlockOperator<Number> &matrix,
+                     LevelVector<Number>              &v)
   {
     matrix.initialize(v);
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
       v.local_element(i) = static_cast<Number>(
-        rough(v.get_partitioner()->local_range().first + i));
-    matrix.clear_held(v);
+        pseudo_random(v.get_partitioner()->local_range().first + i));
+    matrix.clear_constrained(v);
   }
 
   double
-  energy(const NodeBlockOperator<double> &matrix, const LevelVector<double> &v)
+  energy(const NodalBlockOperator<double> &matrix, const LevelVector<double> &v)
   {
     LevelVector<double> product;
     matrix.initialize(product);
@@ -99,14 +100,14 @@ namespace mortise::testing
               const bool         exact,
               const unsigned int n_corners)
   {
-    VertexMatrix matrix = assemble_vertex_matrix(scene.levels().back());
-    NodeBlocks   fine   = std::move(matrix.blocks);
-    auto         points = std::move(matrix.points);
-    double       values = 0., transposes = 0., products = 0.;
+    VertexMatrix     matrix = assemble_vertex_matrix(scene.levels().back());
+    NodalBlockMatrix fine   = std::move(matrix.blocks);
+    auto             points = std::move(matrix.points);
+    double           values = 0., transposes = 0., products = 0.;
     for (const VertexCoarsening &coarsening :
          make_vertex_coarsenings(*scene.levels().back().space, MPI_COMM_WORLD))
       {
-        NodeBlocks                   coarse = coarsen(fine, coarsening);
+        NodalBlockMatrix             coarse = coarsen(fine, coarsening);
         const VertexTransfer<double> transfer(coarsening, coarse);
         std::vector<Point<dim>>      coarse_points;
         for (const unsigned int node : coarsening.kept)
@@ -128,23 +129,23 @@ namespace mortise::testing
                                 std::fabs(on_fine.local_element(dim * i + c) -
                                           function(points[i], c)));
 
-        const NodeBlockOperator<double> A(fine), A_c(coarse);
-        LevelVector<double>             f, g, c, d, r;
-        make_rough(A, f);
-        make_rough(A_c, c);
+        const NodalBlockOperator<double> A(fine), A_c(coarse);
+        LevelVector<double>              f, g, c, d, r;
+        make_pseudo_random(A, f);
+        make_pseudo_random(A_c, c);
         A.initialize(g);
         A.initialize(r);
         A_c.initialize(d);
         transfer.prolongate_add(g, c);
-        A.clear_held(g);
+        A.clear_constrained(g);
         transfer.restrict_to(d, f);
-        A_c.clear_held(d);
+        A_c.clear_constrained(d);
         transposes =
           std::max(transposes,
                    std::fabs(g * f - d * c) / (g.l2_norm() * f.l2_norm()));
         A.vmult(r, g);
         transfer.restrict_to(d, r);
-        A_c.clear_held(d);
+        A_c.clear_constrained(d);
         A_c.vmult(on_coarse, c);
         d -= on_coarse;
         products =
@@ -165,14 +166,14 @@ namespace mortise::testing
   void
   check_multigrid(const std::string &name, const NodalScene &scene)
   {
-    const NodalLevel               &level = scene.levels().back();
-    const NodeBlockOperator<double> A(assemble_vertex_matrix(level).blocks);
-    const VertexMultigrid           multigrid(level, true);
+    const NodalLevel                &level = scene.levels().back();
+    const NodalBlockOperator<double> A(assemble_vertex_matrix(level).blocks);
+    const VertexMultigrid            multigrid(level, true);
     verdict(name + ", not by one factorisation",
             multigrid.description().find("meshes") == std::string::npos,
             0.);
     LevelVector<double> error, r;
-    make_rough(A, error);
+    make_pseudo_random(A, error);
     A.initialize(r);
     LevelVector<float>     b(level.layout), x(level.layout);
     constexpr unsigned int n_cycles = 8;

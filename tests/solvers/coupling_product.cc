@@ -2,8 +2,8 @@
 // have the same entries, where they have others and where some lack them, and
 // touch the displacements that multipliers move alone, on every number of
 // ranks.
-#include <mortise/solvers/coupling_product.h>
 #include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/interface/coupling_product.h>
 #include <verdict.h>
 
 #include <cmath>
@@ -30,7 +30,7 @@ namespace
           verdict(name + ": " + what, got, limit);
       };
     const CouplingProduct<Number> product(system, rows);
-    const auto                   &places = product.places();
+    const auto                   &places = product.indices();
     const double                  n_places =
       Utilities::MPI::sum<double>(places.size(), MPI_COMM_WORLD);
     say("places beside those that are moved", std::abs(n_places - n_moved), 0);

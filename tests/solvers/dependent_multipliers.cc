@@ -1,7 +1,7 @@
 // Proves that multipliers which depend on others are found, exactly as many as
 // there are: none in a tie of springs, and one for each constraint that is
 // added once more, scaled or as the sum of two others.
-#include <mortise/solvers/dependent_multipliers.h>
+#include <mortise/solvers/interface/dependent_multipliers.h>
 #include <verdict.h>
 
 #include "spring_system.h"

@@ -8,10 +8,10 @@
 
 #include <Teuchos_LAPACK.hpp>
 #include <mortise/body/boundary_conditions.h>
-#include <mortise/body/legendre_elements.h>
+#include <mortise/body/elements/legendre_elements.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/sparse_factorization.h>
+#include <mortise/solvers/factorisation/mumps_factorisation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -112,7 +112,7 @@ namespace mortise::testing
     DenseMatrix S(rows.size(), rows.size());
     if (a.NumGlobalRows() == 0) // nothing is free
       return S;
-    SparseFactorization factors;
+    MumpsFactorisation factors;
     if (!factors.initialize(a, MatrixKind::positive_definite))
       throw std::runtime_error("the inner product is not positive definite");
     Epetra_Vector x(a.RowMap()), y(a.RowMap());

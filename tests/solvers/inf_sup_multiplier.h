@@ -6,7 +6,7 @@
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
-#include <mortise/body/simplex_quadrature.h>
+#include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/mortar/coupling.h>
 
 #include "inf_sup.h"

@@ -5,7 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <Epetra_MpiComm.h>
-#include <mortise/solvers/sparse_cholesky.h>
+#include <mortise/solvers/factorisation/sparse_cholesky.h>
 #include <verdict.h>
 
 #include <cmath>

@@ -5,9 +5,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <Epetra_MpiComm.h>
-#include <mortise/solvers/schwarz_inverse.h>
-#include <mortise/solvers/sparse_cholesky.h>
-#include <mortise/solvers/weighted_square.h>
+#include <mortise/solvers/factorisation/schwarz_inverse.h>
+#include <mortise/solvers/factorisation/sparse_cholesky.h>
+#include <mortise/solvers/interface/weighted_square.h>
 #include <verdict.h>
 
 #include <cmath>
@@ -42,10 +42,10 @@ namespace
     for (const auto i : owned)
       weights(i) = 1. + i / 3 % 5;
 
-    const NodeRows C     = weighted_square(CouplingRows(B, true), weights);
-    const auto     alike = std::count(C.variants.begin(), C.variants.end(), 1U);
-    const int      n_alike = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
-              n_nodes      = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);
+    const NodalMatrix C = weighted_square(CouplingRows(B, true), weights);
+    const auto alike    = std::count(C.variants.begin(), C.variants.end(), 1U);
+    const int  n_alike  = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
+              n_nodes   = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);
     // those of entities that share columns with deviating ones: 20 at the ends,
     // 15 of entities 5 to 11
     say("nodes whose components differ", n_nodes - n_alike, 35);
@@ -83,7 +83,7 @@ namespace
         u[i] *= weights.local_element(i);
       B.Multiply(false, u, to);
     };
-    const auto nodes = std::make_shared<NodeMatrix>(C, B.RowMap());
+    const auto nodes = std::make_shared<DistributedNodalMatrix>(C, B.RowMap());
     nodes->vmult(got, y);
     got.Update(-1., expected, 1.);
     say("products by nodes", largest(got) / largest(expected), 1e-14);

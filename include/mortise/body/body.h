@@ -13,9 +13,9 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <mortise/base/types.h>
-#include <mortise/body/hp_constraints.h>
-#include <mortise/body/mesh_source.h>
-#include <mortise/body/pressure_space.h>
+#include <mortise/body/mesh/mesh_source.h>
+#include <mortise/body/spaces/hp_constraints.h>
+#include <mortise/body/spaces/pressure_space.h>
 #include <mortise/material/material.h>
 
 #include <map>

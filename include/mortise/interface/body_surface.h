@@ -6,9 +6,9 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <mortise/body/body.h>
-#include <mortise/body/nodal_space.h>
-#include <mortise/body/numbering.h>
-#include <mortise/body/trace_basis.h>
+#include <mortise/body/elements/trace_basis.h>
+#include <mortise/body/spaces/nodal_space.h>
+#include <mortise/body/spaces/numbering.h>
 #include <mortise/interface/surface_face.h>
 
 #include <vector>

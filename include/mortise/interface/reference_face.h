@@ -2,7 +2,7 @@
 // and edges, and what it means to lie inside.
 #pragma once
 
-#include <mortise/body/face_shape.h>
+#include <mortise/body/elements/face_shape.h>
 #include <mortise/interface/lanes.h>
 
 #include <array>

@@ -4,8 +4,8 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <mortise/body/face_shape.h>
-#include <mortise/body/nodal_space.h>
+#include <mortise/body/elements/face_shape.h>
+#include <mortise/body/spaces/nodal_space.h>
 
 namespace mortise
 {

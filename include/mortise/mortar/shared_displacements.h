@@ -3,7 +3,7 @@
 // taken.
 #pragma once
 
-#include <mortise/body/numbering.h>
+#include <mortise/body/spaces/numbering.h>
 #include <mortise/mortar/coupling.h>
 
 #include <vector>

@@ -57,7 +57,7 @@ namespace mortise
     /// K, symmetric, the interiors of cells eliminated; a constrained or
     /// eliminated degree of freedom (Dirichlet, hanging node, interior of a
     /// cell) has a row and a column that are zero but for a positive diagonal.
-    /// Singular when a body is held only by its interfaces.
+    /// Singular when a body is constrained only by its interfaces.
     SparseMatrix stiffness;
 
     /// G = -int q div u and C = int c p q, c the compressibility; constrained

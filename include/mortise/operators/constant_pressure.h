@@ -1,8 +1,8 @@
 // The pressure that is one on a body and zero on all others, and its integrals.
 #pragma once
 
+#include <mortise/operators/assembled/pressure_scatter.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/operators/pressure_scatter.h>
 
 namespace mortise
 {

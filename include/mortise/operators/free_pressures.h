@@ -23,7 +23,7 @@ namespace mortise
     }
 
     /// For factorisations, which have to have a regular system: the owned
-    /// pressure of group @p g that is to be held, -1 on all ranks but one.
+    /// pressure of group @p g that is to be constrained, -1 on all ranks but one.
     int
     pinned(const unsigned int g) const
     {

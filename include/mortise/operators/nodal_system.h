@@ -6,9 +6,9 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <Epetra_Vector.h>
-#include <mortise/operators/elasticity.h>
-#include <mortise/operators/held_pressures.h>
-#include <mortise/operators/leading_displacements.h>
+#include <mortise/operators/assembled/elasticity.h>
+#include <mortise/operators/levels/clamped_cell_pressures.h>
+#include <mortise/operators/levels/leading_displacements.h>
 #include <mortise/operators/prescribed_values.h>
 
 #include <memory>
@@ -43,7 +43,7 @@ namespace mortise
       return all_levels;
     }
 
-    /// dst = K src; zero where src is held. Collective.
+    /// dst = K src; zero where src is constrained. Collective.
     void
     apply_stiffness(Vector &dst, const Vector &src) const;
 
@@ -81,14 +81,14 @@ namespace mortise
       return norm_diagonal;
     }
 
-    /// diag(K), 1 where held.
+    /// diag(K), 1 where constrained.
     const LevelVector<double> &
     diagonal() const
     {
       return stiffness_diagonal;
     }
 
-    /// The same, its mean over the components of a node that are not held.
+    /// The same, its mean over the components of a node that are not constrained.
     LevelVector<double>
     node_diagonal() const
     {
@@ -104,7 +104,7 @@ namespace mortise
     }
 
     /// Set the right hand side of @p load: int b.v + int t.v less the work of the prescribed
-    /// displacements in it, zero where held, and what these leave to the
+    /// displacements in it, zero where constrained, and what these leave to the
     /// pressures. @p loads: by body. Collective.
     void
     assemble_load(const std::vector<Loads> &loads,
@@ -114,13 +114,13 @@ namespace mortise
     /// B without the columns of prescribed components, which hanging nodes
     /// bring in. Collective.
     void
-    drop_held_columns(SparseMatrix &coupling) const;
+    drop_constrained_columns(SparseMatrix &coupling) const;
 
     /// A hierarchical coefficient, by body and dof.
     using Coefficients =
       std::function<double(unsigned int, dealii::types::global_dof_index)>;
 
-    /// What undoes for_each_coefficient(): the values at nodes, zero where held. Collective.
+    /// What undoes for_each_coefficient(): the values at nodes, zero where constrained. Collective.
     void
     set_displacement(const Coefficients &coefficient,
                      Vector             &displacement) const;
@@ -154,7 +154,7 @@ namespace mortise
     void
     interpolate(const Coefficients &coefficient) const;
 
-    /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is held.
+    /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is constrained.
     void
     apply_mixed_free() const;
 
@@ -163,7 +163,7 @@ namespace mortise
     LevelVector<double>                    stiffness_diagonal;
     std::vector<LeadingDisplacement>       leading;
     std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
-    HeldPressures                          held_pressures;
+    ClampedCellPressures                          clamped_cell_pressures;
     LevelVector<double>                    norm_diagonal;
     mutable LevelVector<double>            in, out, p_in, p_out;
   };

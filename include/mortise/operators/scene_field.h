@@ -3,7 +3,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
-#include <mortise/body/numbering.h>
+#include <mortise/body/spaces/numbering.h>
 
 #include <vector>
 

@@ -4,8 +4,8 @@
 
 #include <deal.II/lac/vector.h>
 
+#include <mortise/operators/assembled/elasticity.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/operators/elasticity.h>
 #include <mortise/operators/prescribed_values.h>
 #include <mortise/operators/scene_field.h>
 

@@ -3,8 +3,8 @@
 // use.
 #pragma once
 
+#include <mortise/operators/assembled/elasticity.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/operators/elasticity.h>
 #include <mortise/operators/scene_load.h>
 
 #include <memory>

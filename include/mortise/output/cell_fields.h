@@ -2,7 +2,7 @@
 // cells, by sum factorisation on hexahedra.
 #pragma once
 
-#include <mortise/operators/cell_geometry.h>
+#include <mortise/operators/cells/cell_geometry.h>
 #include <mortise/output/cell_values.h>
 
 #include <functional>

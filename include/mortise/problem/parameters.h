@@ -9,7 +9,7 @@
 
 #include <deal.II/base/point.h>
 
-#include <mortise/body/mesh_source.h>
+#include <mortise/body/mesh/mesh_source.h>
 #include <mortise/material/factory.h>
 #include <mortise/problem/load_steps.h>
 #include <mortise/problem/parameter_file.h>

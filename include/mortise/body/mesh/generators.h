@@ -1,0 +1,55 @@
+// Coarse hexahedral meshes of simple bodies as plain data, in the body's own
+// coordinates. It never builds a triangulation, never moves the body and never
+// checks its input's ranges.
+#pragma once
+
+#include <deal.II/grid/manifold.h>
+#include <deal.II/grid/tria_description.h>
+
+#include <mortise/body/mesh/coarse_geometry.h>
+#include <mortise/body/mesh/lattice_coarsening.h>
+#include <mortise/body/mesh/mesh_source.h>
+#include <mortise/body/mesh/surfaces.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// Vertices, cells and boundary faces before a triangulation is made of them.
+  struct CoarseMesh
+  {
+    std::vector<dealii::Point<3>>    vertices;
+    std::vector<dealii::CellData<3>> cells;
+    dealii::SubCellData              faces; ///< boundary faces with their ids
+    MeshNames                        names;
+    std::vector<LatticeBlock> lattice; ///< that has all vertices, or none
+
+    /// Geometry of all entities, moved like the vertices; none: flat.
+    std::unique_ptr<dealii::Manifold<3>> manifold;
+
+    /// True shapes of curved boundaries, moved like the vertices; the other
+    /// faces are flat.
+    std::map<dealii::types::boundary_id, SurfacePointer> shapes;
+
+    /// Curved geometry of second-order cells, moved like the vertices; none:
+    /// the cells are of first order.
+    std::shared_ptr<const CoarseGeometry> geometry;
+  };
+
+  /// The body described by @p parameters (any source but file), vertices already moved.
+  CoarseMesh
+  generate(const MeshParameters &parameters);
+
+  /// Boundary names of a generator, in the order of their ids.
+  std::vector<std::string>
+  generator_boundaries(const MeshParameters &parameters);
+
+  /// Names of the generators ("Source" but file) and of the surfaces of a
+  /// curved block.
+  std::vector<std::string>
+  generator_names();
+  std::vector<std::string>
+  surface_names();
+} // namespace mortise

@@ -1,0 +1,40 @@
+// Meshes from gmsh files: .msh of versions 2.2 and 4.1, ASCII and binary, of
+// first and second order, and geometries (.geo, .step, .brep) that are meshed
+// on the fly.
+#pragma once
+
+#include <mortise/body/mesh/generators.h>
+#include <mpi.h>
+
+#include <string>
+
+namespace mortise
+{
+  /// Name of the file that File means: itself, or within the directory of the
+  /// parameter file if it is relative and exists only there.
+  std::string
+  located_file(const std::string &file_name, const std::string &directory);
+
+  /// What can be said of Source = file without reading the file: is there one
+  /// whose name tells a known format, does Mesh size fit it? Throws InputError
+  /// (starting with @p where). Not collective; does not look at the disk.
+  void
+  check_file_parameters(const MeshParameters &parameters,
+                        const std::string    &where);
+
+  /// The body that @p parameters choose from their file, vertices already
+  /// moved. Cells are either hexahedra, numbered as in deal.II, or tetrahedra
+  /// of positive volume. Boundary ids and material ids are the tags of physical
+  /// surfaces and volumes; boundaries without a name have their tag as name,
+  /// and faces in no physical surface the id 0. Faces between this part and
+  /// another one of the file are boundary faces.
+  ///
+  /// Rank 0 reads or meshes, the others get the same data. Collective; throws
+  /// the same InputError on all ranks: for a file that is missing, damaged, or
+  /// without names for its boundaries; for cells of unsuitable shape, order or
+  /// volume; for nodes that coincide but are not joined.
+  CoarseMesh
+  read_mesh_file(const MeshParameters &parameters,
+                 const std::string    &where,
+                 MPI_Comm              comm);
+} // namespace mortise

@@ -1,0 +1,119 @@
+// A symmetric matrix by nodes in compressed rows, 3 x 3 entries for a row and a
+// column, and the way to put one together.
+#pragma once
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/partitioner.h>
+
+#include <Epetra_CrsMatrix.h>
+#include <mortise/base/types.h>
+
+#include <map>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+namespace mortise
+{
+  /// Rows and columns of components that are constrained are zero.
+  struct NodalBlockMatrix
+  {
+    /// Component c of node n has index 3 n + c; ghosts: the columns of owned
+    /// rows, and what else was asked for.
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
+    std::vector<std::size_t>  begin;   ///< by owned node
+    std::vector<unsigned int> columns; ///< local nodes
+    /// Nine per column: entry (r, c) is the one with number 3 c + r.
+    std::vector<double> values;
+
+    unsigned int
+    size() const
+    {
+      return begin.size() - 1;
+    }
+  };
+
+  /// Indices of owned components that are constrained.
+  std::vector<unsigned int>
+  constrained_components(const NodalBlockMatrix &blocks);
+
+  /// The same matrix for solvers that take rows; constrained components get a
+  /// diagonal as large as others.
+  std::unique_ptr<Epetra_CrsMatrix>
+  as_epetra(const NodalBlockMatrix &blocks);
+
+  /// Collects rows of any nodes: first what couples, then values. Those of
+  /// other ranks' nodes go there.
+  class NodalBlockMatrixBuilder
+  {
+  public:
+    using Index = dealii::types::global_dof_index;
+
+    /// @p owned: a contiguous range.
+    NodalBlockMatrixBuilder(const dealii::IndexSet &owned, MPI_Comm comm);
+
+    /// A number for a node here, to be used below.
+    unsigned int
+    local_number(Index node);
+
+    /// Each of @p rows with each of @p columns.
+    void
+    couple(const std::vector<unsigned int> &rows,
+           const std::vector<unsigned int> &columns);
+
+    /// Each of @p nodes with each other and itself.
+    void
+    couple(const std::vector<unsigned int> &nodes);
+
+    /// Nothing couples after it. Collective.
+    void
+    close();
+
+    /// Nine entries as in NodalBlockMatrix, for a pair that was coupled.
+    double *
+    block(unsigned int row, unsigned int column);
+
+    /// @p ghosts: nodes that vectors are to have beside those of rows. Nothing
+    /// is left here. Collective.
+    NodalBlockMatrix
+    finish(const dealii::IndexSet &ghosts);
+
+  private:
+    bool
+    is_owned(const Index node) const
+    {
+      return node >= first && node < first + n_owned;
+    }
+    Index
+    node(const unsigned int index) const
+    {
+      return index < n_owned ? first + index : others[index - n_owned];
+    }
+    /// Rows and columns that couple, from begin on in members.
+    struct Group
+    {
+      std::size_t  begin;
+      unsigned int n_rows, n_columns; ///< no columns: the rows themselves
+    };
+
+    void
+    unite_groups();
+    void
+    exchange_pattern();
+
+    dealii::IndexSet                        owned;
+    MPI_Comm                                comm;
+    Index                                   first = 0, n_owned = 0;
+    std::vector<Index>                      others; ///< nodes, by index
+    std::unordered_map<Index, unsigned int> index_of_other;
+    std::vector<Group>                      groups;  ///< before close()
+    std::vector<unsigned int>               members; ///< of groups, indices
+    std::vector<std::size_t>                begin;   ///< by index
+    std::vector<unsigned int>               columns; ///< indices
+    std::vector<double>                     values;
+    /// By rank: rows that it gets, and pairs of which it sends blocks.
+    std::map<unsigned int, std::vector<unsigned int>> sent_rows;
+    std::map<unsigned int, std::vector<unsigned int>> received_rows;
+    std::map<unsigned int, std::vector<unsigned int>> received_columns;
+  };
+} // namespace mortise

@@ -1,0 +1,25 @@
+// The matrix of the coarsest level, degree one, for a factorisation or
+// multigrid on coarser meshes.
+#pragma once
+
+#include <mortise/body/spaces/vertex_coarsening.h>
+#include <mortise/operators/levels/nodal_block_matrix.h>
+#include <mortise/operators/levels/nodal_level.h>
+
+#include <vector>
+
+namespace mortise
+{
+  struct VertexMatrix
+  {
+    NodalBlockMatrix                blocks; ///< K + J on degree one
+    std::vector<dealii::Point<dim>> points; ///< of owned nodes
+  };
+
+  /// @p level: of degree one in all bodies. With @p coarsening the matrix is
+  /// that of the functions on the coarser mesh, P^T (K + J) P, and needs none
+  /// on the finer one. Collective.
+  VertexMatrix
+  assemble_vertex_matrix(const NodalLevel       &level,
+                         const VertexCoarsening *coarsening = nullptr);
+} // namespace mortise

@@ -1,0 +1,72 @@
+// Between the vertices of a mesh and those of a coarser one: functions, and the
+// matrix P^T A P.
+#pragma once
+
+#include <mortise/body/spaces/vertex_coarsening.h>
+#include <mortise/operators/levels/nodal_block_matrix.h>
+#include <mortise/operators/levels/nodal_operator.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// Rows of P, one behind the other.
+  struct InterpolationRows
+  {
+    using Index = VertexCoarsening::Index;
+
+    std::vector<unsigned int> lengths;
+    std::vector<Index>        nodes; ///< coarse ones
+    std::vector<double>       weights;
+
+    template <class Archive>
+    void
+    serialize(Archive &archive, const unsigned int /*version*/)
+    {
+      archive &lengths &nodes &weights;
+    }
+  };
+
+  /// Those of all local nodes of @p layout, three indices for a node, whose
+  /// owned ones are the fine ones of @p coarsening. Collective.
+  InterpolationRows
+  interpolation_rows(const dealii::Utilities::MPI::Partitioner &layout,
+                     const VertexCoarsening                    &coarsening);
+
+  /// Drops from @p coarse the components that are constrained at the vertices that
+  /// stay; @p constrained: indices of owned fine ones. Collective.
+  void
+  constrain(const std::vector<unsigned int> &constrained,
+            const VertexCoarsening          &coarsening,
+            NodalBlockMatrix                &coarse);
+
+  /// P^T A P, constrained where the vertices that stay are; vectors get what P
+  /// needs. Collective.
+  NodalBlockMatrix
+  coarsen(const NodalBlockMatrix &fine, const VertexCoarsening &coarsening);
+
+  /// P is the same for all components.
+  template <typename Number>
+  class VertexTransfer
+  {
+  public:
+    /// @p coarse: what coarsen() made.
+    VertexTransfer(const VertexCoarsening &coarsening,
+                   const NodalBlockMatrix &coarse);
+
+    /// fine += P coarse, constrained components included. Collective.
+    void
+    prolongate_add(LevelVector<Number>       &fine,
+                   const LevelVector<Number> &coarse) const;
+
+    /// coarse = P^T fine, constrained components included. Collective.
+    void
+    restrict_to(LevelVector<Number>       &coarse,
+                const LevelVector<Number> &fine) const;
+
+  private:
+    std::vector<unsigned int> begin;   ///< by owned fine node
+    std::vector<unsigned int> indices; ///< of coarse nodes' first components
+    std::vector<Number>       weights;
+  };
+} // namespace mortise

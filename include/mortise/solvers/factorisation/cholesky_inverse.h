@@ -1,0 +1,47 @@
+// The inverse of a matrix for a preconditioner: a factorisation that is kept in
+// single precision where that is accurate enough.
+#pragma once
+
+#include <Epetra_Map.h>
+#include <Epetra_Vector.h>
+#include <mortise/solvers/factorisation/sparse_cholesky.h>
+
+#include <functional>
+#include <memory>
+
+namespace mortise
+{
+  /// @p Work: the precision in which the one in single precision is computed.
+  template <typename Work>
+  class CholeskyInverse
+  {
+  public:
+    /// y = matrix x.
+    using Product =
+      std::function<void(Epetra_Vector &y, const Epetra_Vector &x)>;
+
+    /// @p rows: those of the matrix. @p product: with it, in double precision. @p map: of vectors with the
+    /// entries of the rows. False, on every rank, when the matrix is not
+    /// positive definite. Collective.
+    bool
+    initialize(const NodalMatrix &rows,
+               const Product     &product,
+               const Epetra_Map  &map,
+               bool               allow_single);
+
+    /// x = matrix^{-1} b, to four digits at least in the norm of the matrix.
+    /// Collective.
+    void
+    solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+
+    bool
+    is_single() const
+    {
+      return single_precision != nullptr;
+    }
+
+  private:
+    std::unique_ptr<SparseCholesky<float, Work>> single_precision;
+    std::unique_ptr<SparseCholesky<double>>      double_precision;
+  };
+} // namespace mortise

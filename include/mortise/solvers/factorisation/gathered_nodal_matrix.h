@@ -1,0 +1,39 @@
+// The rows of all ranks, for a matrix that is factorised on all.
+#pragma once
+
+#include <mortise/solvers/factorisation/elimination_tree.h>
+#include <mortise/solvers/factorisation/nodal_matrix.h>
+#include <mpi.h>
+
+#include <vector>
+
+namespace mortise
+{
+  struct GatheredNodalMatrix : MatrixGraph
+  {
+    /// @p rows must stay alive: a rank alone refers to them. Collective.
+    GatheredNodalMatrix(const NodalMatrix &rows, MPI_Comm comm);
+    GatheredNodalMatrix(const GatheredNodalMatrix &) = delete;
+
+    /// Values of the columns of node @p i.
+    const double *
+    row(const unsigned int i, const unsigned int component) const
+    {
+      return &values[begin_values[i]] +
+             (variants[i] == 1 ?
+                0 :
+                std::size_t(component) * (begin[i + 1] - begin[i]));
+    }
+
+    unsigned int                          n_components;
+    dealii::ArrayView<const unsigned int> variants; ///< as in NodalMatrix
+    std::vector<std::size_t>              begin_values;
+    dealii::ArrayView<const double>       values;
+    /// To diagonals of at most one, by node: its components share it, as they
+    /// share rows in which it is a column. 0: not possible.
+    std::vector<double> scale;
+
+  private:
+    NodalMatrix gathered; ///< where there are several ranks
+  };
+} // namespace mortise

@@ -1,0 +1,42 @@
+// Rows of a symmetric matrix by node: what a factorisation is made of. It never
+// refers to the matrix that it came from.
+#pragma once
+
+#include <Epetra_CrsMatrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// The owned rows of a matrix whose nodes have a number of components that do
+  /// not couple with each other. Nodes of a rank are numbered behind those of
+  /// the rank before. A component that a node lacks has a row that is zero but
+  /// for a diagonal as large as the others'.
+  struct NodalMatrix
+  {
+    unsigned int n_components = 1;
+    /// The local entry of a vector by node and component; -1: lacking.
+    std::vector<int>          entries;
+    std::vector<unsigned int> lengths; ///< by node
+    std::vector<int>          columns; ///< by node: nodes, global
+    /// By node: 1 where all components have the same values, else n_components.
+    std::vector<unsigned int> variants;
+    std::vector<double>       values; ///< by node, variant, column
+
+    unsigned int
+    size() const
+    {
+      return lengths.size();
+    }
+  };
+
+  /// Each row of @p matrix as a node of one component. Rows must be numbered 0,
+  /// 1, ... over the ranks.
+  NodalMatrix
+  rows_as_nodes(const Epetra_CrsMatrix &matrix);
+
+  /// The matrix of these rows, numbered by node and component. Collective.
+  std::unique_ptr<Epetra_CrsMatrix>
+  as_matrix(const NodalMatrix &rows, const Epetra_Comm &comm);
+} // namespace mortise

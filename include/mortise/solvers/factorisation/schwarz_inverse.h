@@ -1,0 +1,57 @@
+// The inverse of a matrix that is too large to be on one rank: corrections by
+// factorisations of what the nodes of a rank and those that they couple with
+// have among each other, of which a rank keeps those of its own nodes
+// (restricted additive Schwarz). A rank never sees more. It suits matrices
+// whose inverses decay from a node to its neighbours, as mass matrices' do.
+// Sources: Demko, Moss, Smith (1984); Cai, Sarkis (1999).
+#pragma once
+
+#include <Epetra_Vector.h>
+#include <mortise/solvers/factorisation/distributed_nodal_matrix.h>
+#include <mortise/solvers/factorisation/sparse_cholesky.h>
+
+#include <functional>
+#include <memory>
+
+namespace mortise
+{
+  class SchwarzInverse
+  {
+  public:
+    /// y = matrix x.
+    using Product =
+      std::function<void(Epetra_Vector &y, const Epetra_Vector &x)>;
+
+    /// False, on every rank, when the matrix is not positive definite or
+    /// corrections do not fall fast enough; else its rows are dropped. @p
+    /// product: with it, faster than with rows; it is kept. Collective.
+    bool
+    initialize(std::shared_ptr<DistributedNodalMatrix> matrix, Product product);
+
+    /// x = matrix^{-1} b to six digits: a fixed number of corrections, so that
+    /// it is linear. Collective.
+    void
+    solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+
+    /// The number of corrections.
+    unsigned int
+    n_corrections() const
+    {
+      return n_solves;
+    }
+
+  private:
+    /// Until they are six digits smaller, for a vector without structure.
+    bool
+    count_solves();
+    void
+    solve_local(Epetra_Vector &to, const Epetra_Vector &from) const;
+
+    std::shared_ptr<DistributedNodalMatrix> matrix;
+    Product                                 product;
+    SparseCholesky<float>          local; ///< owned nodes and neighbours
+    std::unique_ptr<Epetra_Map>    local_map;
+    std::unique_ptr<Epetra_Vector> local_x, r, z, q;
+    unsigned int                   n_solves = 0;
+  };
+} // namespace mortise

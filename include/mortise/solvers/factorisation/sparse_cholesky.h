@@ -1,0 +1,91 @@
+// A sparse Cholesky factorisation by dense blocks for the many solves of a
+// preconditioner; beside general libraries: doc/sparse_cholesky.md. Its
+// subtrees are dealt out to the ranks; of what is above them each rank treats
+// one component; the matrix, while it is factorised, is on all.
+// Sources: Duff, Reid (1983); Liu (1992), "The multifrontal method".
+#pragma once
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <Epetra_Vector.h>
+#include <mortise/solvers/factorisation/gathered_nodal_matrix.h>
+#include <mortise/solvers/factorisation/nodal_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// Computed in the precision of @p Work, kept and applied in @p Number.
+  template <typename Number, typename Work = double>
+  class SparseCholesky
+  {
+  public:
+    /// Factorise the matrix of these rows, once for all components where they
+    /// have the same. False, on every rank, when it is not positive definite.
+    /// Collective.
+    bool
+    initialize(const NodalMatrix &rows, MPI_Comm comm);
+
+    /// x = matrix^{-1} b, both with the entries of NodalMatrix. Collective.
+    void
+    solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+
+  private:
+    class Factorisation;
+
+    void
+    list_parts();
+    bool
+    factorise(const GatheredNodalMatrix &matrix);
+    /// visit(panel, number of components, the first of them).
+    template <typename Visit>
+    void
+    for_each_panel(unsigned int s, const Visit &visit) const;
+    /// The components of nodes in or from a buffer.
+    void
+    pack(const unsigned int *indices, unsigned int n, Number *to) const;
+    void
+    unpack(const unsigned int *indices,
+           unsigned int        n,
+           const Number       *from) const;
+    /// Sums over the ranks of what is on all of them.
+    void
+    add_up_common() const;
+    void
+    forward(unsigned int s) const;
+    void
+    backward(unsigned int s) const;
+    /// With one panel, @p n components from the first.
+    template <unsigned int n>
+    void
+    forward(unsigned int s, const Number *panel, unsigned int first) const;
+    template <unsigned int n>
+    void
+    backward(unsigned int s, const Number *panel, unsigned int first) const;
+
+    MPI_Comm                  comm = MPI_COMM_NULL;
+    int                       rank = 0, n_ranks = 1;
+    unsigned int              n_components = 1;
+    std::vector<int>          entries;        ///< as in NodalMatrix
+    std::vector<int>          counts, starts; ///< nodes, components, by rank
+    std::vector<double>       scale;          ///< by owned node
+    std::vector<unsigned int> permutation;    ///< of each node in the order
+    std::vector<Supernode>    supernodes;
+    std::vector<int>          owner; ///< rank or on_all_ranks
+    /// The one that this rank treats of what is on all ranks; -1: each.
+    int                       common_component = -1;
+    std::vector<unsigned int> own, common;    ///< supernodes
+    std::vector<unsigned int> common_indices; ///< of nodes
+    /// Nodes, components, of subtrees.
+    std::vector<int>          part_counts, part_starts;
+    std::vector<unsigned int> part_places; ///< of nodes, rank by rank
+    /// By supernode, see Front::eliminate(); one for all components where that
+    /// does for them.
+    std::vector<dealii::AlignedVector<Number>> panels;
+    /// By component, in the order of elimination.
+    mutable std::vector<Number>           vector;
+    mutable std::vector<Number>           exchange;
+    mutable dealii::AlignedVector<Number> workspace; ///< of one supernode
+  };
+} // namespace mortise

@@ -1,0 +1,89 @@
+// Products with B and B^T by dense blocks: a block is the rows of neighbouring
+// entities of the slave's mesh, and stands once for the components that have
+// the same entries, also where one of them lacks rows or columns, since
+// displacements are prescribed.
+#pragma once
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <Epetra_Vector.h>
+#include <mortise/operators/block_system.h>
+#include <mortise/solvers/interface/coupling_rows.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  template <typename Number>
+  class CouplingProduct
+  {
+  public:
+    /// @p rows: of system.coupling. Collective.
+    CouplingProduct(const BlockSystem &system, const CouplingRows &rows);
+
+    /// The owned displacements that multipliers of any rank move.
+    const std::vector<unsigned int> &
+    indices() const
+    {
+      return moved_indices;
+    }
+
+    /// A vector with one entry for each of indices(), in their order.
+    void
+    initialize(LevelVector<Number> &trace) const
+    {
+      trace.reinit(layout);
+    }
+
+    /// jump = B u, @p trace the values of u at indices(). Collective.
+    void
+    multiply(Epetra_Vector &jump, const LevelVector<Number> &trace) const;
+
+    /// @p trace = the values of B^T y at indices(); it is zero elsewhere.
+    /// Collective.
+    void
+    multiply_transposed(LevelVector<Number> &trace,
+                        const Epetra_Vector &y) const;
+
+  private:
+    /// Rows of multipliers by node, for all components, and the nodes of the
+    /// displacements that they move.
+    struct Block
+    {
+      std::vector<int>          rows;  ///< by node and component; -1: none
+      std::vector<unsigned int> nodes; ///< among those of values
+    };
+
+    /// Numbers the entries of traces.
+    void
+    make_layout(const BlockSystem &system, const CouplingRows &rows);
+    void
+    make_blocks(const CouplingRows &rows);
+    /// visit(block, entries, number of components).
+    template <typename Visit>
+    void
+    for_each_block(const Visit &visit) const;
+    template <unsigned int n_components>
+    void
+    multiply_block(const Block   &block,
+                   const Number  *entries,
+                   Epetra_Vector &jump) const;
+    template <unsigned int n_components>
+    void
+    multiply_block_transposed(const Block         &block,
+                              const Number        *entries,
+                              const Epetra_Vector &y) const;
+
+    const unsigned int                                         n_components;
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
+    std::vector<unsigned int>                                  moved_indices;
+    std::vector<Block>                                         blocks;
+    dealii::AlignedVector<Number> entries; ///< by block, rows padded
+    /// Of a trace; -1: none.
+    std::vector<int> entry_of_value;
+    /// Displacements by node and component, 0 where they are prescribed.
+    mutable std::vector<Number>           values;
+    mutable dealii::AlignedVector<Number> workspace; ///< of one block
+  };
+} // namespace mortise

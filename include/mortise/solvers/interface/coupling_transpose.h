@@ -1,0 +1,43 @@
+// T B^T by rows, T diagonal, for the displacements that owned rows of B move,
+// with the multipliers of all ranks.
+#pragma once
+
+#include <Epetra_Map.h>
+#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/solvers/interface/coupling_rows.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace mortise
+{
+  struct CouplingTranspose
+  {
+    using Entry = std::pair<int, double>; ///< multiplier, value
+
+    /// @p weights: T by owned displacement. Collective.
+    CouplingTranspose(const CouplingRows        &B,
+                      const LevelVector<double> &weights);
+
+    Epetra_Map               multipliers; ///< those that entries refer to
+    std::vector<std::size_t> begin;   ///< by value, as in CouplingRows::moved
+    std::vector<Entry>       entries; ///< multipliers by their index in the map
+
+  private:
+    /// By displacement.
+    using Rows = std::map<int, std::vector<Entry>>;
+
+    /// Multipliers of this rank; T where the displacement is owned.
+    void
+    collect_own(const CouplingRows &B, const LevelVector<double> &weights);
+    /// The whole rows of displacements that several ranks move. Collective.
+    Rows
+    exchange(const CouplingRows &B, const LevelVector<double> &weights) const;
+    void
+    replace(const CouplingRows &B, const Rows &rows);
+    /// Collective.
+    void
+    make_map();
+  };
+} // namespace mortise

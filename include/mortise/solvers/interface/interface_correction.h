@@ -1,0 +1,89 @@
+// Jacobi's method among the displacements that satisfy the constraint: the
+// inverse D^{-1} of a diagonal becomes P D^{-1} P^T with P = I - T B^T C^{-1}
+// B, C = B T B^T. Sources: Braess, Sarazin (1997); Braess, Dahmen, Wieners
+// (1999).
+#pragma once
+
+#include <mortise/solvers/interface/coupling_product.h>
+#include <mortise/solvers/interface/diagonal_lifting.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// Works on the few displacements that multipliers move. Where none leads, T
+  /// is D^{-1} and P D^{-1} P^T = T - T B^T C^{-1} B T.
+  template <typename Number>
+  class InterfaceCorrection
+  {
+  public:
+    /// @p product and @p lifting must stay alive. Collective.
+    InterfaceCorrection(const BlockSystem             &system,
+                        const CouplingProduct<Number> &product,
+                        const DiagonalLifting         &lifting);
+
+    /// Do displacements lead on any rank?
+    bool
+    has_leaders() const
+    {
+      return some_lead;
+    }
+
+    /// To the diagonal of K, what follows leading displacements.
+    void
+    add_followers(LevelVector<Number> &diagonal) const;
+
+    /// subtract(i, c_i) with c = (D^{-1} - P D^{-1} P^T) r, r_i = residual(i),
+    /// for the indices i of owned displacements that multipliers move. @p
+    /// inverse: D^{-1}. Collective.
+    template <typename Residual, typename Subtract>
+    void
+    correct(const Residual            &residual,
+            const LevelVector<Number> &inverse,
+            const Subtract            &subtract) const
+    {
+      const auto        &indices = product.indices();
+      const unsigned int n       = indices.size();
+      for (unsigned int k = 0; k < n; ++k)
+        trace.local_element(k) = weights[k] * residual(indices[k]);
+      apply();
+      if (some_lead)
+        {
+          for (unsigned int k = 0; k < n; ++k)
+            trace.local_element(k) = smoothed[k] =
+              inverse.local_element(indices[k]) *
+              (residual(indices[k]) - trace.local_element(k));
+          apply();
+          for (unsigned int k = 0; k < n; ++k)
+            subtract(indices[k],
+                     inverse.local_element(indices[k]) * residual(indices[k]) -
+                       smoothed[k] + weights[k] * trace.local_element(k));
+        }
+      else
+        for (unsigned int k = 0; k < n; ++k)
+          subtract(indices[k], weights[k] * trace.local_element(k));
+    }
+
+    /// x := P x = x - T B^T C^{-1} B x. Collective.
+    void
+    project(LevelVector<Number> &x) const;
+
+    /// r := P^T r. Collective.
+    void
+    project_residual(LevelVector<Number> &r) const;
+
+  private:
+    /// trace := B^T C^{-1} B trace.
+    void
+    apply() const;
+
+    const BlockSystem             &system;
+    const CouplingProduct<Number> &product;
+    const DiagonalLifting         &lifting;
+    std::vector<Number>            weights;           ///< T, by index
+    bool                           some_lead = false; ///< on some rank
+    mutable Epetra_Vector          jump, multiplier;
+    mutable LevelVector<Number>    trace;    ///< values at the indices
+    mutable std::vector<Number>    smoothed; ///< likewise
+  };
+} // namespace mortise

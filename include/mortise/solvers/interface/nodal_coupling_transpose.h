@@ -1,0 +1,58 @@
+// The rows of T B^T by node of displacements, once for the components that have
+// the same entries.
+#pragma once
+
+#include <mortise/solvers/interface/coupling_transpose.h>
+
+#include <vector>
+
+namespace mortise
+{
+  struct NodalCouplingTranspose
+  {
+    /// @p rows: T B^T. @p numbers: nodes by its multipliers.
+    NodalCouplingTranspose(CouplingTranspose   rows,
+                           const CouplingRows &B,
+                           const NodeNumbers  &numbers);
+
+    /// By moved node: has it one row for all components, which holds for those
+    /// multipliers that has_multiplier() knows, or none, since T is zero there?
+    std::vector<char>         is_common;
+    std::vector<int>          row_of; ///< by moved node and component; -1: none
+    std::vector<unsigned int> begin;  ///< by row
+    std::vector<int>          nodes;  ///< of multipliers, ascending
+    std::vector<double>       values;
+    std::vector<int>          group_of; ///< neighbours with the same nodes
+
+    /// Has the node of multipliers one of this component?
+    bool
+    has_multiplier(const int node, const unsigned int component) const
+    {
+      return (components[node] >> component & 1) != 0;
+    }
+
+    bool
+    has_all_multipliers(const int node) const
+    {
+      return components[node] == (1 << dim) - 1;
+    }
+
+  private:
+    using Entry = CouplingTranspose::Entry; ///< node, value
+
+    struct Row
+    {
+      const Entry *first = nullptr, *last = nullptr;
+    };
+
+    /// The row of all components of a node, if they share one.
+    bool
+    unite(const Row *rows, std::vector<Entry> &united) const;
+    bool
+    same_nodes(unsigned int r, unsigned int s) const;
+    void
+    add_row(const Row &row);
+
+    std::vector<char> components; ///< bits, by node of multipliers
+  };
+} // namespace mortise

@@ -1,0 +1,15 @@
+// C = B T B^T by dense blocks.
+#pragma once
+
+#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/solvers/factorisation/nodal_matrix.h>
+#include <mortise/solvers/interface/coupling_rows.h>
+
+namespace mortise
+{
+  /// B T B^T; what all components share is computed once. @p coupling: B, by
+  /// node. @p weights: T, diagonal, by owned displacement. Collective.
+  NodalMatrix
+  weighted_square(const CouplingRows        &coupling,
+                  const LevelVector<double> &weights);
+} // namespace mortise

@@ -1,0 +1,42 @@
+// An approximate inverse of P, which stands for the Schur complement of the
+// pressures. Sources: Silvester, Wathen (1994); Elman, Silvester, Wathen
+// (2014), chapter 4.
+#pragma once
+
+#include <Epetra_Vector.h>
+#include <mortise/operators/block_system.h>
+#include <mortise/solvers/factorisation/mumps_factorisation.h>
+
+#include <memory>
+#include <string>
+
+namespace mortise
+{
+  class PressurePreconditioner
+  {
+  public:
+    /// @p system, which has bodies in mixed form, must stay alive. Collective.
+    explicit PressurePreconditioner(const BlockSystem &system);
+    ~PressurePreconditioner();
+
+    /// False, on every rank, when P is not positive definite.
+    bool
+    is_valid() const
+    {
+      return valid;
+    }
+
+    /// dst = P^{-1} src, symmetric and positive definite. Collective.
+    void
+    vmult(Vector &dst, const Vector &src) const;
+
+    std::string
+    description() const;
+
+  private:
+    MumpsFactorisation factorisation; ///< where P has a matrix
+    struct Polynomial;                ///< of diag(P)^{-1} P, where it has none
+    std::unique_ptr<Polynomial> polynomial;
+    bool                        valid;
+  };
+} // namespace mortise

@@ -1,0 +1,47 @@
+// A smoother: Chebyshev polynomials in the operator scaled by its diagonal, one
+// value for a node.
+#pragma once
+
+#include <mortise/operators/levels/nodal_operator.h>
+#include <mortise/solvers/interface/interface_correction.h>
+
+namespace mortise
+{
+  template <typename Number>
+  class Chebyshev
+  {
+  public:
+    /// Smooths what belongs to eigenvalues of D^{-1} A between @p smallest and the
+    /// largest, which is estimated, by a polynomial whose degree goes with the
+    /// root of their ratio: as well whatever the elements are; with @p correction,
+    /// which makes D^{-1} respect a constraint, among what satisfies it.
+    /// @p matrix and @p correction must stay alive. Collective. Not valid when
+    /// A is not positive definite.
+    Chebyshev(const NodalOperator<Number>       &matrix,
+              double                             smallest,
+              const InterfaceCorrection<Number> *correction = nullptr);
+
+    bool
+    is_valid() const
+    {
+      return largest > 0.;
+    }
+
+    /// x += p(A) (b - A x); with @p from_zero x is taken for zero. Collective.
+    void
+    smooth(LevelVector<Number>       &x,
+           const LevelVector<Number> &b,
+           bool                       from_zero) const;
+
+  private:
+    double
+    estimate_largest() const;
+
+    const NodalOperator<Number>       &matrix;
+    const InterfaceCorrection<Number> *correction;
+    LevelVector<Number>                inverse_diagonal;
+    mutable LevelVector<Number>        r, d;
+    double                             largest, range;
+    unsigned int                       degree;
+  };
+} // namespace mortise

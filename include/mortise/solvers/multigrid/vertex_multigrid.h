@@ -1,0 +1,39 @@
+// The level of vertices: multigrid on the meshes that were refined, a
+// VertexSolver on the coarsest of them, which is the only one where nothing was
+// refined. It knows nothing of higher degrees.
+#pragma once
+
+#include <mortise/operators/levels/nodal_level.h>
+
+#include <memory>
+#include <string>
+
+namespace mortise
+{
+  class VertexMultigrid
+  {
+  public:
+    using Number = float;
+
+    /// @p level: of degree one in all bodies, kept by reference. @p smooth_finest: false where the
+    /// caller smooths what is on the finest mesh. Collective.
+    VertexMultigrid(const NodalLevel &level, bool smooth_finest);
+    ~VertexMultigrid();
+
+    /// False where a matrix is not positive definite.
+    bool
+    is_valid() const;
+
+    /// x = approximately (K + J)^{-1} b with vectors on the layout of the
+    /// level; x is overwritten. Collective.
+    void
+    vmult(LevelVector<Number> &x, const LevelVector<Number> &b) const;
+
+    std::string
+    description() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation;
+  };
+} // namespace mortise

@@ -1,0 +1,258 @@
+#include <gmsh.h>
+#include <mortise/body/mesh/gmsh_model.h>
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <stdexcept>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    extension(const std::string &file_name)
+    {
+      const std::size_t dot = file_name.rfind('.');
+      std::string       end =
+        dot == std::string::npos ? "" : file_name.substr(dot + 1);
+      std::transform(end.begin(), end.end(), end.begin(), [](unsigned char c) {
+        return std::tolower(c);
+      });
+      return end;
+    }
+
+    bool
+    is_cad_file(const std::string &file_name)
+    {
+      const std::string end = extension(file_name);
+      return end == "step" || end == "stp" || end == "brep";
+    }
+
+    /// The library, from first to last use. It has one state for the whole
+    /// process.
+    class Session
+    {
+    public:
+      explicit Session(const double mesh_size)
+      {
+        std::ostringstream number;
+        number.precision(17);
+        number << mesh_size;
+        std::vector<std::string> words = {"mortise", "-nopopup"};
+        if (mesh_size > 0.)
+          words.insert(words.end(), {"-setnumber", "mesh_size", number.str()});
+        std::vector<char *> arguments;
+        for (std::string &word : words)
+          arguments.push_back(&word[0]);
+        gmsh::initialize(arguments.size(), arguments.data(), false);
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::option::setNumber("General.NumThreads", 1);
+        gmsh::logger::start();
+      }
+
+      ~Session()
+      {
+        try
+          {
+            gmsh::logger::stop();
+            gmsh::finalize();
+          }
+        catch (...)
+          {} // nothing is lost: all data have been copied
+      }
+
+      Session(const Session &) = delete;
+      Session &
+      operator=(const Session &) = delete;
+
+      /// The first error that the library has met; empty if none.
+      std::string
+      error() const
+      {
+        std::vector<std::string> lines;
+        gmsh::logger::get(lines);
+        for (const std::string &line : lines)
+          if (line.compare(0, 7, "Error: ") == 0)
+            return line.substr(7);
+        return {};
+      }
+    };
+
+    /// Groups named by their tags where they have no name.
+    std::map<int, std::string>
+    names(const int dimension)
+    {
+      std::map<int, std::string> result;
+      gmsh::vectorpair           groups;
+      gmsh::model::getPhysicalGroups(groups, dimension);
+      for (const auto &group : groups)
+        {
+          std::string name;
+          gmsh::model::getPhysicalName(dimension, group.second, name);
+          result[group.second] =
+            name.empty() ? std::to_string(group.second) : name;
+        }
+      return result;
+    }
+
+    /// A CAD file has no physical groups: every surface and volume is one.
+    void
+    group_entities()
+    {
+      for (const int dimension : {2, 3})
+        {
+          gmsh::vectorpair entities;
+          gmsh::model::getEntities(entities, dimension);
+          for (const auto &entity : entities)
+            gmsh::model::addPhysicalGroup(dimension,
+                                          {entity.second},
+                                          entity.second);
+        }
+    }
+
+    /// Nodes of @p model and the place of each tag.
+    std::vector<unsigned int>
+    read_nodes(GmshModel &model)
+    {
+      std::vector<std::size_t> tags;
+      std::vector<double>      coordinates, parameters;
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+      std::size_t largest = 0;
+      for (const std::size_t tag : tags)
+        largest = std::max(largest, tag);
+      if (largest > 100 * tags.size() + 1000000)
+        throw std::runtime_error("the tags of nodes are spread up to " +
+                                 std::to_string(largest));
+      std::vector<unsigned int> place(largest + 1,
+                                      numbers::invalid_unsigned_int);
+      for (std::size_t i = 0; i < tags.size(); ++i)
+        {
+          if (place[tags[i]] != numbers::invalid_unsigned_int)
+            continue;
+          place[tags[i]] = model.nodes.size();
+          model.node_tags.push_back(tags[i]);
+          model.nodes.emplace_back(coordinates[3 * i],
+                                   coordinates[3 * i + 1],
+                                   coordinates[3 * i + 2]);
+        }
+      return place;
+    }
+
+    GmshElements
+    describe(const int dimension, const int entity, const int type)
+    {
+      GmshElements block;
+      block.dimension = dimension;
+      block.entity    = entity;
+      gmsh::model::getPhysicalGroupsForEntity(dimension, entity, block.groups);
+      for (int &group : block.groups)
+        group = std::abs(group); // a sign is an orientation
+      std::sort(block.groups.begin(), block.groups.end());
+      int                 d = 0, order = 0, n_nodes = 0, n_vertices = 0;
+      std::vector<double> places;
+      gmsh::model::mesh::getElementProperties(
+        type, block.type, d, order, n_nodes, places, n_vertices);
+      block.order      = order;
+      block.n_vertices = n_vertices;
+      for (int i = 0; i < n_nodes; ++i)
+        {
+          Point<3> x;
+          for (int c = 0; c < d; ++c)
+            x[c] = places[d * i + c];
+          block.reference.push_back(x);
+        }
+      return block;
+    }
+
+    void
+    read_elements(const int                        dimension,
+                  const std::vector<unsigned int> &place,
+                  GmshModel                       &model)
+    {
+      gmsh::vectorpair entities;
+      gmsh::model::getEntities(entities, dimension);
+      for (const auto &entity : entities)
+        {
+          std::vector<int>                      types;
+          std::vector<std::vector<std::size_t>> tags, nodes;
+          gmsh::model::mesh::getElements(
+            types, tags, nodes, dimension, entity.second);
+          for (unsigned int t = 0; t < types.size(); ++t)
+            {
+              GmshElements block = describe(dimension, entity.second, types[t]);
+              block.tags         = tags[t];
+              for (const std::size_t tag : nodes[t])
+                {
+                  if (tag >= place.size() ||
+                      place[tag] == numbers::invalid_unsigned_int)
+                    throw std::runtime_error("an element has the node " +
+                                             std::to_string(tag) +
+                                             ", which is not in the file");
+                  block.nodes.push_back(place[tag]);
+                }
+              model.elements.push_back(block);
+            }
+        }
+    }
+
+    GmshModel
+    read(const std::string &file_name, const double mesh_size)
+    {
+      gmsh::open(file_name);
+      if (is_cad_file(file_name))
+        group_entities();
+      if (is_geometry_file(file_name))
+        {
+          if (mesh_size > 0.)
+            gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
+          gmsh::model::mesh::generate(3);
+        }
+      GmshModel model;
+      model.surface_names                   = names(2);
+      model.volume_names                    = names(3);
+      const std::vector<unsigned int> place = read_nodes(model);
+      read_elements(2, place, model);
+      read_elements(3, place, model);
+      return model;
+    }
+  } // namespace
+
+  bool
+  is_geometry_file(const std::string &file_name)
+  {
+    return extension(file_name) == "geo" || is_cad_file(file_name);
+  }
+
+  GmshModel
+  read_gmsh_model(const std::string &file_name, const double mesh_size)
+  {
+    const Session session(mesh_size);
+    std::string   problem;
+    GmshModel     model;
+    try
+      {
+        model = read(file_name, mesh_size);
+      }
+    catch (const std::exception &error)
+      {
+        problem = error.what();
+      }
+    catch (const std::string &error) // of the library
+      {
+        problem = error;
+      }
+    catch (...)
+      {
+        problem = "unknown";
+      }
+    const std::string first = session.error();
+    if (!first.empty())
+      problem = first;
+    if (!problem.empty())
+      throw std::runtime_error(problem);
+    return model;
+  }
+} // namespace mortise

@@ -1,0 +1,256 @@
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/map.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
+#include <mortise/body/mesh/curved_boundaries.h>
+#include <mortise/body/mesh/mesh_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "mesh_file_parts.h"
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    file_problem(const std::string &where,
+                 const std::string &file_name,
+                 const std::string &what)
+    {
+      return where + ": the mesh file " + file_in_quotes(file_name, '\'') +
+             " " + what;
+    }
+
+    bool
+    is_mesh_file(const std::string &file_name)
+    {
+      return std::filesystem::path(file_name).extension() == ".msh";
+    }
+
+    /// OpenCASCADE takes anything, and says so on the terminal.
+    void
+    check_cad_content(const std::string &file,
+                      const std::string &content,
+                      const FileError   &fail)
+    {
+      const std::string extension =
+        std::filesystem::path(file).extension().string();
+      const std::string mark = extension == ".geo"  ? "" :
+                               extension == ".brep" ? "CASCADE Topology" :
+                                                      "ISO-10303-21";
+      if (content.find(mark) == std::string::npos)
+        fail("does not hold the words " + mark +
+             "; allowed: a CAD file of the format that its name tells");
+    }
+
+    GmshModel
+    read_model(const MeshParameters &parameters, const std::string &where)
+    {
+      const std::string file =
+        located_file(parameters.file, parameters.directory);
+      const FileError fail = [&](const std::string &what) {
+        throw InputError(file_problem(where, file, what));
+      };
+      std::ifstream     in(file, std::ios::binary);
+      const std::string content((std::istreambuf_iterator<char>(in)),
+                                std::istreambuf_iterator<char>());
+      std::error_code   none; // a name that is too long has no status
+      if (!std::filesystem::is_regular_file(file, none) || !in.is_open() ||
+          in.bad())
+        fail("cannot be read; does it exist, and is it readable?");
+      if (content.empty())
+        fail("is empty");
+      if (is_mesh_file(file))
+        check_msh_content(content, fail);
+      else
+        check_cad_content(file, content, fail);
+      try
+        {
+          return read_gmsh_model(file, parameters.mesh_size);
+        }
+      catch (const std::runtime_error &error)
+        {
+          fail((is_mesh_file(file) ? "is not a complete mesh; gmsh says: " :
+                                     "cannot be meshed; gmsh says: ") +
+               std::string(error.what()));
+        }
+      return {};
+    }
+
+    CoarseMesh
+    read_part(const MeshParameters &parameters, const std::string &where)
+    {
+      const FileError fail = [&](const std::string &what) {
+        throw InputError(file_problem(where, parameters.file, what));
+      };
+      CoarseMesh mesh =
+        select_part(read_model(parameters, where), parameters, fail);
+      check_size(mesh, fail);
+      check_volumes(mesh, fail);
+      check_coinciding_nodes(mesh, fail);
+      return mesh;
+    }
+
+    /// A coarse mesh on its way to other ranks.
+    struct Package
+    {
+      std::vector<double>      vertices, nodes;
+      std::vector<CellData<3>> cells;
+      std::vector<CellData<2>> faces;
+      MeshNames                names;
+      unsigned int             nodes_per_cell = 0;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &vertices &nodes &cells &faces &names.boundaries &names
+          .materials &nodes_per_cell;
+      }
+    };
+
+    std::vector<double>
+    coordinates(const std::vector<Point<3>> &points)
+    {
+      std::vector<double> result;
+      for (const Point<3> &x : points)
+        result.insert(result.end(), x.begin_raw(), x.end_raw());
+      return result;
+    }
+
+    std::vector<Point<3>>
+    points(const std::vector<double> &coordinates)
+    {
+      std::vector<Point<3>> result;
+      for (std::size_t i = 0; i < coordinates.size(); i += 3)
+        result.emplace_back(coordinates[i],
+                            coordinates[i + 1],
+                            coordinates[i + 2]);
+      return result;
+    }
+
+    CoarseMesh
+    broadcast(const CoarseMesh &mesh, const MPI_Comm comm)
+    {
+      Package package;
+      package.vertices = coordinates(mesh.vertices);
+      package.cells    = mesh.cells;
+      package.faces    = mesh.faces.boundary_quads;
+      package.names    = mesh.names;
+      if (mesh.geometry != nullptr)
+        {
+          package.nodes_per_cell = mesh.geometry->nodes_per_cell;
+          package.nodes          = coordinates(mesh.geometry->nodes);
+        }
+      package = Utilities::MPI::broadcast(comm, package);
+      CoarseMesh result;
+      result.vertices             = points(package.vertices);
+      result.cells                = package.cells;
+      result.faces.boundary_quads = package.faces;
+      result.names                = package.names;
+      if (package.nodes_per_cell > 0)
+        result.geometry =
+          std::make_shared<CoarseGeometry>(package.nodes_per_cell,
+                                           points(package.nodes));
+      return result;
+    }
+
+    void
+    move(CoarseMesh &mesh, const RigidMotion &motion)
+    {
+      for (Point<3> &vertex : mesh.vertices)
+        vertex = motion(vertex);
+      for (auto &shape : mesh.shapes)
+        shape.second = shape.second->moved(motion);
+      if (mesh.geometry != nullptr)
+        {
+          auto moved = std::make_shared<CoarseGeometry>(*mesh.geometry);
+          moved->move(motion);
+          mesh.geometry = moved;
+        }
+    }
+  } // namespace
+
+  std::string
+  located_file(const std::string &file_name, const std::string &directory)
+  {
+    namespace fs = std::filesystem;
+    std::error_code none;
+    const fs::path  beside = fs::path(directory) / file_name;
+    return !fs::exists(file_name, none) && fs::exists(beside, none) ?
+             beside.string() :
+             file_name;
+  }
+
+  void
+  check_file_parameters(const MeshParameters &parameters,
+                        const std::string    &where)
+  {
+    const std::string &file = parameters.file;
+    if (file.empty())
+      throw InputError(
+        where +
+        ": Source = file needs File = the name of a gmsh file (.msh, .geo) or of a CAD file "
+        "(.step, .stp, .brep)");
+    if (!is_mesh_file(file) && !is_geometry_file(file))
+      throw InputError(file_problem(
+        where,
+        file,
+        "has a name of no known format; allowed: .msh, .geo, .step, .stp, .brep"));
+    const double size = parameters.mesh_size;
+    if (!(size >= 0.) || !std::isfinite(size) ||
+        (size > 0. && is_mesh_file(file)))
+      {
+        std::ostringstream message;
+        message << where << ": Mesh size = " << size << "; allowed: "
+                << (is_mesh_file(file) ?
+                      "nothing for a .msh file, which is meshed already" :
+                      "a positive length, or 0 for what the geometry says");
+        throw InputError(message.str());
+      }
+  }
+
+  CoarseMesh
+  read_mesh_file(const MeshParameters &parameters,
+                 const std::string    &where,
+                 const MPI_Comm        comm)
+  {
+    check_file_parameters(parameters, where);
+    CoarseMesh  mesh;
+    std::string problem;
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      try
+        {
+          mesh = read_part(parameters, where);
+        }
+      catch (const InputError &error)
+        {
+          problem = error.what();
+        }
+    throw_if_any(problem, comm);
+    mesh = broadcast(mesh, comm);
+    try
+      {
+        fit_curved_boundaries(mesh, parameters, where);
+      }
+    catch (const InputError &error)
+      {
+        problem = error.what(); // a STEP file that is missing on this rank
+      }
+    throw_if_any(problem, comm);
+    move(mesh, rigid_motion(parameters));
+    return mesh;
+  }
+} // namespace mortise

@@ -1,0 +1,234 @@
+#include <deal.II/base/geometry_info.h>
+
+#include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
+#include <mortise/body/mesh/vertex_order.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <sstream>
+
+#include "mesh_file_parts.h"
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using FaceKey = std::array<unsigned int, 4>; ///< ascending, padded
+
+    FaceKey
+    face_key(const unsigned int *vertices, const unsigned int n)
+    {
+      FaceKey key;
+      key.fill(numbers::invalid_unsigned_int);
+      std::copy(vertices, vertices + n, key.begin());
+      std::sort(key.begin(), key.end());
+      return key;
+    }
+
+    struct OuterFace
+    {
+      FaceKey                   key;
+      std::vector<unsigned int> vertices; ///< in deal.II's order
+    };
+
+    /// The faces of all cells, by ascending key: those between two cells twice.
+    std::vector<OuterFace>
+    all_faces(const CoarseMesh &mesh)
+    {
+      const bool hexahedra = mesh.cells.front().vertices.size() == 8;
+      std::vector<OuterFace> faces;
+      for (const CellData<3> &cell : mesh.cells)
+        for (unsigned int f = 0; f < (hexahedra ? 6 : 4); ++f)
+          {
+            OuterFace face;
+            for (unsigned int v = 0; v < (hexahedra ? 4 : 3); ++v)
+              face.vertices.push_back(
+                cell.vertices[hexahedra ?
+                                GeometryInfo<3>::face_to_cell_vertices(f, v) :
+                                tetrahedron_faces[f][v]]);
+            face.key = face_key(face.vertices.data(), face.vertices.size());
+            faces.push_back(face);
+          }
+      std::sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) {
+        return a.key < b.key;
+      });
+      return faces;
+    }
+
+    /// Those of @p faces that belong to only one cell.
+    std::vector<OuterFace>
+    outer_faces(const std::vector<OuterFace> &faces,
+                const GmshModel              &model,
+                const FileError              &fail)
+    {
+      std::vector<OuterFace> boundary;
+      for (std::size_t i = 0, next; i < faces.size(); i = next)
+        {
+          for (next = i + 1;
+               next < faces.size() && faces[next].key == faces[i].key;)
+            ++next;
+          if (next == i + 1)
+            boundary.push_back(faces[i]);
+          if (next > i + 2)
+            {
+              const Point<3> &at = model.nodes[faces[i].key[0]];
+              fail("has " + std::to_string(next - i) +
+                   " cells at one face, near " + place_name(at) +
+                   "; allowed: two, so cells must not overlap");
+            }
+        }
+      return boundary;
+    }
+
+    /// Call @p action(block, e, key) for each element of a physical surface.
+    template <typename Action>
+    void
+    for_each_surface_element(const GmshModel &model, const Action &action)
+    {
+      for (const GmshElements &block : model.elements)
+        if (block.dimension == 2 && !block.groups.empty())
+          for (std::size_t e = 0; e < block.size(); ++e)
+            action(block,
+                   e,
+                   face_key(&block.nodes[e * block.reference.size()],
+                            block.n_vertices));
+    }
+
+    /// Physical surfaces of each face that is in one.
+    std::map<FaceKey, std::set<int>>
+    surface_tags(const GmshModel &model)
+    {
+      std::map<FaceKey, std::set<int>> tags;
+      for_each_surface_element(
+        model,
+        [&](const GmshElements &block, const std::size_t, const FaceKey &key) {
+          tags[key].insert(block.groups.begin(), block.groups.end());
+        });
+      return tags;
+    }
+
+    /// Is the element with @p key a face of a cell of another part, all of whose
+    /// vertices are this part's as well?
+    bool
+    is_face_of_another_part(const FaceKey           &key,
+                            const GmshModel         &model,
+                            const std::vector<bool> &of_part)
+    {
+      const auto n = std::count_if(key.begin(), key.end(), [](const auto v) {
+        return v != numbers::invalid_unsigned_int;
+      });
+      for (const GmshElements &block : model.elements)
+        if (block.dimension == 3)
+          for (std::size_t e = 0; e < block.size(); ++e)
+            {
+              const auto begin =
+                block.nodes.begin() + e * block.reference.size();
+              const auto end = begin + block.n_vertices;
+              const bool holds =
+                std::all_of(key.begin(), key.begin() + n, [&](const auto v) {
+                  return std::find(begin, end, v) != end;
+                });
+              // three vertices of a tetrahedron are a face, which would be
+              // known if it were this part's
+              if (holds && ((block.n_vertices == 4 && n == 3) ||
+                            std::any_of(begin, end, [&](const auto v) {
+                              return !of_part[v];
+                            })))
+                return true;
+            }
+      return false;
+    }
+
+    /// An element of a physical surface between vertices of this part must be
+    /// a face of its cells: else the surface that the file shows is not the
+    /// one that is loaded or held.
+    void
+    check_surface_elements(const std::vector<OuterFace> &faces,
+                           const GmshModel              &model,
+                           const FileError              &fail)
+    {
+      std::vector<bool> of_part(model.nodes.size(), false);
+      for (const OuterFace &face : faces)
+        for (const unsigned int v : face.vertices)
+          of_part[v] = true;
+      for_each_surface_element(
+        model,
+        [&](const GmshElements &block,
+            const std::size_t   e,
+            const FaceKey      &key) {
+          const auto less = [](const OuterFace &face, const FaceKey &k) {
+            return face.key < k;
+          };
+          const auto found =
+            std::lower_bound(faces.begin(), faces.end(), key, less);
+          const unsigned int *nodes = &block.nodes[e * block.reference.size()];
+          if ((found != faces.end() && found->key == key) ||
+              !std::all_of(nodes,
+                           nodes + block.n_vertices,
+                           [&](const auto v) { return of_part[v]; }) ||
+              is_face_of_another_part(key, model, of_part))
+            return;
+          std::vector<std::string> tags;
+          for (unsigned int v = 0; v < block.n_vertices; ++v)
+            tags.push_back(std::to_string(model.node_tags[nodes[v]]));
+          fail(
+            "has the surface element " + std::to_string(block.tags[e]) +
+            " in the physical surface " +
+            in_quotes(model.surface_names.at(block.groups[0]), '\'') +
+            " between the nodes " + join_names(tags) + ", the first at " +
+            place_name(model.nodes[nodes[0]]) +
+            ", which is a face of no cell; allowed: faces of the body's cells");
+        });
+    }
+  } // namespace
+
+  void
+  name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail)
+  {
+    const std::map<FaceKey, std::set<int>> tags  = surface_tags(model);
+    const std::vector<OuterFace>           faces = all_faces(mesh);
+    check_surface_elements(faces, model, fail);
+    for (const OuterFace &face : outer_faces(faces, model, fail))
+      {
+        CellData<2> data(face.vertices.size());
+        data.vertices    = face.vertices;
+        data.boundary_id = 0;
+        const auto tag   = tags.find(face.key);
+        if (tag == tags.end())
+          {
+            mesh.faces.boundary_quads.push_back(data);
+            continue;
+          }
+        if (tag->second.size() > 1)
+          {
+            std::vector<std::string> names;
+            for (const int group : tag->second)
+              names.push_back(model.surface_names.at(group));
+            fail("has a face at " + place_name(model.nodes[face.vertices[0]]) +
+                 " in " + std::to_string(names.size()) +
+                 " physical surfaces, " + join_names(names) +
+                 "; allowed: one each");
+          }
+        const int          group = *tag->second.begin();
+        const std::string &name  = model.surface_names.at(group);
+        // groups of one name are one boundary
+        data.boundary_id =
+          mesh.names.boundaries.emplace(name, group).first->second;
+        mesh.faces.boundary_quads.push_back(data);
+      }
+    if (mesh.names.boundaries.empty())
+      fail(
+        "names no boundary" +
+        std::string(
+          model.surface_names.empty() ?
+            "" :
+            " of this part: none of its faces is in a physical surface of "
+            "the file") +
+        "; allowed: a mesh with physical surfaces, by whose names (or tags) a scene "
+        "refers to boundaries, as in gmsh's Physical Surface(\"name\") = {...};");
+  }
+} // namespace mortise

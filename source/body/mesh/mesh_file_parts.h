@@ -1,0 +1,53 @@
+// From what gmsh knows to the coarse mesh of one body, in the coordinates of
+// the file. It never opens a file.
+#pragma once
+
+#include <mortise/body/mesh/generators.h>
+#include <mortise/body/mesh/gmsh_model.h>
+
+#include <functional>
+#include <string>
+
+namespace mortise
+{
+  /// Throws InputError with the file's name before @p what.
+  using FileError = std::function<void(const std::string &what)>;
+
+  /// Walk through the @p content of a .msh file: is it of a known version and
+  /// complete, do all counts fit and do all elements have nodes that are there?
+  /// The library takes much of this on trust and crashes, or takes all memory,
+  /// on damaged binary files.
+  void
+  check_msh_content(const std::string &content, const FileError &fail);
+
+  /// "(x, y, z)".
+  std::string
+  place_name(const dealii::Point<3> &x);
+
+  /// The cells of @p parameters.part (all, if that is empty) with their
+  /// vertices, boundary faces, names and curved geometry.
+  CoarseMesh
+  select_part(const GmshModel      &model,
+              const MeshParameters &parameters,
+              const FileError      &fail);
+
+  /// Give @p mesh the faces of only one cell, with the id of the physical surface
+  /// that they are in (0: none), and the names of these. Vertices of cells are
+  /// still nodes of @p model.
+  void
+  name_faces(const GmshModel &model, CoarseMesh &mesh, const FileError &fail);
+
+  /// Refuse a body that is smaller or larger than numbers can stand.
+  void
+  check_size(const CoarseMesh &mesh, const FileError &fail);
+
+  /// Turn the cells of a mesh that is numbered inside out as a whole, and
+  /// refuse cells of negative or no volume otherwise.
+  void
+  check_volumes(CoarseMesh &mesh, const FileError &fail);
+
+  /// Refuse nodes at one place, unless named boundaries say that they are the
+  /// two sides of a surface: of two volumes, or of two names.
+  void
+  check_coinciding_nodes(const CoarseMesh &mesh, const FileError &fail);
+} // namespace mortise

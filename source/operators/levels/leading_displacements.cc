@@ -1,0 +1,241 @@
+// See leading_displacements.h.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/mortar/nodal_block.h>
+#include <mortise/operators/levels/leading_displacements.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    bool
+    is_led(const LocalCoupling &local)
+    {
+      return std::any_of(local.partners.begin(),
+                         local.partners.end(),
+                         [](const auto &partner) { return partner.leads; });
+    }
+
+    /// The node whose value function @p k of a face has; none where it hangs.
+    std::optional<NodalSpace::Index>
+    node_of(const FaceNodes &face, const unsigned int k)
+    {
+      if (!face.hang())
+        return face.nodes[k];
+      const unsigned int e = face.begin[k];
+      if (face.begin[k + 1] == e + 1 && face.weight[e] == 1.)
+        return face.nodes[face.column[e]];
+      return {};
+    }
+
+    /// visit(coupling, s, trace) for all slave faces s that meet a master.
+    template <typename Visit>
+    void
+    for_each_slave(const std::vector<Coupling> &couplings, const Visit &visit)
+    {
+      for (const Coupling &coupling : couplings)
+        for (unsigned int s = 0; s < coupling.local.size(); ++s)
+          if (!coupling.local[s].partners.empty())
+            visit(coupling, s, coupling.interface->slave().traces[s]);
+    }
+
+    /// Values at the nodes of slave face @p s, which follow from those of each
+    /// partner: the projection, or the mean where the face is covered in part.
+    std::vector<FullMatrix<double>>
+    follow(const Coupling &coupling, const unsigned int s)
+    {
+      const LocalCoupling &local = coupling.local[s];
+      const FaceTrace     &slave = coupling.interface->slave().traces[s];
+      const BlockSide      side{slave.shape, slave.degree, slave.degree};
+      FullMatrix<double>   from_moments = nodal_block(local.mass, side, side);
+      if (cover_of(coupling.interface->coverage()[s], true) == Cover::full)
+        from_moments.gauss_jordan();
+      else
+        {
+          double area = 0.; // functions sum to one
+          for (unsigned int i = 0; i < from_moments.m(); ++i)
+            for (unsigned int j = 0; j < from_moments.n(); ++j)
+              area += from_moments(i, j);
+          for (unsigned int i = 0; i < from_moments.m(); ++i)
+            for (unsigned int j = 0; j < from_moments.n(); ++j)
+              from_moments(i, j) = 1. / area;
+        }
+      std::vector<FullMatrix<double>> result;
+      for (const auto &partner : local.partners)
+        {
+          const FaceTrace &master =
+            coupling.interface->master_traces()[partner.master];
+          const FullMatrix<double> moments = resolve_hanging(
+            nodal_block(partner.mixed,
+                        side,
+                        {master.shape, master.degree, master.degree}),
+            FaceNodes(),
+            master.nodes[0]);
+          result.emplace_back(moments.m(), moments.n());
+          from_moments.mmult(result.back(), moments);
+        }
+      return result;
+    }
+
+    /// By displacement; ghosts, too.
+    class SlaveNodes
+    {
+    public:
+      SlaveNodes(const NodalLevel            &level,
+                 const LevelVector<double>   &diagonal,
+                 const std::vector<Coupling> &couplings)
+        : stiffness(level.layout)
+        , n_faces(stiffness)
+        , n_interfaces(stiffness)
+        , is_free(stiffness)
+      {
+        for (const Coupling &coupling : couplings)
+          count(coupling);
+        for_each_slave(couplings,
+                       [&](const Coupling &, unsigned int, const FaceTrace &t) {
+                         for (const auto node : t.nodes[0].nodes)
+                           n_faces(dim * node) += 1.;
+                       });
+        n_faces.compress(VectorOperation::add);
+        std::copy_n(diagonal.begin(),
+                    diagonal.locally_owned_size(),
+                    stiffness.begin());
+        is_free = 1.;
+        for (const unsigned int index : level.constrained)
+          is_free.local_element(index) = 0.;
+        for (const auto *vector :
+             {&stiffness, &n_faces, &n_interfaces, &is_free})
+          vector->update_ghost_values();
+      }
+
+      /// K_ii over the number of slave faces that share node i.
+      double
+      share(const NodalSpace::Index node) const
+      {
+        return stiffness(dim * node) / n_faces(dim * node);
+      }
+
+      bool
+      is_slave(const NodalSpace::Index node) const
+      {
+        return n_faces(dim * node) > 0.;
+      }
+
+      /// Has each component a node that is free, and does no other interface
+      /// move any?
+      bool
+      can_follow(const FaceNodes &face) const
+      {
+        if (std::any_of(face.nodes.begin(),
+                        face.nodes.end(),
+                        [&](const auto node) {
+                          return n_interfaces(dim * node) > 1.;
+                        }))
+          return false;
+        for (unsigned int c = 0; c < dim; ++c)
+          if (std::none_of(face.nodes.begin(),
+                           face.nodes.end(),
+                           [&](const auto node) {
+                             return is_free(dim * node + c) > 0.;
+                           }))
+            return false;
+        return true;
+      }
+
+    private:
+      /// The nodes that @p coupling moves.
+      void
+      count(const Coupling &coupling)
+      {
+        LevelVector<double> moved(n_interfaces);
+        moved           = 0.;
+        const auto mark = [&](const FaceTrace &trace) {
+          for (const auto node : trace.nodes[0].nodes)
+            moved(dim * node) = 1.;
+        };
+        for (unsigned int s = 0; s < coupling.local.size(); ++s)
+          for (const auto &partner : coupling.local[s].partners)
+            {
+              mark(coupling.interface->slave().traces[s]);
+              mark(coupling.interface->master_traces()[partner.master]);
+            }
+        moved.compress(VectorOperation::add);
+        for (unsigned int i = 0; i < moved.locally_owned_size(); ++i)
+          if (moved.local_element(i) > 0.)
+            n_interfaces.local_element(i) += 1.;
+      }
+
+      LevelVector<double> stiffness, n_faces, n_interfaces, is_free;
+    };
+  } // namespace
+
+  std::vector<LeadingDisplacement>
+  find_leading_displacements(const NodalLevel            &level,
+                             const LevelVector<double>   &diagonal,
+                             const std::vector<Coupling> &couplings)
+  {
+    bool some_lead = false;
+    for_each_slave(couplings,
+                   [&](const Coupling &coupling, unsigned int s, const auto &) {
+                     some_lead = some_lead || is_led(coupling.local[s]);
+                   });
+    if (Utilities::MPI::max(some_lead ? 1 : 0,
+                            level.layout->get_mpi_communicator()) == 0)
+      return {};
+    const SlaveNodes slaves(level, diagonal, couplings);
+    // by node, at its first component
+    LevelVector<double> sums(level.layout), leads(sums), stays(sums);
+    for_each_slave(
+      couplings,
+      [&](const Coupling    &coupling,
+          const unsigned int s,
+          const FaceTrace   &slave) {
+        const auto &partners  = coupling.local[s].partners;
+        const auto &masters   = coupling.interface->master_traces();
+        const bool  is_led    = mortise::is_led(coupling.local[s]),
+                   can_follow = slaves.can_follow(slave.nodes[0]);
+        if (!is_led && can_follow)
+          return;
+        std::vector<FullMatrix<double>> following;
+        if (is_led)
+          following = follow(coupling, s);
+        for (unsigned int k = 0; k < partners.size(); ++k)
+          {
+            const auto &nodes = masters[partners[k].master].nodes[0].nodes;
+            for (unsigned int j = 0; j < nodes.size(); ++j)
+              {
+                double sum = 0.;
+                for (unsigned int i = 0; is_led && i < slave.n_functions(); ++i)
+                  if (const auto node = node_of(slave.nodes[0], i); node)
+                    sum +=
+                      slaves.share(*node) * std::pow(following[k](i, j), 2);
+                sums(dim * nodes[j]) += sum;
+                if (!can_follow)
+                  stays(dim * nodes[j]) = 1.;
+                else if (partners[k].leads)
+                  leads(dim * nodes[j]) = 1.;
+              }
+          }
+      });
+    for (auto *vector : {&sums, &leads, &stays})
+      vector->compress(VectorOperation::add);
+    std::vector<bool> is_constrained(diagonal.locally_owned_size());
+    for (const unsigned int index : level.constrained)
+      is_constrained[index] = true;
+    std::vector<LeadingDisplacement> result;
+    const auto                       first = level.layout->local_range().first;
+    for (unsigned int i = 0; i < is_constrained.size(); ++i)
+      if (const unsigned int node = i - i % dim;
+          !is_constrained[i] && sums.local_element(node) > 0. &&
+          leads.local_element(node) > 0. && stays.local_element(node) == 0. &&
+          !slaves.is_slave((first + node) / dim))
+        result.push_back({i, sums.local_element(node)});
+    return result;
+  }
+} // namespace mortise

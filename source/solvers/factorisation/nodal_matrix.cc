@@ -1,0 +1,70 @@
+// See nodal_matrix.h.
+#include <Epetra_Map.h>
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/factorisation/nodal_matrix.h>
+
+#include <numeric>
+
+namespace mortise
+{
+  NodalMatrix
+  rows_as_nodes(const Epetra_CrsMatrix &matrix)
+  {
+    NodalMatrix nodes;
+    const int   n = matrix.NumMyRows();
+    nodes.entries.resize(n);
+    std::iota(nodes.entries.begin(), nodes.entries.end(), 0);
+    nodes.variants.assign(n, 1);
+    for (int i = 0; i < n; ++i)
+      {
+        const EpetraRow row(matrix, i);
+        nodes.lengths.push_back(row.length);
+        for (int k = 0; k < row.length; ++k)
+          nodes.columns.push_back(matrix.GCID(row.columns[k]));
+        nodes.values.insert(nodes.values.end(),
+                            row.values,
+                            row.values + row.length);
+      }
+    return nodes;
+  }
+
+  std::unique_ptr<Epetra_CrsMatrix>
+  as_matrix(const NodalMatrix &rows, const Epetra_Comm &comm)
+  {
+    const int           n_components = rows.n_components;
+    const Epetra_Map    map(-1,
+                         static_cast<int>(rows.size()) * n_components,
+                         0,
+                         comm);
+    std::vector<int>    lengths, columns;
+    std::vector<double> values;
+    for (const unsigned int length : rows.lengths)
+      lengths.insert(lengths.end(), n_components, static_cast<int>(length));
+    auto matrix =
+      std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
+    const int    *from_column = rows.columns.data();
+    const double *from_value  = rows.values.data();
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      {
+        const int length = static_cast<int>(rows.lengths[i]);
+        for (int c = 0; c < n_components; ++c)
+          {
+            columns.clear();
+            for (int k = 0; k < length; ++k)
+              columns.push_back(from_column[k] * n_components + c);
+            const double *variant =
+              from_value + (rows.variants[i] == 1 ? 0 : c * length);
+            values.assign(variant, variant + length);
+            matrix->InsertGlobalValues(
+              map.GID(static_cast<int>(i) * n_components + c),
+              length,
+              values.data(),
+              columns.data());
+          }
+        from_column += length;
+        from_value += std::size_t(length) * rows.variants[i];
+      }
+    matrix->FillComplete();
+    return matrix;
+  }
+} // namespace mortise

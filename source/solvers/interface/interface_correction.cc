@@ -1,0 +1,76 @@
+// See interface_correction.h.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/solvers/interface/interface_correction.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  template <typename Number>
+  InterfaceCorrection<Number>::InterfaceCorrection(
+    const BlockSystem             &system,
+    const CouplingProduct<Number> &product,
+    const DiagonalLifting         &lifting)
+    : system(system)
+    , product(product)
+    , lifting(lifting)
+    , jump(system.coupling.trilinos_matrix().RowMap())
+    , multiplier(jump)
+    , smoothed(product.indices().size())
+  {
+    product.initialize(trace);
+    for (const unsigned int i : product.indices())
+      weights.push_back(
+        static_cast<Number>(lifting.diagonal().local_element(i)));
+    some_lead =
+      Utilities::MPI::max(system.nodal->leading_displacements().empty() ? 0 : 1,
+                          system.communicator) == 1;
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::add_followers(
+    LevelVector<Number> &diagonal) const
+  {
+    for (const auto &leading : system.nodal->leading_displacements())
+      diagonal.local_element(leading.index) +=
+        static_cast<Number>(leading.followers);
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::apply() const
+  {
+    product.multiply(jump, trace);
+    lifting.apply_inverse_schur(multiplier, jump);
+    product.multiply_transposed(trace, multiplier);
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::project(LevelVector<Number> &x) const
+  {
+    const auto &indices = product.indices();
+    for (unsigned int k = 0; k < indices.size(); ++k)
+      trace.local_element(k) = x.local_element(indices[k]);
+    apply();
+    for (unsigned int k = 0; k < indices.size(); ++k)
+      x.local_element(indices[k]) -= weights[k] * trace.local_element(k);
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::project_residual(LevelVector<Number> &r) const
+  {
+    const auto &indices = product.indices();
+    for (unsigned int k = 0; k < indices.size(); ++k)
+      trace.local_element(k) = weights[k] * r.local_element(indices[k]);
+    apply();
+    for (unsigned int k = 0; k < indices.size(); ++k)
+      r.local_element(indices[k]) -= trace.local_element(k);
+  }
+
+  template class InterfaceCorrection<float>;
+  template class InterfaceCorrection<double>;
+} // namespace mortise

@@ -1,0 +1,85 @@
+// See lifting.h.
+#include <mortise/solvers/interface/lifting.h>
+
+namespace mortise
+{
+  namespace
+  {
+    /// The number of rows that a last attempt may have on all ranks.
+    constexpr std::size_t always_gathered = 100000;
+  } // namespace
+
+  void
+  Lifting::factorise(NodalMatrix             schur,
+                     SchwarzInverse::Product product,
+                     const Epetra_Map       &map,
+                     const std::size_t       max_gathered)
+  {
+    const auto C =
+      std::make_shared<DistributedNodalMatrix>(std::move(schur), map);
+    const std::size_t size = map.NumGlobalElements();
+    const bool together    = map.Comm().NumProc() == 1 || size <= max_gathered;
+    if (!together)
+      {
+        schwarz = std::make_unique<SchwarzInverse>();
+        valid   = schwarz->initialize(C, std::move(product));
+        if (valid)
+          return;
+        schwarz.reset();
+      }
+    if (together || size <= always_gathered)
+      {
+        cholesky = std::make_unique<CholeskyInverse<double>>();
+        valid    = cholesky->initialize(
+          C->rows(),
+          [&C](Epetra_Vector &y, const Epetra_Vector &x) { C->vmult(y, x); },
+          map,
+          true);
+        if (valid)
+          return;
+        cholesky.reset();
+      }
+    const auto matrix = as_matrix(C->rows(), map.Comm());
+    factorise(*matrix);
+    mumps_entries = C->rows().entries;
+    mumps_x       = std::make_unique<Epetra_Vector>(matrix->RowMap());
+    mumps_b       = std::make_unique<Epetra_Vector>(matrix->RowMap());
+  }
+
+  void
+  Lifting::factorise(const Epetra_CrsMatrix &schur)
+  {
+    valid = mumps.initialize(schur, MatrixKind::positive_definite);
+  }
+
+  void
+  Lifting::apply_inverse_schur(Epetra_Vector       &y,
+                               const Epetra_Vector &jump) const
+  {
+    if (schwarz)
+      schwarz->solve(y, jump);
+    else if (cholesky)
+      cholesky->solve(y, jump);
+    else if (mumps_entries.empty())
+      mumps.solve(y, jump);
+    else
+      {
+        for (unsigned int i = 0; i < mumps_entries.size(); ++i)
+          (*mumps_b)[i] = mumps_entries[i] < 0 ? 0. : jump[mumps_entries[i]];
+        mumps.solve(*mumps_x, *mumps_b);
+        for (unsigned int i = 0; i < mumps_entries.size(); ++i)
+          if (mumps_entries[i] >= 0)
+            y[mumps_entries[i]] = (*mumps_x)[i];
+      }
+  }
+
+  std::string
+  Lifting::description() const
+  {
+    if (schwarz)
+      return "multipliers by parts";
+    if (!cholesky)
+      return "multipliers by MUMPS";
+    return cholesky->is_single() ? "" : "multipliers in double precision";
+  }
+} // namespace mortise

@@ -1,0 +1,176 @@
+// See condensed.h.
+#include <mortise/solvers/krylov/condensed.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Conjugate gradients for (u, lambda) in the subspace of the projector, or
+    /// in the whole space without one.
+    class ProjectedConjugateGradients
+    {
+    public:
+      ProjectedConjugateGradients(const BlockSystem         &system,
+                                  const ScaledResidual      &residual,
+                                  const BulkPreconditioner  &preconditioner,
+                                  const SystemVector        &rhs,
+                                  const SolverOptions       &options)
+        : system(system)
+        , residual(residual)
+        , preconditioner(preconditioner)
+        , projector(preconditioner.projector())
+        , options(options)
+        , rhs(rhs)
+        , rhs_norm(residual.norm(rhs))
+        , all_r(system.zero_vector())
+        , r(all_r.displacement)
+        , z(r)
+        , d(r)
+        , kd(r)
+      {}
+
+      /// Start from what @p x holds, whose energy u . K u this takes into account.
+      void
+      start(const SystemVector &x)
+      {
+        energy_of_u = system.stiffness_product(x.displacement);
+      }
+
+      /// Go on from what @p x holds until the residual is small enough.
+      void
+      run(SystemVector &x, SolveReport &report)
+      {
+        Vector      &u = x.displacement, &lambda = x.multiplier;
+        const double target = 0.9 * options.tolerance * rhs_norm;
+        if (projector != nullptr)
+          projector->satisfy(u, rhs.multiplier);
+        residual.compute(rhs, x, all_r);
+        double rho_old = 0.;
+        for (bool first = true; report.iterations < options.max_iterations;
+             first      = false)
+          {
+            if (projector != nullptr)
+              projector->project_residual(r, lambda);
+            const double reached = residual.norm(all_r);
+            if (!first && options.monitor)
+              options.monitor(report.iterations, reached / rhs_norm);
+            preconditioner.vmult(z, r);
+            if (projector != nullptr)
+              projector->project(z);
+            const double rho = r * z; // estimates the energy of the error
+            if (reached <= target &&
+                rho <= std::pow(options.energy_tolerance(), 2) *
+                         std::max(energy_of_u, residual.least_energy(rhs_norm)))
+              break;
+            if (first)
+              d = z;
+            else
+              d.sadd(rho / rho_old, 1., z);
+            rho_old = rho;
+            if (!step(u, rho))
+              break;
+            ++report.iterations;
+          }
+        if (projector != nullptr)
+          projector->satisfy(u, rhs.multiplier);
+        residual.compute(rhs, x, all_r);
+      }
+
+      /// After run(): is that what was asked for?
+      bool
+      reached() const
+      {
+        return residual.norm(all_r) <= options.tolerance * rhs_norm;
+      }
+
+      /// Note what run() reached.
+      void
+      judge(const SystemVector &x, SolveReport &report)
+      {
+        const auto relative_error = [&] {
+          SystemVector rest = all_r;
+          if (projector != nullptr)
+            projector->project_residual(rest.displacement, rest.multiplier);
+          preconditioner.vmult(z, rest.displacement);
+          if (projector != nullptr)
+            projector->project(z);
+          return std::sqrt((z * rest.displacement) /
+                           system.stiffness_product(x.displacement));
+        };
+        residual.judge({rhs, x, all_r},
+                       options.tolerance,
+                       relative_error,
+                       report);
+      }
+
+    private:
+      /// Move along d; false when the matrix is not positive definite there, or
+      /// not a number.
+      bool
+      step(Vector &u, const double rho)
+      {
+        system.apply_stiffness(kd, d);
+        const double energy = d * kd;
+        if (!(rho > 0. && energy > 0.))
+          return false;
+        const double alpha = rho / energy;
+        u.add(alpha, d);
+        r.add(-alpha, kd);
+        energy_of_u += alpha * rho;
+        return true;
+      }
+
+      const BlockSystem         &system;
+      const ScaledResidual      &residual;
+      const BulkPreconditioner  &preconditioner;
+      const ConstraintProjector *projector;
+      const SolverOptions       &options;
+      const SystemVector        &rhs;
+      const double               rhs_norm;
+      SystemVector               all_r;
+      Vector                    &r;
+      Vector                     z, d, kd;
+      double                     energy_of_u = 0.; ///< gained so far
+    };
+  } // namespace
+
+  CondensedSolver::CondensedSolver(const BlockSystem   &system,
+                                   const SolverOptions &options)
+    : LinearSolver(system, options, "condensed")
+  {}
+
+  bool
+  CondensedSolver::set_up()
+  {
+    preconditioner   = make_bulk_preconditioner(system, options);
+    const bool valid = preconditioner->initialize(system);
+    description      = preconditioner->description();
+    return valid;
+  }
+
+  void
+  CondensedSolver::run(const SystemVector &rhs,
+                       SystemVector       &x,
+                       const bool          is_zero,
+                       SolveReport        &report)
+  {
+    ProjectedConjugateGradients solver(
+      system, *residual, *preconditioner, rhs, options);
+    if (!is_zero)
+      solver.start(x);
+    // Rounding makes the carried residual drift from the true one: start again
+    // from what was reached.
+    unsigned int start = 0;
+    do
+      solver.run(x, report);
+    while (!solver.reached() && ++start < 3 &&
+           report.iterations < options.max_iterations);
+    solver.judge(x, report);
+  }
+} // namespace mortise

@@ -1,0 +1,121 @@
+#include <deal.II/lac/diagonal_matrix.h>
+#include <deal.II/lac/precondition.h>
+
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/krylov/pressure_preconditioner.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Steps and the range of eigenvalues of diag(P)^{-1} P, whose condition is
+    /// that of a mass matrix: it grows neither with the mesh nor, in this
+    /// basis, much with the degree.
+    constexpr unsigned int polynomial_degree = 6;
+    constexpr double       polynomial_range  = 20.;
+  } // namespace
+
+  struct PressurePreconditioner::Polynomial
+  {
+    struct Matrix : Subscriptor
+    {
+      explicit Matrix(const NodalSystem &nodal)
+        : nodal(nodal)
+      {}
+
+      types::global_dof_index
+      m() const
+      {
+        return nodal.pressure_norm_diagonal().size();
+      }
+
+      double
+      el(const types::global_dof_index i, const types::global_dof_index) const
+      {
+        return nodal.pressure_norm_diagonal()(i);
+      }
+
+      void
+      vmult(LevelVector<double> &dst, const LevelVector<double> &src) const
+      {
+        nodal.apply_pressure_norm(dst, src);
+      }
+
+      const NodalSystem &nodal;
+    };
+
+    using Diagonal = DiagonalMatrix<LevelVector<double>>;
+    using Chebyshev =
+      PreconditionChebyshev<Matrix, LevelVector<double>, Diagonal>;
+
+    explicit Polynomial(const NodalSystem &nodal)
+      : matrix(nodal)
+    {
+      const LevelVector<double> &diagonal = nodal.pressure_norm_diagonal();
+      const double               least    = Utilities::MPI::min(
+        diagonal.locally_owned_size() == 0 ?
+          1. :
+          *std::min_element(diagonal.begin(),
+                            diagonal.begin() + diagonal.locally_owned_size()),
+        diagonal.get_mpi_communicator());
+      valid = least > 0.;
+      if (!valid)
+        return;
+      x.reinit(diagonal);
+      b.reinit(diagonal);
+      typename Chebyshev::AdditionalData data(polynomial_degree,
+                                              polynomial_range);
+      data.preconditioner = std::make_shared<Diagonal>();
+      auto &inverse       = data.preconditioner->get_vector();
+      inverse.reinit(diagonal);
+      for (unsigned int i = 0; i < diagonal.locally_owned_size(); ++i)
+        inverse.local_element(i) = 1. / diagonal.local_element(i);
+      chebyshev.initialize(matrix, data);
+    }
+
+    Matrix              matrix;
+    Chebyshev           chebyshev;
+    LevelVector<double> x, b;
+    bool                valid;
+  };
+
+  PressurePreconditioner::PressurePreconditioner(const BlockSystem &system)
+  {
+    if (system.nodal)
+      {
+        polynomial = std::make_unique<Polynomial>(*system.nodal);
+        valid      = polynomial->valid;
+      }
+    else
+      valid = factorisation.initialize(system.pressure_norm.trilinos_matrix(),
+                                       MatrixKind::positive_definite);
+  }
+
+  PressurePreconditioner::~PressurePreconditioner() = default;
+
+  void
+  PressurePreconditioner::vmult(Vector &dst, const Vector &src) const
+  {
+    if (!polynomial)
+      {
+        Epetra_Vector x = epetra_view(dst);
+        factorisation.solve(x, *src.trilinos_vector()(0));
+        return;
+      }
+    LevelVector<double> &x = polynomial->x, &b = polynomial->b;
+    std::copy_n(src.begin(), b.locally_owned_size(), b.begin());
+    polynomial->chebyshev.vmult(x, b);
+    std::copy_n(x.begin(), x.locally_owned_size(), dst.begin());
+  }
+
+  std::string
+  PressurePreconditioner::description() const
+  {
+    return polynomial ? "mass of pressures by a polynomial" :
+                        "mass of pressures factorised";
+  }
+} // namespace mortise

@@ -1,0 +1,338 @@
+// See saddle_point.h.
+#include <deal.II/lac/solver_gmres.h>
+#include <deal.II/lac/trilinos_parallel_block_vector.h>
+
+#include <mortise/solvers/multigrid/bulk_preconditioner.h>
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/krylov/pressure_preconditioner.h>
+#include <mortise/solvers/krylov/saddle_point.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using BlockVector = TrilinosWrappers::MPI::BlockVector;
+
+    /// Numbers of the blocks.
+    constexpr unsigned int u = 0, p = 1, l = 2;
+
+    void
+    copy(BlockVector &to, const SystemVector &from)
+    {
+      to.block(u) = from.displacement;
+      to.block(p) = from.pressure;
+      to.block(l) = from.multiplier;
+    }
+
+    void
+    add(SystemVector &to, const BlockVector &from)
+    {
+      to.displacement += from.block(u);
+      to.pressure += from.block(p);
+      to.multiplier += from.block(l);
+    }
+
+    /// W A W with the matrix A of the system and W^2 = diag(D_u, D_p,
+    /// D_lambda)^{-1}: the Euclidean norm of its residual is the norm that all
+    /// solvers report.
+    class ScaledOperator
+    {
+    public:
+      ScaledOperator(const BlockSystem &system, const ScaledResidual &residual)
+        : weight({system.owned_displacement,
+                  system.owned_pressure,
+                  system.owned_multiplier},
+                 system.communicator)
+        , system(system)
+        , tied(system.owned_multiplier.size() > 0)
+        , scaled(weight)
+      {
+        set_root(residual.inverse_diagonal_u(), weight.block(u));
+        if (system.mixed())
+          set_root(residual.inverse_diagonal_p(), weight.block(p));
+        if (tied)
+          set_root(residual.inverse_diagonal_lambda(), weight.block(l));
+        inverse = weight;
+        for (unsigned int b = 0; b < 3; ++b)
+          for (unsigned int i = 0; i < inverse.block(b).locally_owned_size();
+               ++i)
+            epetra(inverse.block(b))[0][i] =
+              1. / epetra(inverse.block(b))[0][i];
+      }
+
+      void
+      vmult(BlockVector &y, const BlockVector &x) const
+      {
+        scaled = x;
+        scaled.scale(weight);
+        if (system.mixed())
+          system.apply_mixed(y.block(u),
+                             y.block(p),
+                             scaled.block(u),
+                             scaled.block(p));
+        else
+          system.apply_stiffness(y.block(u), scaled.block(u));
+        if (tied)
+          {
+            system.add_multiplier_force(y.block(u), scaled.block(l));
+            system.apply_constraint(y.block(l), scaled.block(u));
+          }
+        y.scale(weight);
+      }
+
+      BlockVector weight, inverse; ///< W and W^{-1}
+
+    private:
+      static void
+      set_root(const Epetra_Vector &square, Vector &root)
+      {
+        for (int i = 0; i < square.MyLength(); ++i)
+          epetra(root)[0][i] = std::sqrt(square[i]);
+      }
+
+      const BlockSystem  &system;
+      const bool          tied;
+      mutable BlockVector scaled;
+    };
+
+    /// The block factorisation of [A^ B^T; B 0] with A^ for K + J, its Schur
+    /// complement replaced by C = B T B^T and A^{-1} B^T by T B^T: what it
+    /// returns satisfies the constraint exactly. Around it the upper triangle
+    /// of a block factorisation with the pressures, whose Schur complement is
+    /// replaced by -P.
+    class BlockPreconditioner
+    {
+    public:
+      BlockPreconditioner(const BlockSystem    &system,
+                          const ScaledOperator &scaling,
+                          const SolverOptions  &options)
+        : system(system)
+        , scaling(scaling)
+        , bulk(make_bulk_preconditioner(system, options))
+        , valid(bulk->initialize(system))
+      {
+        if (valid)
+          projector = bulk->projector();
+        if (valid && system.mixed())
+          {
+            pressure = std::make_unique<PressurePreconditioner>(system);
+            valid    = pressure->is_valid();
+          }
+      }
+
+      void
+      vmult(BlockVector &z, const BlockVector &r) const
+      {
+        BlockVector &t = scratch;
+        if (t.n_blocks() == 0)
+          t.reinit(r);
+        t = r;
+        t.scale(scaling.inverse);
+        Vector &z_u = z.block(u), &z_l = z.block(l);
+        if (pressure)
+          {
+            pressure->vmult(z.block(p), t.block(p));
+            system.free_pressures.project(z.block(p));
+            system.add_pressure_force(t.block(u),
+                                      z.block(p)); // z_p is minus it
+            z.block(p) *= -1.;
+          }
+        z_l = 0.;
+        if (projector) // r_u - B^T y with y = C^{-1} B T r_u
+          projector->project_residual(t.block(u), z_l);
+        bulk->vmult(z_u, t.block(u));
+        if (projector) // z_u - T B^T y with y = C^{-1} (B z_u - r_lambda)
+          z_l += projector->project(z_u, &t.block(l));
+        z.scale(scaling.inverse);
+      }
+
+      /// An estimate of the energy of the error that belongs to the residual,
+      /// which is not scaled.
+      double
+      error_energy(const SystemVector &r) const
+      {
+        Vector z(r.displacement), projected(z), multiplier(r.multiplier);
+        if (projector)
+          projector->project_residual(projected, multiplier);
+        bulk->vmult(z, projected);
+        double energy = z * projected;
+        if (pressure)
+          {
+            Vector q(r.pressure);
+            pressure->vmult(q, r.pressure);
+            energy += q * r.pressure;
+          }
+        return energy;
+      }
+
+      std::string
+      description() const
+      {
+        return "block factorisation: " + bulk->description() +
+               (pressure ? "; " + pressure->description() : "") +
+               (projector ? "; interface Schur complement factorised" : "");
+      }
+
+      bool
+      is_valid() const
+      {
+        return valid;
+      }
+
+    private:
+      const BlockSystem                      &system;
+      const ScaledOperator                   &scaling;
+      std::unique_ptr<BulkPreconditioner>     bulk;
+      const ConstraintProjector              *projector = nullptr;
+      std::unique_ptr<PressurePreconditioner> pressure;
+      bool                                    valid;
+      mutable BlockVector                     scratch;
+    };
+
+    /// u . K u + p . P p, what error_energy() is to be small beside.
+    double
+    energy_of(const SystemVector &x, const BlockSystem &system)
+    {
+      double energy = system.stiffness_product(x.displacement);
+      if (system.mixed())
+        {
+          Vector g(x.pressure);
+          system.apply_pressure_norm(g, x.pressure);
+          energy += g * x.pressure;
+        }
+      return energy;
+    }
+  } // namespace
+
+  struct SaddlePointSolver::Parts
+  {
+    Parts(const BlockSystem    &system,
+          const ScaledResidual &residual,
+          const SolverOptions  &options)
+      : matrix(system, residual)
+      , preconditioner(system, matrix, options)
+    {}
+
+    /// One call of GMRES for the scaled residual @p r, until it is @p goal; adds
+    /// the iterations to @p report.
+    BlockVector
+    iterate(const BlockVector   &r,
+            const double         goal,
+            const double         rhs_norm,
+            const SolverOptions &options,
+            SolveReport         &report) const;
+
+    const ScaledOperator      matrix;
+    const BlockPreconditioner preconditioner;
+    bool                      flexible = false;
+  };
+
+  BlockVector
+  SaddlePointSolver::Parts::iterate(const BlockVector   &r,
+                                    const double         goal,
+                                    const double         rhs_norm,
+                                    const SolverOptions &options,
+                                    SolveReport         &report) const
+  {
+    constexpr unsigned int max_basis = 60;
+    BlockVector            x(r);
+    x = 0.;
+    SolverControl control(options.max_iterations - report.iterations,
+                          goal,
+                          false,
+                          false);
+    const auto    note = [&](const unsigned int iteration,
+                          const double       value,
+                          const BlockVector &) {
+      if (iteration > 0 && options.monitor)
+        options.monitor(report.iterations + iteration, value / rhs_norm);
+      return SolverControl::success;
+    };
+    const auto run = [&](auto &&solver) {
+      solver.connect(note);
+      try
+        {
+          solver.solve(matrix, x, r, preconditioner);
+        }
+      catch (const SolverControl::NoConvergence &)
+        {}
+    };
+    using GMRES  = SolverGMRES<BlockVector>;
+    using FGMRES = SolverFGMRES<BlockVector>;
+    if (flexible)
+      run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
+    else
+      run(GMRES(control, GMRES::AdditionalData(max_basis + 2, true)));
+    report.iterations += control.last_step();
+    x.scale(matrix.weight);
+    return x;
+  }
+
+  SaddlePointSolver::SaddlePointSolver(const BlockSystem   &system,
+                                       const SolverOptions &options)
+    : LinearSolver(system, options, "saddle point")
+  {}
+
+  SaddlePointSolver::~SaddlePointSolver() = default;
+
+  bool
+  SaddlePointSolver::set_up()
+  {
+    parts = std::make_unique<Parts>(system, *residual, options);
+    // multigrid in single precision is linear to seven digits only
+    parts->flexible = system.nodal != nullptr;
+    description     = parts->preconditioner.description();
+    return parts->preconditioner.is_valid();
+  }
+
+  void
+  SaddlePointSolver::run(const SystemVector &rhs,
+                         SystemVector       &solution,
+                         bool /*is_zero*/,
+                         SolveReport &report)
+  {
+    const BlockPreconditioner &preconditioner = parts->preconditioner;
+    const double               rhs_norm       = residual->norm(rhs);
+    const double               target         = options.tolerance * rhs_norm;
+    SystemVector               all_r          = system.zero_vector();
+    BlockVector                r(parts->matrix.weight);
+    residual->compute(rhs, solution, all_r);
+    double     reached = residual->norm(all_r), goal = 0.9 * target;
+    const auto accurate = [&] {
+      // beside pressures the residual does not say less than the energy
+      const double energy_tolerance =
+        system.mixed() ? options.tolerance : options.energy_tolerance();
+      return reached <= target &&
+             preconditioner.error_energy(all_r) <=
+               energy_tolerance * energy_tolerance *
+                 std::max(energy_of(solution, system),
+                          residual->least_energy(rhs_norm));
+    };
+    // Again from what was reached: rounding makes the recursive residual drift
+    // from the true one, and the energy of the error is only looked at here.
+    for (unsigned int start = 0; start < 5 && !accurate() &&
+                                 report.iterations < options.max_iterations;
+         ++start)
+      {
+        copy(r, all_r);
+        r.scale(parts->matrix.weight);
+        add(solution, parts->iterate(r, goal, rhs_norm, options, report));
+        residual->compute(rhs, solution, all_r);
+        reached = residual->norm(all_r);
+        goal    = std::min(goal, 0.1 * reached);
+      }
+    residual->judge(
+      {rhs, solution, all_r},
+      options.tolerance,
+      [&] {
+        return std::sqrt(preconditioner.error_energy(all_r) /
+                         energy_of(solution, system));
+      },
+      report);
+  }
+} // namespace mortise

@@ -1,0 +1,181 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/operators/levels/degree_transfer.h>
+#include <mortise/solvers/interface/diagonal_lifting.h>
+#include <mortise/solvers/multigrid/chebyshev.h>
+#include <mortise/solvers/multigrid/degree_multigrid.h>
+#include <mortise/solvers/multigrid/lower_smoothing_bound.h>
+#include <mortise/solvers/multigrid/vertex_multigrid.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Number = float;
+
+    struct SmoothedLevel
+    {
+      SmoothedLevel(const NodalLevel                  &level,
+                    const bool                         finest,
+                    const InterfaceCorrection<Number> *correction)
+        : matrix(level, correction == nullptr)
+        , smoother(matrix,
+                   lower_smoothing_bound(*level.space, finest),
+                   correction)
+      {
+        matrix.initialize(x);
+        matrix.initialize(b);
+        matrix.initialize(r);
+      }
+
+      LevelOperator<Number> matrix;
+      Chebyshev<Number>     smoother;
+      LevelVector<Number>   x, b, r;
+    };
+  } // namespace
+
+  struct DegreeMultigrid::Implementation
+  {
+    Implementation(const BlockSystem &system, const std::size_t max_gathered)
+    {
+      const auto &all = system.nodal->levels();
+      // in front of all else: what algebraic multigrid needs for a while is the
+      // largest part of the memory
+      vertices = std::make_unique<VertexMultigrid>(all.back(), all.size() > 1);
+      valid    = vertices->is_valid();
+      if (system.owned_multiplier.size() > 0)
+        {
+          const auto        &coupling = system.coupling.trilinos_matrix();
+          const CouplingRows rows(coupling, true);
+          product    = std::make_unique<CouplingProduct<Number>>(system, rows);
+          lifting    = std::make_unique<DiagonalLifting>(system,
+                                                      rows,
+                                                      *product,
+                                                      max_gathered);
+          valid      = lifting->is_valid() && valid;
+          correction = std::make_unique<InterfaceCorrection<Number>>(system,
+                                                                     *product,
+                                                                     *lifting);
+          projector =
+            std::make_unique<ConstraintProjector>(system, rows, *lifting);
+        }
+      // where degree one is the finest, its level is smoothed here and stands
+      // for the vertices below, too
+      const unsigned int n_smoothed = std::max<unsigned int>(1, all.size() - 1);
+      for (unsigned int l = 0; l < n_smoothed; ++l)
+        {
+          levels.push_back(std::make_unique<SmoothedLevel>(
+            all[l], l == 0, l == 0 ? correction.get() : nullptr));
+          valid = valid && levels.back()->smoother.is_valid();
+        }
+      coarse_x.reinit(all.back().layout);
+      coarse_b.reinit(all.back().layout);
+      if (all.size() > 1)
+        coarse = std::make_unique<LevelOperator<Number>>(all.back(), false);
+      for (unsigned int l = 0; l + 1 < all.size(); ++l)
+        transfers.push_back(std::make_unique<DegreeTransfer<Number>>(
+          levels[l]->matrix,
+          l + 1 < levels.size() ? levels[l + 1]->matrix : *coarse));
+      valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
+    }
+
+    /// levels[l]->x = an approximate solution for levels[l]->b, on the finest
+    /// level one that satisfies the constraint.
+    void
+    cycle(const unsigned int l)
+    {
+      if (l == levels.size())
+        {
+          vertices->vmult(coarse_x, coarse_b);
+          return;
+        }
+      SmoothedLevel &level  = *levels[l];
+      const bool     last   = l + 1 == levels.size();
+      auto          &next_x = last ? coarse_x : levels[l + 1]->x,
+           &next_b          = last ? coarse_b : levels[l + 1]->b;
+      level.smoother.smooth(level.x, level.b, true);
+      level.matrix.vmult(level.r, level.x);
+      level.r.sadd(-1, 1, level.b);
+      const bool constrained = l == 0 && correction;
+      if (constrained)
+        correction->project_residual(level.r);
+      if (transfers.empty())
+        next_b = level.r;
+      else
+        transfers[l]->restrict_to(next_b, level.r);
+      cycle(l + 1);
+      if (transfers.empty())
+        level.x += next_x;
+      else
+        transfers[l]->prolongate_add(level.x, next_x);
+      if (constrained)
+        correction->project(level.x);
+      level.smoother.smooth(level.x, level.b, false);
+    }
+
+    std::unique_ptr<CouplingProduct<Number>>     product;
+    std::unique_ptr<DiagonalLifting>             lifting;
+    std::unique_ptr<ConstraintProjector>         projector;
+    std::unique_ptr<InterfaceCorrection<Number>> correction;
+    std::vector<std::unique_ptr<SmoothedLevel>>  levels;
+    std::unique_ptr<LevelOperator<Number>> coarse; ///< for the last transfer
+    std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
+    LevelVector<Number>                                  coarse_x, coarse_b;
+    std::unique_ptr<VertexMultigrid>                     vertices;
+    bool                                                 valid = true;
+  };
+
+  DegreeMultigrid::DegreeMultigrid(const std::size_t max_gathered)
+    : max_gathered(max_gathered)
+  {}
+
+  DegreeMultigrid::~DegreeMultigrid() = default;
+
+  bool
+  DegreeMultigrid::initialize(const BlockSystem &system)
+  {
+    implementation = std::make_unique<Implementation>(system, max_gathered);
+    return implementation->valid;
+  }
+
+  void
+  DegreeMultigrid::vmult(Vector &dst, const Vector &src) const
+  {
+    auto        &level = *implementation->levels.front();
+    const double scale = src.linfty_norm(); // of single precision
+    if (scale == 0.)
+      {
+        dst = 0.;
+        return;
+      }
+    const unsigned int n    = level.b.locally_owned_size();
+    const double      *from = src.begin();
+    double            *to   = dst.begin();
+    for (unsigned int i = 0; i < n; ++i)
+      level.b.local_element(i) = static_cast<Number>(from[i] / scale);
+    level.matrix.clear_constrained(level.b);
+    implementation->cycle(0);
+    for (unsigned int i = 0; i < n; ++i)
+      to[i] = scale * static_cast<double>(level.x.local_element(i));
+  }
+
+  const ConstraintProjector *
+  DegreeMultigrid::projector() const
+  {
+    return implementation->projector.get();
+  }
+
+  std::string
+  DegreeMultigrid::description() const
+  {
+    const std::string multipliers =
+      implementation->lifting ? implementation->lifting->description() : "";
+    return "multigrid in the degree, " +
+           implementation->vertices->description() +
+           (multipliers.empty() ? "" : ", " + multipliers);
+  }
+} // namespace mortise

@@ -1,0 +1,201 @@
+// See vertex_multigrid.h.
+#include <mortise/operators/levels/nodal_block_operator.h>
+#include <mortise/operators/levels/vertex_matrix.h>
+#include <mortise/operators/levels/vertex_transfer.h>
+#include <mortise/solvers/multigrid/chebyshev.h>
+#include <mortise/solvers/multigrid/lower_smoothing_bound.h>
+#include <mortise/solvers/multigrid/vertex_multigrid.h>
+#include <mortise/solvers/multigrid/vertex_solver.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Number = VertexMultigrid::Number;
+
+    /// Up to this many dofs a factorisation takes no longer (thick sphere, p =
+    /// 2, one core: the same at 2,000; 0.34 instead of 0.25 s at 5,800).
+    constexpr unsigned int max_factorised = 1500;
+
+    /// A mesh that is coarsened.
+    struct RefinedLevel
+    {
+      RefinedLevel(NodalBlockMatrix        blocks,
+                   const double            smallest,
+                   const VertexCoarsening &coarsening,
+                   const NodalBlockMatrix &coarse)
+        : matrix(std::move(blocks))
+        , smoother(matrix, smallest)
+        , transfer(coarsening, coarse)
+      {
+        matrix.initialize(x);
+        matrix.initialize(b);
+        matrix.initialize(r);
+      }
+
+      NodalBlockOperator<Number> matrix;
+      Chebyshev<Number>          smoother;
+      VertexTransfer<Number>     transfer;
+      LevelVector<Number>        x, b, r;
+    };
+
+    void
+    copy_owned(LevelVector<Number> &to, const LevelVector<Number> &from)
+    {
+      std::copy_n(from.begin(), from.locally_owned_size(), to.begin());
+    }
+  } // namespace
+
+  struct VertexMultigrid::Implementation
+  {
+    Implementation(const NodalLevel &level, const bool smooth_finest)
+      : level(level)
+    {
+      const MPI_Comm comm        = level.layout->get_mpi_communicator();
+      const auto     coarsenings = level.layout->size() > max_factorised ?
+                                     make_vertex_coarsenings(*level.space, comm) :
+                                     std::vector<VertexCoarsening>();
+      auto           next        = coarsenings.begin();
+      const bool     skip_finest = !smooth_finest && !coarsenings.empty();
+      VertexMatrix   matrix =
+        assemble_vertex_matrix(level, skip_finest ? &*next : nullptr);
+      NodalBlockMatrix &blocks = matrix.blocks;
+      if (skip_finest)
+        to_first = std::make_unique<VertexTransfer<Number>>(*next++, blocks);
+      const double smallest = lower_smoothing_bound(*level.space, false);
+      for (;
+           next != coarsenings.end() && blocks.layout->size() > max_factorised;
+           ++next)
+        {
+          NodalBlockMatrix coarse = coarsen(blocks, *next);
+          levels.push_back(std::make_unique<RefinedLevel>(
+            std::move(blocks), smallest, *next, coarse));
+          valid  = valid && levels.back()->smoother.is_valid();
+          blocks = std::move(coarse);
+          std::vector<Point<dim>> points;
+          for (const unsigned int node : next->kept)
+            points.push_back(matrix.points[node]);
+          matrix.points = std::move(points);
+        }
+      coarse_x.reinit(blocks.layout);
+      coarse_b.reinit(blocks.layout);
+      constrained = constrained_components(blocks);
+      auto epetra = as_epetra(blocks);
+      blocks      = NodalBlockMatrix();
+      vertex_x    = std::make_unique<Epetra_Vector>(epetra->RowMap());
+      vertex_r    = std::make_unique<Epetra_Vector>(epetra->RowMap());
+      valid =
+        solver.initialize(std::move(epetra), matrix.points, true) && valid;
+    }
+
+    /// The solution for what b() of level @p l holds, approximately, to x().
+    void
+    cycle(const unsigned int l)
+    {
+      if (l == levels.size())
+        {
+          std::copy_n(coarse_b.begin(),
+                      coarse_b.locally_owned_size(),
+                      vertex_r->Values());
+          solver.vmult(*vertex_x, *vertex_r);
+          std::copy_n(vertex_x->Values(),
+                      coarse_x.locally_owned_size(),
+                      coarse_x.begin());
+          for (const unsigned int index : constrained)
+            coarse_x.local_element(index) = 0;
+          return;
+        }
+      RefinedLevel &level = *levels[l];
+      level.smoother.smooth(level.x, level.b, true);
+      level.matrix.vmult(level.r, level.x);
+      level.r.sadd(-1, 1, level.b);
+      restrict_from(level.transfer, level.r, l + 1);
+      cycle(l + 1);
+      level.transfer.prolongate_add(level.x, x(l + 1));
+      level.matrix.clear_constrained(level.x);
+      level.smoother.smooth(level.x, level.b, false);
+    }
+
+    /// b() of level @p l from the next finer one.
+    void
+    restrict_from(const VertexTransfer<Number> &transfer,
+                  const LevelVector<Number>    &r,
+                  const unsigned int            l)
+    {
+      transfer.restrict_to(b(l), r);
+      if (l < levels.size())
+        levels[l]->matrix.clear_constrained(levels[l]->b);
+    }
+
+    LevelVector<Number> &
+    x(const unsigned int l)
+    {
+      return l == levels.size() ? coarse_x : levels[l]->x;
+    }
+
+    LevelVector<Number> &
+    b(const unsigned int l)
+    {
+      return l == levels.size() ? coarse_b : levels[l]->b;
+    }
+
+    const NodalLevel                          &level;
+    std::vector<std::unique_ptr<RefinedLevel>> levels;
+    LevelVector<Number>                        coarse_x, coarse_b;
+    std::vector<unsigned int> constrained; ///< on the coarsest level
+    /// Where the caller smooths the finest mesh.
+    std::unique_ptr<VertexTransfer<Number>> to_first;
+    VertexSolver                            solver;
+    std::unique_ptr<Epetra_Vector>          vertex_x, vertex_r;
+    bool                                    valid = true;
+  };
+
+  VertexMultigrid::VertexMultigrid(const NodalLevel &level,
+                                   const bool        smooth_finest)
+    : implementation(std::make_unique<Implementation>(level, smooth_finest))
+  {}
+
+  VertexMultigrid::~VertexMultigrid() = default;
+
+  bool
+  VertexMultigrid::is_valid() const
+  {
+    return implementation->valid;
+  }
+
+  void
+  VertexMultigrid::vmult(LevelVector<Number>       &x,
+                         const LevelVector<Number> &b) const
+  {
+    auto &data = *implementation;
+    if (data.to_first)
+      data.restrict_from(*data.to_first, b, 0);
+    else
+      copy_owned(data.b(0), b);
+    data.cycle(0);
+    if (data.to_first)
+      {
+        x = 0;
+        data.to_first->prolongate_add(x, data.x(0));
+        for (const unsigned int index : data.level.constrained)
+          x.local_element(index) = 0;
+      }
+    else
+      copy_owned(x, data.x(0));
+  }
+
+  std::string
+  VertexMultigrid::description() const
+  {
+    const unsigned int n =
+      implementation->levels.size() + (implementation->to_first ? 1 : 0);
+    return "vertices " +
+           (n == 0 ? "" :
+                     "on " + std::to_string(n + 1) + " meshes, the coarsest ") +
+           implementation->solver.description();
+  }
+} // namespace mortise
