@@ -30,6 +30,8 @@ without_verdicts() {
 }
 exec {messages}> >(without_verdicts)
 filter=$!
+exec {output}> >(trap '' INT TERM HUP && exec cat {messages}>&-)
+copy=$!
 
 # A session of its own: what the keyboard sends comes here and is handed on, at first to the ranks, since mpirun
 # of Open MPI 5 would end without what they say (and leaves them behind when it hears it twice).
@@ -43,14 +45,16 @@ hand_on() {
 trap 'hand_on 130' INT
 trap 'hand_on 143' TERM
 trap 'hand_on 129' HUP
-setsid mpirun "${options[@]}" "$@" <&0 2>&"$messages" {messages}>&- &
+# Ranks write past mpirun: that of Open MPI 5 drops the last words of a rank that ends with an exit code.
+past_mpirun='exec 1>>"$0/'$output'" 2>>"$0/'$messages'" && exec "$@"'
+setsid mpirun "${options[@]}" bash -c "$past_mpirun" "/proc/$$/fd" "$@" <&0 >&"$output" 2>&"$messages" {output}>&- {messages}>&- &
 mpirun=$!
-exec {messages}>&-
 wait "$mpirun" || code=$?
 while kill -0 "$mpirun" 2>/dev/null; do
   wait "$mpirun" || true # the first one was interrupted
 done
-wait "$filter" || true
+exec {output}>&- {messages}>&-
+wait "$filter" "$copy" || true
 [ "$interrupted" = 0 ] || exit "$interrupted"
 # the program's own codes end at 4, and ranks that are interrupted say so themselves
 why="a crash: please report it"

@@ -141,7 +141,10 @@ namespace mortise
       {
         MPI_Bcast(&code, 1, MPI_INT, reporter, agreement);
         if (me == reporter)
-          error << outcome.message << std::endl;
+          {
+            interruption::speak_first(); // mpirun may now end the others
+            error << outcome.message << std::endl;
+          }
       }
     MPI_Comm_free(&agreement);
     return code;
