@@ -62,6 +62,8 @@ namespace element_test
       GridTools::get_coarse_mesh_description(coarse);
     std::mt19937 random(seed);
     turn_cells(cells, random);
+    for (auto &cell : cells)
+      cell.manifold_id = numbers::flat_manifold_id;
     GridTools::consistently_order_cells(cells);
     triangulation.create_triangulation(vertices, cells, SubCellData());
   }

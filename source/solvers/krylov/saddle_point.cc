@@ -315,8 +315,10 @@ namespace mortise
     };
     // Again from what was reached: rounding makes the recursive residual drift
     // from the true one, and the energy of the error is only looked at here.
-    for (unsigned int start = 0; start < 5 && !accurate() &&
-                                 report.iterations < options.max_iterations;
+    // What is no number stays none.
+    for (unsigned int start = 0;
+         start < 5 && std::isfinite(reached) && !accurate() &&
+         report.iterations < options.max_iterations;
          ++start)
       {
         copy(r, all_r);
