@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace mortise
 {
@@ -44,6 +46,12 @@ namespace mortise
                 add(face.nodes[k], c, 1.);
               begin.push_back(index.size());
             }
+      }
+
+      bool
+      are_nodal() const
+      {
+        return !trace.nodes.empty();
       }
 
       Expansion
@@ -103,6 +111,12 @@ namespace mortise
         weight.assign(index.size(), 1.);
       }
 
+      bool
+      are_nodal() const
+      {
+        return false;
+      }
+
       Expansion
       component(const unsigned int c) const
       {
@@ -121,6 +135,20 @@ namespace mortise
       std::vector<Index>        index;
       std::vector<double>       weight;
     };
+
+    /// Calls visit(nodes) for the vertices, the edges and the inside of a face.
+    template <typename Visit>
+    void
+    for_each_entity(const TraceBasis &basis, const Visit &visit)
+    {
+      std::map<std::pair<unsigned int, unsigned int>, std::vector<unsigned int>>
+        entities;
+      for (unsigned int k = 0; k < basis.size(); ++k)
+        entities[{basis.functions[k].dimension, basis.functions[k].entity}]
+          .push_back(k);
+      for (const auto &entity : entities)
+        visit(entity.second);
+    }
 
     bool
     has_columns(const FaceTrace &trace, const unsigned int c)
@@ -210,45 +238,62 @@ namespace mortise
     {
       RowAssembler assembler(partition.owned_multiplier,
                              partition.owned_displacement);
-      // Calls visit(rows, side, its block, factor) for each side of each face.
-      const auto for_each_side = [&](const auto &visit) {
+      // Calls visit(row expansion, its size, column expansion, its size, block,
+      // factor) for all blocks.
+      const auto for_each_block = [&](const bool values, const auto &visit) {
         for_each_face(
           couplings, [&](const Coupling &coupling, const unsigned int s) {
             const auto          &rows  = coupling.multipliers->rows()[s];
             const LocalCoupling &local = coupling.local[s];
-            visit(rows, coupling.interface->slave().traces[s], local.mass, 1.);
+            const FaceTrace     &slave = coupling.interface->slave().traces[s];
+            const Columns        own(slave);
+            if (local.is_dual() && own.are_nodal())
+              for_each_entity(slave.basis(), [&](const auto &nodes) {
+                FullMatrix<double> block(nodes.size(), nodes.size());
+                for (unsigned int i = 0; i < nodes.size(); ++i)
+                  block(i, i) = local.weights[nodes[i]];
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    const ExpansionPart row(component(rows, c), nodes),
+                      column(own.component(c), nodes);
+                    visit(row(), column(), block, 1.);
+                  }
+              });
+            const auto all = [&](const FaceTrace          &side,
+                                 const FullMatrix<double> &block,
+                                 const double              factor) {
+              const Columns            columns(side);
+              const FullMatrix<double> in_columns =
+                values ? columns.in_columns(block) : block;
+              for (unsigned int c = 0; c < dim; ++c)
+                visit(component(rows, c),
+                      columns.component(c),
+                      in_columns,
+                      factor);
+            };
+            if (!(local.is_dual() && own.are_nodal()))
+              all(slave, local.constraint, 1.);
             for (const auto &partner : local.partners)
-              visit(rows,
-                    coupling.interface->master_traces()[partner.master],
-                    partner.mixed,
-                    -1.);
+              all(coupling.interface->master_traces()[partner.master],
+                  partner.constraint,
+                  -1.);
           });
       };
-      for_each_side([&](const auto      &rows,
-                        const FaceTrace &side,
-                        const auto      &block,
-                        const double) {
-        const Columns columns(side);
-        for (unsigned int c = 0; c < dim; ++c)
-          assembler.record(component(rows, c),
-                           block.m(),
-                           columns.component(c),
-                           side.n_functions());
-      });
+      for_each_block(false,
+                     [&](const Expansion          &row,
+                         const Expansion          &column,
+                         const FullMatrix<double> &block,
+                         const double) {
+                       assembler.record(row, block.m(), column, block.n());
+                     });
       assembler.allocate();
-      for_each_side([&](const auto      &rows,
-                        const FaceTrace &side,
-                        const auto      &block,
-                        const double     factor) {
-        const Columns             columns(side);
-        const FullMatrix<double> &in_columns = columns.in_columns(block);
-        for (unsigned int c = 0; c < dim; ++c)
-          assembler.add(component(rows, c),
-                        columns.component(c),
-                        in_columns,
-                        factor,
-                        false);
-      });
+      for_each_block(true,
+                     [&](const Expansion          &row,
+                         const Expansion          &column,
+                         const FullMatrix<double> &block,
+                         const double              factor) {
+                       assembler.add(row, column, block, factor, false);
+                     });
       assembler.create(matrix, partition.comm);
     }
   } // namespace

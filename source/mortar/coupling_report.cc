@@ -3,6 +3,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/mortar/coupling.h>
+#include <mortise/mortar/nodal_block.h>
 
 #include <algorithm>
 #include <cmath>
@@ -45,29 +46,42 @@ namespace mortise
           }
     }
 
+    /// int psi_i psi_j
+    double
+    multiplier_product(const LocalCoupling &local,
+                       const unsigned int   i,
+                       const unsigned int   j)
+    {
+      double sum = 0.;
+      for (unsigned int k = 0; k < local.mass.m(); ++k)
+        sum += local.constraint(i, k) * local.multiplier(j, k);
+      return sum;
+    }
+
     double
     row_difference(const Coupling    &coupling,
                    const unsigned int s,
                    const unsigned int i)
     {
       const LocalCoupling &local = coupling.local[s];
-      double               sum   = on_constants(local.mass,
+      double               sum   = on_constants(local.constraint,
                                 i,
                                 coupling.interface->slave().traces[s].basis());
       for (const auto &partner : local.partners)
         sum -= on_constants(
-          partner.mixed,
+          partner.constraint,
           i,
           coupling.interface->master_traces()[partner.master].basis());
       return sum;
     }
-    /// Of int |N_i|: the root of the area times that of int N_i^2.
+
+    /// Of int |psi_i|: the root of the area times that of int psi_i^2.
     double
     weight_bound(const Coupling    &coupling,
                  const unsigned int s,
                  const unsigned int i)
     {
-      return std::sqrt(coupling.local[s].mass(i, i)) *
+      return std::sqrt(multiplier_product(coupling.local[s], i, i)) *
              coupling.interface->slave().faces[s].size;
     }
 
@@ -109,7 +123,7 @@ namespace mortise
         auto *const          sum   = &sums[c * n_sums];
         sum[0](index) += std::fabs(w) * weight_bound(coupling, s, i);
         sum[1](index) +=
-          w * on_constants(local.mass,
+          w * on_constants(local.constraint,
                            i,
                            coupling.interface->slave().traces[s].basis());
         for (unsigned int d = 0; d < dim; ++d)
@@ -160,7 +174,7 @@ namespace mortise
           const double w) {
         const LocalCoupling &local = coupling.local[s];
         const double         row =
-          on_constants(local.mass,
+          on_constants(local.constraint,
                        i,
                        coupling.interface->slave().traces[s].basis());
         sums[difference](index) += w * row_difference(coupling, s, i);
@@ -197,9 +211,9 @@ namespace mortise
   }
 
   std::vector<std::vector<double>>
-  multiplier_on_faces(const Coupling &coupling,
-                      const Vector   &multiplier,
-                      const MPI_Comm  comm)
+  multiplier_coefficients(const Coupling &coupling,
+                          const Vector   &multiplier,
+                          const MPI_Comm  comm)
   {
     std::vector<std::vector<double>> coefficients;
     if (multiplier.size() == 0)
@@ -232,11 +246,22 @@ namespace mortise
   {
     for (unsigned int s = 0; s < coefficients.size(); ++s)
       {
-        const auto &rows = coupling.multipliers->rows()[s];
+        const auto        &rows  = coupling.multipliers->rows()[s];
+        const FaceTrace   &trace = coupling.interface->slave().traces[s];
+        const unsigned int n     = trace.n_functions();
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
           if (rows.begin[r + 1] == rows.begin[r] + 1)
             multiplier[rows.index[rows.begin[r]]] =
               coefficients[s][r] / rows.weight[rows.begin[r]];
+        const FullMatrix<double> &functions =
+          face_nodal_basis(trace.shape, trace.degree).functions;
+        for (const auto &[row, index] : rows.hierarchical)
+          {
+            double sum = 0.;
+            for (unsigned int k = 0; k < n; ++k)
+              sum += functions(row % n, k) * coefficients[s][row - row % n + k];
+            multiplier[index] = sum;
+          }
       }
   }
 
@@ -245,7 +270,8 @@ namespace mortise
                    const Vector   &multiplier,
                    const MPI_Comm  comm)
   {
-    const auto coefficients = multiplier_on_faces(coupling, multiplier, comm);
+    const auto coefficients =
+      multiplier_coefficients(coupling, multiplier, comm);
     Tensor<1, dim> force, moment;
     double         squared = 0.;
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
@@ -260,8 +286,8 @@ namespace mortise
                 {
                   value[c] = coefficients[s][c * n + i];
                   for (unsigned int j = 0; j < n; ++j)
-                    squared +=
-                      value[c] * local.mass(i, j) * coefficients[s][c * n + j];
+                    squared += value[c] * multiplier_product(local, i, j) *
+                               coefficients[s][c * n + j];
                 }
               force += row_difference(coupling, s, i) * value;
               moment += cross_product_3d(local.gap_moment[i], value);

@@ -1,6 +1,12 @@
+#include <deal.II/base/quadrature_lib.h>
+
+#include <deal.II/lac/vector.h>
+
 #include <mortise/mortar/local_coupling.h>
+#include <mortise/mortar/nodal_block.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace mortise
 {
@@ -77,23 +83,150 @@ namespace mortise
     /// part: doc/tuning.md.
     constexpr double largest_modulus_ratio = 100.;
 
+    /// Nodes with dual multipliers follow at no cost, so that they do wherever
+    /// that takes no more than one iteration: doc/tuning.md.
+    constexpr double       largest_dual_modulus_ratio = 4.;
+    constexpr unsigned int largest_dual_degree        = 4;
+
     bool
     leads(const InterfaceHandler &interface,
+          const LocalCoupling    &local,
           const unsigned int      s,
           const unsigned int      m)
     {
       const FaceTrace &slave  = interface.slave().traces[s];
       const FaceTrace &master = interface.master_traces()[m];
-      return !slave.nodes.empty() &&
-             slave.modulus <= largest_modulus_ratio * master.modulus &&
-             density(interface.slave().faces[s], slave) >
-               least_density_ratio(slave.degree) *
-                 density(interface.master_faces()[m], master);
+      if (slave.nodes.empty())
+        return false;
+      const double ratio = slave.modulus / master.modulus;
+      return (local.is_dual() && slave.degree <= largest_dual_degree &&
+              ratio <= largest_dual_modulus_ratio) ||
+             (ratio <= largest_modulus_ratio &&
+              density(interface.slave().faces[s], slave) >
+                least_density_ratio(slave.degree) *
+                  density(interface.master_faces()[m], master));
+    }
+
+    /// int phi_i over the area of an affine face, for those that have dual
+    /// multipliers.
+    double
+    reference_weight(const TraceBasis &basis, const unsigned int i)
+    {
+      if (basis.shape == FaceShape::triangle)
+        return 1. / basis.size();
+      // ends first, as functions are ordered
+      const QGaussLobatto<1> rule(basis.degree + 1);
+      double                 weight = 1.;
+      for (const unsigned int k :
+           {i % (basis.degree + 1), i / (basis.degree + 1)})
+        weight *= rule.weight(k == 0 ? 0 : k == 1 ? basis.degree : k - 1);
+      return weight;
+    }
+
+    /// Less of a face is not covered than rounding and the curvature of rims
+    /// leave open.
+    constexpr double covered_as_a_whole = 0.999;
+
+    /// Of the weights of dual multipliers: the least, over that on a face that
+    /// is affine.
+    constexpr double least_weight = 0.2;
+
+    /// int psi_i of dual multipliers; empty where some would not be positive.
+    std::vector<double>
+    dual_weights(const FullMatrix<double> &mass, const FaceTrace &trace)
+    {
+      if (trace.shape == FaceShape::triangle && trace.degree > 1)
+        return {};
+      const FaceNodalBasis &nodal = face_nodal_basis(trace.shape, trace.degree);
+      const TraceBasis     &basis = trace.basis();
+      // int phi_i = sum_j int N_j 1 F_ji; 1 is the sum over the functions of
+      // the vertices
+      dealii::Vector<double> ones(basis.size()), moments(ones), weights(ones);
+      for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+        ones(basis.vertex_function(v)) = 1.;
+      mass.vmult(moments, ones);
+      nodal.functions.Tvmult(weights, moments);
+      const double area = ones * moments;
+      for (unsigned int i = 0; i < weights.size(); ++i)
+        if (!(weights(i) > least_weight * area * reference_weight(basis, i)))
+          return {};
+      return {weights.begin(), weights.end()};
+    }
+
+    /// What follows from the integrals of shape functions.
+    void
+    set_multipliers(const FaceTrace &trace,
+                    const bool       dual,
+                    LocalCoupling   &local)
+    {
+      const FaceNodalBasis &nodal = face_nodal_basis(trace.shape, trace.degree);
+      const unsigned int    n     = local.mass.m();
+      if (dual)
+        local.weights = dual_weights(local.mass, trace);
+      if (local.is_dual())
+        {
+          // A F^T with A = W M^{-1}, M the mass matrix of the nodal functions,
+          // which is conditioned well
+          const BlockSide    side{trace.shape, trace.degree, trace.degree};
+          FullMatrix<double> inverse(n, n);
+          inverse.invert(nodal_block(local.mass, side, side));
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              inverse(i, j) *= local.weights[i];
+          local.multiplier.reinit(n, n);
+          inverse.mTmult(local.multiplier, nodal.functions);
+          // W N, since int psi_i phi_j = w_i delta_ij
+          local.constraint = nodal.values;
+          for (unsigned int i = 0; i < n; ++i)
+            for (unsigned int j = 0; j < n; ++j)
+              local.constraint(i, j) *= local.weights[i];
+        }
+      else
+        {
+          local.multiplier.copy_transposed(nodal.functions);
+          local.constraint.reinit(n, n);
+          local.multiplier.mmult(local.constraint, local.mass);
+        }
+      for (auto &partner : local.partners)
+        {
+          partner.constraint.reinit(n, partner.mixed.n());
+          local.multiplier.mmult(partner.constraint, partner.mixed);
+        }
+      for (auto *moments : {&local.gap_moment, &local.position_moment})
+        {
+          const std::vector<Tensor<1, dim>> of_functions = *moments;
+          for (unsigned int i = 0; i < n; ++i)
+            {
+              (*moments)[i] = Tensor<1, dim>();
+              for (unsigned int j = 0; j < n; ++j)
+                (*moments)[i] += local.multiplier(i, j) * of_functions[j];
+            }
+        }
+    }
+    /// Which partners lead, and the penalty that follows from it.
+    void
+    set_leaders(const InterfaceHandler &interface,
+                const unsigned int      s,
+                LocalCoupling          &local)
+    {
+      local.penalty = std::numeric_limits<double>::infinity();
+      for (auto &partner : local.partners)
+        {
+          partner.leads           = leads(interface, local, s, partner.master);
+          const FaceTrace &slave  = interface.slave().traces[s];
+          const FaceTrace &master = interface.master_traces()[partner.master];
+          local.penalty =
+            std::min(local.penalty,
+                     1. / (compliance(slave) +
+                           (partner.leads ? 0. : compliance(master))));
+        }
     }
   } // namespace
 
   std::vector<LocalCoupling>
-  integrate_coupling(InterfaceHandler &interface, const bool with_master_mass)
+  integrate_coupling(InterfaceHandler     &interface,
+                     const bool            with_master_mass,
+                     const MultiplierBasis basis)
   {
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
     FullMatrix<double> slave_values, master_values, weighted, places, moment;
@@ -107,17 +240,12 @@ namespace mortise
       const unsigned int     n_slave = slave.n_functions();
       LocalCoupling::Partner partner;
       partner.master = m;
-      partner.leads  = leads(interface, s, m);
-      const double pair_penalty =
-        1. / (compliance(slave) + (partner.leads ? 0. : compliance(master)));
       if (local.partners.empty())
         {
           local.mass.reinit(n_slave, n_slave);
           local.gap_moment.resize(n_slave);
           local.position_moment.resize(n_slave);
-          local.penalty = pair_penalty;
         }
-      local.penalty = std::min(local.penalty, pair_penalty);
 
       partner.mixed.reinit(n_slave, master.n_functions());
       if (with_master_mass)
@@ -155,6 +283,15 @@ namespace mortise
           }
       local.partners.push_back(std::move(partner));
     });
+    for (unsigned int s = 0; s < couplings.size(); ++s)
+      if (!couplings[s].partners.empty())
+        {
+          set_multipliers(interface.slave().traces[s],
+                          basis == MultiplierBasis::dual &&
+                            interface.coverage()[s] > covered_as_a_whole,
+                          couplings[s]);
+          set_leaders(interface, s, couplings[s]);
+        }
     return couplings;
   }
 } // namespace mortise

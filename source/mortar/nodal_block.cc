@@ -3,6 +3,9 @@
 #include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/mortar/nodal_block.h>
 
+#include <map>
+#include <utility>
+
 namespace mortise
 {
   using namespace dealii;
@@ -86,6 +89,24 @@ namespace mortise
       return result;
     }
   } // namespace
+
+  const FaceNodalBasis &
+  face_nodal_basis(const FaceShape shape, const unsigned int degree)
+  {
+    static std::map<std::pair<FaceShape, unsigned int>, FaceNodalBasis> known;
+    FaceNodalBasis &result = known[{shape, degree}];
+    if (result.values.m() == 0)
+      {
+        const unsigned int n = trace_basis(shape, degree).size();
+        result.functions.copy_transposed(
+          nodal_block(FullMatrix<double>(IdentityMatrix(n)),
+                      {shape, degree, degree},
+                      {shape, degree, 0}));
+        result.values.reinit(n, n);
+        result.values.invert(result.functions);
+      }
+    return result;
+  }
 
   FullMatrix<double>
   resolve_hanging(FullMatrix<double> A,

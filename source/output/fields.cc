@@ -255,8 +255,7 @@ namespace mortise
       return vector;
     }
 
-    /// Gap by local L2 projection on each face: mass^{-1} int N_i (x_master -
-    /// x_slave).
+    /// Gap by local projection on each face: that of x_master - x_slave, as multipliers see it.
     std::vector<std::vector<double>>
     gap_coefficients(const Coupling &coupling)
     {
@@ -268,7 +267,7 @@ namespace mortise
             const auto        &local = coupling.local[s];
             const unsigned int n     = local.mass.m();
             FullMatrix<double> inverse(n, n);
-            inverse.invert(local.mass);
+            inverse.invert(local.constraint);
             result[s].assign(dim * n, 0.);
             for (unsigned int i = 0; i < n; ++i)
               for (unsigned int j = 0; j < n; ++j)

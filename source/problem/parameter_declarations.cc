@@ -75,8 +75,10 @@ namespace mortise
                   Allowed::one_of({"tie"}));
       section.add("Multiplier",
                   interface.multiplier,
-                  "Space of the Lagrange multiplier (the traction).",
-                  Allowed::one_of({"standard"}));
+                  "Space of the Lagrange multiplier (the traction): standard, the slave's traces, or dual, as many "
+                  "functions biorthogonal to those of the slave's nodes, which are eliminated at no cost; triangles "
+                  "have them at degree 1 only, and get standard ones above.",
+                  Allowed::one_of({"standard", "dual"}));
       section.add(
         "Search distance",
         interface.search_distance,

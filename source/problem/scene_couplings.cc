@@ -45,11 +45,14 @@ namespace mortise
   }
 
   void
-  SceneCouplings::integrate(Coupling &coupling) const
+  SceneCouplings::integrate(const InterfaceParameters &given,
+                            Coupling                  &coupling) const
   {
     coupling.local =
       integrate_coupling(*coupling.interface,
-                         spaces.choice.method != SolverMethod::direct);
+                         spaces.choice.method != SolverMethod::direct,
+                         given.multiplier == "dual" ? MultiplierBasis::dual :
+                                                      MultiplierBasis::standard);
   }
 
   void
@@ -106,7 +109,7 @@ namespace mortise
     std::string balance;
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
-        integrate(couplings[i]);
+        integrate(interfaces[i], couplings[i]);
         const InterfaceReport &report = couplings[i].interface->report();
         clipping += report.clipping_seconds;
         if (const unsigned int n_ranks =

@@ -155,7 +155,7 @@ namespace mortise
         tried[i] = true;
         std::swap(given.slave, given.master);
         Coupling other = make_coupling(given);
-        integrate(other);
+        integrate(given, other);
         std::swap(couplings[i], other);
         number_multipliers();
         const auto other_ties = tie_supports();

@@ -209,7 +209,7 @@ namespace mortise
       {
         mortise::write_checkpoint(
           parameters.output.directory,
-          {to_text(checkpoint), fields.solutions, fields.tractions},
+          {to_text(checkpoint), fields.solutions, fields.multipliers},
           bodies,
           discretisation->interfaces().all(),
           context.comm);

@@ -12,8 +12,13 @@ namespace mortise
     StepFields fields;
     fields.solutions = discretisation.solutions(solved.load, solved.solution);
     for (const Coupling &coupling : discretisation.interfaces().all())
-      fields.tractions.push_back(
-        multiplier_on_faces(coupling, solved.solution.multiplier, run.comm));
+      {
+        const Vector &multiplier = solved.solution.multiplier;
+        fields.tractions.push_back(
+          multiplier_on_faces(coupling, multiplier, run.comm));
+        fields.multipliers.push_back(
+          multiplier_coefficients(coupling, multiplier, run.comm));
+      }
     return fields;
   }
 

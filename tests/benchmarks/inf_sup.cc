@@ -129,7 +129,10 @@ namespace
       multiplier_inf_sup(read_body(options, "", "0,0,0,1,1,0.5"),
                          read_body(options, "master_", "0,0,0.5,1,1,1"),
                          options.value("reduced", 1) == 1,
-                         space);
+                         space,
+                         options.value("dual", 0) == 1 ?
+                           MultiplierBasis::dual :
+                           MultiplierBasis::standard);
     std::printf("{\"multipliers\": %u, \"beta\": %.6g, \"slave\": %.6g}\n",
                 result.multipliers,
                 result.beta,

@@ -64,6 +64,9 @@ def block_cases():
             for rim in ("slave", "master"):
                 if (n, m) in ((3, 2), (2, 3)) and p <= 4:
                     yield "block", tie(p, layer(n), layer(m), rim)
+            for rim in ("free", "both"):
+                if (n, m) in ((3, 2), (2, 3), (2, 4), (4, 2)) and p <= min(top, 4):
+                    yield "dual", tie(p, layer(n), layer(m), rim, dual=1)
             if (n, m) in ((3, 2), (2, 4)) and p <= 4:
                 yield "unreduced", tie(p, layer(n), layer(m), "both", reduced=0)
     for rim in ("free", "both"):
@@ -75,6 +78,7 @@ def block_cases():
                 yield "shapes", tie(p, layer(3), layer(2), rim, cells=shapes[0], master_cells=shapes[1])
         for rim in ("free", "both"):
             yield "distorted tie", tie(p, layer(3), layer(2), rim, distort=0.2, master_distort=0.2)
+            yield "distorted dual", tie(p, layer(3), layer(2), rim, distort=0.2, master_distort=0.2, dual=1)
 
 
 def strip_cases():

@@ -98,6 +98,10 @@ def multiplier_tables(rows):
     yield "### Tetrahedra, and vertices moved by up to 0.2 edges; 3 on 2\n"
     yield by_degree(pick(rows, "shapes", "distorted tie"), "",
                     lambda r: (f"{r['cells']} on {r['master_cells']}" if r["cells"] else "distorted hexahedra") + ", " + rim(r))
+    yield "### Dual multipliers, squares\n"
+    for state in ("free", "both clamped"):
+        yield by_degree([r for r in pick(rows, "dual") if rim(r) == state], f"n on m, {state}", pair)
+    yield by_degree(pick(rows, "distorted dual"), "3 on 2", lambda r: "distorted hexahedra, " + rim(r))
     yield "### A norm from a still richer space: 3 on 2, p = 1 with cells halved twice, p = 4 with degree p + 4\n"
     yield by_degree(pick(rows, "norm"), "", rim)
     yield "### Multipliers that ignore clamped rims\n"

@@ -20,12 +20,10 @@ namespace mortise::testing
   mortise::Vector
   multiplier(const TiedScene &scene, const Field &q)
   {
-    mortise::Vector u = scene.displacement(), result = scene.multiplier();
-    scene.interpolate(0, q, u);
-    const auto &dofs = scene.coupling().multipliers->slave_dofs();
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      result(scene.owned_multiplier.nth_index_in_set(i)) =
-        u(scene.field.numbering(0, dofs[i]));
+    mortise::Vector result = scene.multiplier();
+    set_multiplier(scene.coupling(),
+                   values_at_nodes(scene.coupling().interface->slave(), q),
+                   result);
     result.compress(VectorOperation::insert);
     return result;
   }

@@ -100,12 +100,17 @@ namespace mortise::testing
               {
                 const Point<2> &xi = rule.point(q);
                 basis.evaluate(xi[0], xi[1], values.data());
+                const auto         &psi = scene.coupling().local[s].multiplier;
+                std::vector<double> multipliers(basis.size());
+                for (unsigned int i = 0; i < basis.size(); ++i)
+                  for (unsigned int j = 0; j < basis.size(); ++j)
+                    multipliers[i] += psi(i, j) * values[j];
                 std::map<Index, Tensor<1, dim>> row;
                 for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
                   for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1];
                        ++e)
                     row[rows.index[e]][r / basis.size()] +=
-                      rows.weight[e] * values[r % basis.size()];
+                      rows.weight[e] * multipliers[r % basis.size()];
                 visit(face_point(slave.faces[s], xi), row, rule.weight(q));
               }
           }

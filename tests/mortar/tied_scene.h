@@ -10,6 +10,7 @@
 #include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/coupling.h>
+#include <mortise/mortar/nodal_block.h>
 #include <mortise/operators/scene_system.h>
 
 #include <functional>
@@ -59,6 +60,37 @@ namespace mortise::testing
     return points;
   }
 
+  /// By slave face, the values at its nodes: entry c n + k of component c at node k of n. @p function: a polynomial that the
+  /// faces' functions have.
+  inline std::vector<std::vector<double>>
+  values_at_nodes(const BodySurface &slave, const Field &function)
+  {
+    std::vector<std::vector<double>> result;
+    for (unsigned int s = 0; s < slave.faces.size(); ++s)
+      {
+        const TraceBasis  &basis  = slave.traces[s].basis();
+        const auto         points = face_lattice(basis);
+        const unsigned int n      = points.size();
+        // functions by values at the lattice, then values at the nodes
+        dealii::FullMatrix<double> at_points(n, n), inverse(n, n),
+          to_nodes(n, n);
+        for (unsigned int q = 0; q < n; ++q)
+          basis.evaluate(points[q][0], points[q][1], &at_points(q, 0));
+        inverse.invert(at_points);
+        face_nodal_basis(basis.shape, basis.degree)
+          .values.mmult(to_nodes, inverse);
+        result.emplace_back(dim * n, 0.);
+        for (unsigned int q = 0; q < n; ++q)
+          {
+            const auto value = function(face_point(slave.faces[s], points[q]));
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int k = 0; k < n; ++k)
+                result[s][c * n + k] += to_nodes(k, q) * value[c];
+          }
+      }
+    return result;
+  }
+
   /// A Gauss rule on the reference face, exact for degree 2 n - 2.
   inline dealii::Quadrature<2>
   face_rule(const FaceShape shape, const unsigned int n)
@@ -82,10 +114,11 @@ namespace mortise::testing
   public:
     /// The slave, body 0, and the master, body 1. @p nodal: with B in values at
     /// nodes, as for solvers without a matrix.
-    TiedScene(const TiedBody &slave,
-              const TiedBody &master,
-              const MPI_Comm  comm  = MPI_COMM_WORLD,
-              const bool      nodal = false)
+    TiedScene(const TiedBody       &slave,
+              const TiedBody       &master,
+              const MPI_Comm        comm  = MPI_COMM_WORLD,
+              const bool            nodal = false,
+              const MultiplierBasis basis = MultiplierBasis::standard)
       : comm(comm)
       , given{slave, master}
     {
@@ -99,7 +132,7 @@ namespace mortise::testing
       field.constraints = scene_constraints(field.numbering, constraints);
       if (nodal)
         spaces = make_nodal_spaces({bodies[0].get(), bodies[1].get()}, comm);
-      create_coupling();
+      create_coupling(basis);
     }
 
     dealii::types::boundary_id
@@ -211,7 +244,7 @@ namespace mortise::testing
     }
 
     void
-    create_coupling()
+    create_coupling(const MultiplierBasis basis)
     {
       const auto side = [&](const unsigned int b) {
         return extract_surface(
@@ -221,7 +254,7 @@ namespace mortise::testing
       Coupling &coupling = couplings[0];
       coupling.interface = std::make_unique<InterfaceHandler>(
         "glue", side(0), side(1), InterfaceOptions(), comm);
-      coupling.local = integrate_coupling(*coupling.interface, true);
+      coupling.local = integrate_coupling(*coupling.interface, true, basis);
       states         = partner_states(couplings)[0];
 
       std::vector<bool> blocked;

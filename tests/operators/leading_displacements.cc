@@ -69,7 +69,9 @@ namespace mortise::testing
                                            side(swap ? 0 : 1),
                                            InterfaceOptions(),
                                            MPI_COMM_WORLD);
-      couplings[0].local = integrate_coupling(*couplings[0].interface, true);
+      couplings[0].local = integrate_coupling(*couplings[0].interface,
+                                              true,
+                                              MultiplierBasis::standard);
       level              = make_nodal_level(std::move(spaces[0]),
                                0,
                                scene.fields.displacement.numbering,

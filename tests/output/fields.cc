@@ -292,12 +292,12 @@ namespace mortise::testing
        {}},
       master,
       comm);
-    mortise::Vector lambda = scene.multiplier(), u = scene.displacement();
-    scene.interpolate(0, Polynomial{p}, u);
-    const auto &dofs = scene.coupling().multipliers->slave_dofs();
-    for (unsigned int i = 0; i < dofs.size(); ++i)
-      lambda(scene.owned_multiplier.nth_index_in_set(i)) =
-        u(scene.field.numbering(0, dofs[i]));
+    mortise::Vector lambda = scene.multiplier();
+    set_multiplier(scene.coupling(),
+                   values_at_nodes(scene.coupling().interface->slave(),
+                                   Polynomial{p}),
+                   lambda);
+    lambda.compress(VectorOperation::insert);
     write_interface_fields(*scene.bodies[0],
                            scene.coupling(),
                            multiplier_on_faces(scene.coupling(), lambda, comm),

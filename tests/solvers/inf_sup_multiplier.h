@@ -133,9 +133,10 @@ namespace mortise::testing
   {
   public:
     /// @p reduced: whether the multiplier space hears of the conditions.
-    InfSupInterface(const InfSupBody &slave,
-                    const InfSupBody &master,
-                    const bool        reduced)
+    InfSupInterface(const InfSupBody     &slave,
+                    const InfSupBody     &master,
+                    const bool            reduced,
+                    const MultiplierBasis basis)
     {
       std::vector<const dealii::DoFHandler<dim> *> handlers;
       for (const InfSupBody *given : {&slave, &master})
@@ -146,7 +147,7 @@ namespace mortise::testing
           open.back().copy_from(make_constraints(*bodies.back(), *given));
         }
       numbering = FieldNumbering(handlers, MPI_COMM_WORLD);
-      couple(reduced);
+      couple(reduced, basis);
       for (auto &constraints : open)
         constraints.close();
     }
@@ -194,7 +195,7 @@ namespace mortise::testing
 
   private:
     void
-    couple(const bool reduced)
+    couple(const bool reduced, const MultiplierBasis basis)
     {
       const auto scene   = scene_constraints(numbering, open);
       const auto surface = [&](const unsigned int b, const std::string &name) {
@@ -211,7 +212,7 @@ namespace mortise::testing
                                            surface(1, "zmin"),
                                            InterfaceOptions(),
                                            MPI_COMM_WORLD);
-      coupling.local = integrate_coupling(*coupling.interface, false);
+      coupling.local = integrate_coupling(*coupling.interface, false, basis);
       std::vector<bool> blocked(bodies[0]->dof_handler.n_dofs(), false);
       if (reduced)
         for (unsigned int i = 0; i < blocked.size(); ++i)
@@ -254,12 +255,13 @@ namespace mortise::testing
 
   /// In component x, flat interface zmax of the slave's box.
   inline MultiplierInfSup
-  multiplier_inf_sup(const InfSupBody &slave,
-                     const InfSupBody &master,
-                     const bool        reduced = true,
-                     const NormSpace  &space   = {})
+  multiplier_inf_sup(const InfSupBody     &slave,
+                     const InfSupBody     &master,
+                     const bool            reduced = true,
+                     const NormSpace      &space   = {},
+                     const MultiplierBasis basis   = MultiplierBasis::standard)
   {
-    const InfSupInterface pair(slave, master, reduced);
+    const InfSupInterface pair(slave, master, reduced, basis);
     DenseMatrix           S_slave = pair.schur(0, 0), S = pair.schur(1, 0);
     S.add(1., S_slave);
 
@@ -273,7 +275,7 @@ namespace mortise::testing
       box[2] = top;
       for (auto &n : rich.mesh.subdivisions)
         n <<= space.halvings;
-      return InfSupInterface(slave, rich, reduced).schur(1, 0);
+      return InfSupInterface(slave, rich, reduced, basis).schur(1, 0);
     };
     const DenseMatrix N_slave = norm(slave.clamped);
     DenseMatrix       N       = N_slave;

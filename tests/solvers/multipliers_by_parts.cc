@@ -66,8 +66,8 @@ namespace
   check_stiff_slave()
   {
     const StepSummary step = run_scene(two_layers(true),
-                                       {"Body inner/Degree=2",
-                                        "Body outer/Degree=2",
+                                       {"Body inner/Degree=4",
+                                        "Body outer/Degree=4",
                                         "Body inner/Mesh/Subdivisions=8, 1",
                                         "Body outer/Mesh/Subdivisions=3, 3",
                                         "Body inner/Material/Young modulus=1e7",

@@ -102,16 +102,23 @@ namespace mortise
                    const Vector   &multiplier,
                    MPI_Comm        comm);
 
-  /// Coefficients of the multiplier on the slave faces of this rank: by slave
-  /// face, entry c (degree + 1)^2 + k as in FaceTrace. Collective.
+  /// Coefficients of the multiplier on the slave faces of this rank, those of
+  /// psi_k, by slave face: entry c (degree + 1)^2 + k. Collective.
+  std::vector<std::vector<double>>
+  multiplier_coefficients(const Coupling &coupling,
+                          const Vector   &multiplier,
+                          MPI_Comm        comm);
+
+  /// The multiplier as polynomials on the slave faces of this rank, which do
+  /// the same work on the slave: by slave face, entry c (degree + 1)^2 + k as
+  /// in FaceTrace. Dual multipliers jump from face to face and say less of the
+  /// traction than the forces on the slave do. Collective.
   std::vector<std::vector<double>>
   multiplier_on_faces(const Coupling &coupling,
                       const Vector   &multiplier,
                       MPI_Comm        comm);
 
-  /// What undoes multiplier_on_faces(): sets the multipliers of @p coupling that stand alone in
-  /// some coefficient; others are left as they are. The caller compresses
-  /// (insert).
+  /// What undoes multiplier_coefficients(). The caller compresses (insert).
   void
   set_multiplier(const Coupling                         &coupling,
                  const std::vector<std::vector<double>> &coefficients,

@@ -1,5 +1,14 @@
-// Integrals of shape functions over one slave face and its partners: the local
-// blocks of D and M. They are the same for the three components.
+// Integrals over one slave face and its partners: of shape functions, and of
+// multipliers, which are the local blocks of D and M. They are the same for the
+// three components.
+//
+// Multipliers belong to the nodes of the slave face (Gauss-Lobatto points on
+// quadrilaterals). Standard ones are the nodal functions phi_i themselves. Dual
+// ones are psi = A phi with A = W M^{-1}, M = int phi phi^T, W = diag(int
+// phi_i), so that int psi_i phi_j = w_i delta_ij and the sum of all is 1: see
+// Lamichhane and Wohlmuth (2007). They take the place of standard ones on faces
+// that are covered as a whole and whose weights w_i are all positive:
+// quadrilaterals that are not distorted too much, and triangles of degree 1.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -10,8 +19,14 @@
 
 namespace mortise
 {
-  /// Integrals over the covered part of one slave face. Functions are those of
-  /// FaceTrace.
+  enum class MultiplierBasis : unsigned char
+  {
+    standard,
+    dual
+  };
+
+  /// Integrals over the covered part of one slave face. Functions N are those
+  /// of FaceTrace, multipliers psi one for each node.
   struct LocalCoupling
   {
     struct Partner
@@ -23,21 +38,34 @@ namespace mortise
       dealii::FullMatrix<double> mixed; ///< int N_i^slave N_j^master
       dealii::FullMatrix<double>
         mass; ///< int N_i^master N_j^master; empty unless asked for
+      dealii::FullMatrix<double> constraint; ///< int psi_i N_j^master
     };
 
     dealii::FullMatrix<double>
       mass; ///< int N_i^slave N_j^slave; empty: no partner
+    /// psi_i = sum_j multiplier_ij N_j.
+    dealii::FullMatrix<double> multiplier;
+    dealii::FullMatrix<double> constraint; ///< int psi_i N_j^slave
+    /// Dual multipliers: int psi_i; else empty.
+    std::vector<double> weights;
     std::vector<dealii::Tensor<1, dim>>
-      gap_moment; ///< int N_i^slave (x_master - x_slave)
-    std::vector<dealii::Tensor<1, dim>>
-                         position_moment; ///< int N_i^slave x_slave
-    std::vector<Partner> partners;
-    double               penalty =
-      0.; ///< scale of jump penalties: 2.5 E / h of the softer side, or of the
-          ///< slave where a master leads, since it is what moves
+      gap_moment; ///< int psi_i (x_master - x_slave)
+    std::vector<dealii::Tensor<1, dim>> position_moment; ///< int psi_i x_slave
+    std::vector<Partner>                partners;
+    double                              penalty =
+      0.; ///< scale of jump penalties: about E / h of the softer side, or of
+          ///< the slave where a master leads, since it is what moves
+
+    bool
+    is_dual() const
+    {
+      return !weights.empty();
+    }
   };
 
   /// Clip @p interface and integrate; one entry per slave face. Collective.
   std::vector<LocalCoupling>
-  integrate_coupling(InterfaceHandler &interface, bool with_master_mass);
+  integrate_coupling(InterfaceHandler &interface,
+                     bool              with_master_mass,
+                     MultiplierBasis   basis);
 } // namespace mortise

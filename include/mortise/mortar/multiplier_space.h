@@ -27,6 +27,7 @@
 #include <mortise/mortar/multiplier_faces.h>
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace mortise
@@ -36,13 +37,17 @@ namespace mortise
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Multipliers on one face: value_c(xi) = sum_k N_k(xi) sum_j weight_j
-    /// lambda_index_j with row = c (degree + 1)^2 + k as in FaceTrace.
+    /// Multipliers on one face: value_c(xi) = sum_k psi_k(xi) sum_j weight_j
+    /// lambda_index_j with row = c (degree + 1)^2 + k, k the nodes of the face,
+    /// psi as in LocalCoupling. Most nodes have a multiplier of their own.
     struct FaceRows
     {
       std::vector<unsigned int> begin;
       std::vector<Index>  index; ///< numbering of all multipliers of the scene
       std::vector<double> weight;
+      /// Those that are coefficients of hierarchical functions instead: their
+      /// row, numbered as those of values, and multiplier.
+      std::vector<std::pair<unsigned int, Index>> hierarchical;
       /// By component: is there a multiplier that is one on the whole face? If
       /// not, constant tractions do not pass.
       std::array<bool, dim> hold_constants{};

@@ -25,6 +25,19 @@ namespace mortise
               const BlockSide                  &rows,
               const BlockSide                  &columns);
 
+  /// The nodal functions of a face: N, the values of the hierarchical functions
+  /// at the nodes (node, function), and F = N^{-1}, which expands the nodal
+  /// functions in the hierarchical ones (function, node). Both are block
+  /// triangular, vertices in front of edges in front of what is inside.
+  struct FaceNodalBasis
+  {
+    dealii::FullMatrix<double> values, functions;
+  };
+
+  /// Made once for each shape and degree.
+  const FaceNodalBasis &
+  face_nodal_basis(FaceShape shape, unsigned int degree);
+
   /// F_r^T A F_c where F_r, F_c say how the values at the nodes of the rows'
   /// and the columns' face follow from those of others; as it is where none
   /// hangs.

@@ -24,6 +24,39 @@ namespace mortise
     unsigned int                                        offset;
   };
 
+  /// Some of the functions of an expansion.
+  class ExpansionPart
+  {
+  public:
+    ExpansionPart(const Expansion                 &all,
+                  const std::vector<unsigned int> &functions)
+      : begin(1)
+    {
+      for (const unsigned int i : functions)
+        {
+          for (unsigned int e = all.begin[all.offset + i];
+               e < all.begin[all.offset + i + 1];
+               ++e)
+            {
+              index.push_back(all.index[e]);
+              weight.push_back(all.weight[e]);
+            }
+          begin.push_back(index.size());
+        }
+    }
+
+    Expansion
+    operator()() const
+    {
+      return {begin, index, weight, 0};
+    }
+
+  private:
+    std::vector<unsigned int>                    begin;
+    std::vector<dealii::types::global_dof_index> index;
+    std::vector<double>                          weight;
+  };
+
   /// Entries sum_ij (row expansion of i) block_ij (column expansion of j).
   /// First the places of all blocks are recorded, then their entries added.
   class RowAssembler

@@ -19,7 +19,7 @@ namespace mortise
     /// By body, with ghost values.
     std::vector<BodySolution> solutions;
 
-    /// By interface and owned slave face, as of multiplier_on_faces().
+    /// By interface and owned slave face, as of multiplier_coefficients().
     std::vector<std::vector<std::vector<double>>> multipliers;
   };
 

@@ -76,7 +76,7 @@ namespace mortise
     SideParameters slave; ///< carries the multiplier
     SideParameters master;
     std::string    law               = "tie";
-    std::string    multiplier        = "standard";
+    std::string    multiplier        = "dual";
     double         search_distance   = 0.5;
     unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
   };

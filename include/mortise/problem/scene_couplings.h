@@ -67,7 +67,7 @@ namespace mortise
     Coupling
     make_coupling(const InterfaceParameters &given) const;
     void
-    integrate(Coupling &coupling) const;
+    integrate(const InterfaceParameters &given, Coupling &coupling) const;
     /// Throws or warns where the surfaces of interface @p i do not meet.
     void
     check_overlap(unsigned int i) const;

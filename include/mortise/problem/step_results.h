@@ -14,6 +14,8 @@ namespace mortise
     std::vector<BodySolution> solutions; ///< by body
     std::vector<std::vector<std::vector<double>>>
       tractions; ///< by interface and slave face, see multiplier_on_faces()
+    std::vector<std::vector<std::vector<double>>>
+      multipliers; ///< likewise, see multiplier_coefficients()
   };
 
   struct SolvedStep

@@ -109,6 +109,16 @@ namespace mortise
         is_free = 1.;
         for (const unsigned int index : level.constrained)
           is_free.local_element(index) = 0.;
+        // one number for a node: that of a component that is not constrained,
+        // where it is no more than a 1
+        for (unsigned int i = 0; i < diagonal.locally_owned_size(); i += dim)
+          {
+            double of_node = 0.;
+            for (unsigned int c = 0; c < dim; ++c)
+              if (is_free.local_element(i + c) > 0.)
+                of_node = stiffness.local_element(i + c);
+            stiffness.local_element(i) = of_node;
+          }
         for (const auto *vector :
              {&stiffness, &n_faces, &n_interfaces, &is_free})
           vector->update_ghost_values();

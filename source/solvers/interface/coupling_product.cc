@@ -1,11 +1,12 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/operators/matrix_free/tensor_kernel.h>
+#include <mortise/solvers/interface/coupling_clusters.h>
 #include <mortise/solvers/interface/coupling_product.h>
 #include <mortise/solvers/register_blocks.h>
 
 #include <algorithm>
-#include <iterator>
+#include <array>
 
 namespace mortise
 {
@@ -13,57 +14,20 @@ namespace mortise
 
   namespace
   {
-    /// Each column of a block, which is gathered and scattered, counts as so
-    /// many entries: with 6, 16 and 40 products take the same time, with 0, an
-    /// entity for a block, two and a half times as long in the smallest scenes.
-    constexpr double entries_per_column = 8.;
-
-    /// Neighbouring rows that are one block, since they move nearly the same
-    /// nodes.
-    struct Cluster
+    /// Calls visit(k, index in a padded row) for the nodes of a block.
+    template <typename Block, typename Visit>
+    void
+    for_each_node(const Block       &block,
+                  const CoupledNodes which,
+                  const Visit       &visit)
     {
-      std::size_t               begin = 0, end = 0; ///< of shared rows
-      int                       n_rows = 0;
-      std::vector<unsigned int> nodes; ///< ascending
-
-      static double
-      work(const double n_rows, const double n_columns)
-      {
-        return (n_rows + entries_per_column) * n_columns;
-      }
-
-      /// Unless that takes longer than apart.
-      bool
-      add(const SharedRows &rows)
-      {
-        std::vector<unsigned int> united;
-        std::set_union(nodes.begin(),
-                       nodes.end(),
-                       rows.nodes.begin(),
-                       rows.nodes.end(),
-                       std::back_inserter(united));
-        if (end > begin &&
-            work(n_rows + rows.n_rows, united.size()) >
-              work(n_rows, nodes.size()) + work(rows.n_rows, rows.nodes.size()))
-          return false;
-        nodes = std::move(united);
-        n_rows += rows.n_rows;
-        ++end;
-        return true;
-      }
-    };
-
-    std::vector<Cluster>
-    make_clusters(const std::vector<const SharedRows *> &all)
-    {
-      std::vector<Cluster> result;
-      for (std::size_t s = 0; s < all.size(); ++s)
-        if (result.empty() || !result.back().add(*all[s]))
-          {
-            result.push_back({s, s, 0, {}});
-            result.back().add(*all[s]);
-          }
-      return result;
+      for (unsigned int k = 0; k < block.n_following; ++k)
+        visit(k, k);
+      if (which == CoupledNodes::following)
+        return;
+      const unsigned int first = block.width(CoupledNodes::following);
+      for (unsigned int k = block.n_following; k < block.nodes.size(); ++k)
+        visit(k, first + k - block.n_following);
     }
   } // namespace
 
@@ -73,7 +37,7 @@ namespace mortise
     : n_components(rows.moved.n_components)
   {
     make_layout(system, rows);
-    make_blocks(rows);
+    make_blocks(rows, leading_nodes(system, rows));
   }
 
   template <typename Number>
@@ -81,11 +45,7 @@ namespace mortise
   CouplingProduct<Number>::make_layout(const BlockSystem  &system,
                                        const CouplingRows &rows)
   {
-    IndexSet touched(system.owned_displacement.size());
-    for (const int column : rows.moved.column_of_value)
-      if (column >= 0)
-        touched.add_index(rows.matrix.GCID(column));
-    touched.compress();
+    const IndexSet      touched = touched_displacements(system, rows);
     LevelVector<double> number(system.owned_displacement,
                                touched,
                                system.communicator);
@@ -128,48 +88,79 @@ namespace mortise
   }
 
   template <typename Number>
-  void
-  CouplingProduct<Number>::make_blocks(const CouplingRows &rows)
+  unsigned int
+  CouplingProduct<Number>::Block::width(const CoupledNodes which) const
   {
-    std::vector<const SharedRows *> all;
+    const unsigned int following = padded<Number>(n_following);
+    return which == CoupledNodes::following ?
+             following :
+             following + padded<Number>(nodes.size() - n_following);
+  }
+
+  template <typename Number>
+  void
+  CouplingProduct<Number>::make_blocks(const CouplingRows      &rows,
+                                       const std::vector<bool> &leads)
+  {
+    std::vector<SplitRows> all;
     for (const auto &of_entity : rows.rows)
       for (const SharedRows &shared : of_entity)
-        all.push_back(&shared);
+        all.emplace_back(shared, leads);
     const auto  clusters = make_clusters(all);
     std::size_t size = 0, widest = 0;
-    for (const Cluster &cluster : clusters)
+    for (const CouplingCluster &cluster : clusters)
       {
-        Block &block = blocks.emplace_back();
-        block.nodes  = cluster.nodes;
+        Block &block      = blocks.emplace_back();
+        block.nodes       = cluster.nodes[0];
+        block.n_following = block.nodes.size();
+        block.nodes.insert(block.nodes.end(),
+                           cluster.nodes[1].begin(),
+                           cluster.nodes[1].end());
         for (auto s = cluster.begin; s < cluster.end; ++s)
-          for (int r = 0; r < all[s]->n_rows; ++r)
-            for (unsigned int c = 0; c < n_components; ++c)
-              if (const int first = all[s]->first_row[c]; first < 0)
-                block.rows.push_back(-1);
-              else
-                block.rows.push_back(first + r);
-        const std::size_t width = padded<Number>(block.nodes.size());
-        size += block.rows.size() / n_components * width;
+          {
+            const SharedRows  &shared  = *all[s].shared;
+            const unsigned int n_nodes = shared.nodes.size();
+            for (int r = 0; r < shared.n_rows; ++r)
+              {
+                for (unsigned int c = 0; c < n_components; ++c)
+                  if (const int first = shared.first_row[c]; first < 0)
+                    block.rows.push_back(-1);
+                  else
+                    block.rows.push_back(first + r);
+                const int own = all[s].own[r];
+                block.own_node.push_back(
+                  own < 0 ? -1 : static_cast<int>(shared.nodes[own]));
+                block.own_entry.push_back(
+                  own < 0 ?
+                    0 :
+                    static_cast<Number>(shared.values[r * n_nodes + own]));
+              }
+          }
+        const std::size_t width = block.width(CoupledNodes::all);
+        size += block.own_node.size() * width;
         widest = std::max(widest, width);
       }
     entries.resize(size);
     workspace.resize(n_components * widest);
     Number *to = entries.data();
-    for (const Cluster &cluster : clusters)
-      for (auto s = cluster.begin; s < cluster.end; ++s)
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+      for (auto s = clusters[b].begin; s < clusters[b].end; ++s)
         {
-          std::vector<unsigned int> indices;
-          for (const unsigned int node : all[s]->nodes)
-            indices.push_back(std::lower_bound(cluster.nodes.begin(),
-                                               cluster.nodes.end(),
-                                               node) -
-                              cluster.nodes.begin());
-          auto from = all[s]->values.begin();
-          for (int r = 0; r < all[s]->n_rows; ++r)
+          const SharedRows  &shared  = *all[s].shared;
+          const unsigned int n_nodes = shared.nodes.size();
+          for (int r = 0; r < shared.n_rows; ++r)
             {
-              for (const unsigned int index : indices)
-                to[index] = static_cast<Number>(*from++);
-              to += padded<Number>(cluster.nodes.size());
+              for (unsigned int i = 0; i < 2; ++i)
+                for (const unsigned int k : all[s].columns[i])
+                  {
+                    const auto &nodes = clusters[b].nodes[i];
+                    to[(i == 0 ? 0 : padded<Number>(blocks[b].n_following)) +
+                       (std::lower_bound(
+                          nodes.begin(), nodes.end(), shared.nodes[k]) -
+                        nodes.begin())] =
+                      static_cast<Number>(shared.values[r * n_nodes + k]);
+                  }
+              to += blocks[b].width(CoupledNodes::all);
             }
         }
   }
@@ -177,25 +168,29 @@ namespace mortise
   template <typename Number>
   template <unsigned int n_components>
   void
-  CouplingProduct<Number>::multiply_block(const Block   &block,
-                                          const Number  *block_entries,
-                                          Epetra_Vector &jump) const
+  CouplingProduct<Number>::multiply_block(const Block       &block,
+                                          const Number      *block_entries,
+                                          Epetra_Vector     &jump,
+                                          const CoupledNodes which) const
   {
     using V                  = typename Batch<Number>::Vector;
     constexpr unsigned int w = Batch<Number>::size;
-    const unsigned int     n = block.nodes.size(), m = padded<Number>(n) / w;
-    const V               *row = reinterpret_cast<const V *>(block_entries);
-    V                     *gathered = reinterpret_cast<V *>(workspace.data());
-    Number                *to       = workspace.data();
-    for (unsigned int k = 0; k < n; ++k)
-      for (unsigned int c = 0; c < n_components; ++c)
-        to[c * m * w + k] = values[n_components * block.nodes[k] + c];
-    for (unsigned int c = 0; c < n_components; ++c)
-      std::fill(to + c * m * w + n, to + (c + 1) * m * w, Number());
+    const unsigned int     m = block.width(which) / w,
+                       m_all = block.width(CoupledNodes::all) / w;
+    const V *row             = reinterpret_cast<const V *>(block_entries);
+    V       *gathered        = reinterpret_cast<V *>(workspace.data());
+    Number  *to              = workspace.data();
+    std::fill(gathered, gathered + n_components * m, V{});
+    for_each_node(block,
+                  which,
+                  [&](const unsigned int k, const unsigned int at) {
+                    for (unsigned int c = 0; c < n_components; ++c)
+                      to[c * m * w + at] =
+                        values[n_components * block.nodes[k] + c];
+                  });
     for_each_register_block<n_register_rows>(
-      block.rows.size() / n_components,
-      [&](const unsigned int i, const auto n_rows) {
-        const V *const from = row + std::size_t(i) * m;
+      block.own_node.size(), [&](const unsigned int i, const auto n_rows) {
+        const V *const from = row + std::size_t(i) * m_all;
         V              sums[n_rows][n_components];
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int c = 0; c < n_components; ++c)
@@ -203,12 +198,15 @@ namespace mortise
         for (unsigned int k = 0; k < m; ++k)
           for (unsigned int r = 0; r < n_rows; ++r)
             for (unsigned int c = 0; c < n_components; ++c)
-              sums[r][c] += from[r * m + k] * gathered[c * m + k];
+              sums[r][c] += from[r * m_all + k] * gathered[c * m + k];
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int c = 0; c < n_components; ++c)
             if (const int j = block.rows[n_components * (i + r) + c]; j >= 0)
               {
-                Number sum = 0;
+                const int own = block.own_node[i + r];
+                Number    sum = own < 0 ? 0 :
+                                          block.own_entry[i + r] *
+                                         values[n_components * own + c];
                 for (unsigned int l = 0; l < w; ++l)
                   sum += sums[r][c][l];
                 jump[j] = sum;
@@ -222,38 +220,46 @@ namespace mortise
   CouplingProduct<Number>::multiply_block_transposed(
     const Block         &block,
     const Number        *block_entries,
-    const Epetra_Vector &y) const
+    const Epetra_Vector &y,
+    const CoupledNodes   which) const
   {
     using V                  = typename Batch<Number>::Vector;
     constexpr unsigned int w = Batch<Number>::size;
-    const unsigned int     n = block.nodes.size(), m = padded<Number>(n) / w;
-    const V               *row  = reinterpret_cast<const V *>(block_entries);
-    V                     *sums = reinterpret_cast<V *>(workspace.data());
+    const unsigned int     m = block.width(which) / w,
+                       m_all = block.width(CoupledNodes::all) / w;
+    const V *row             = reinterpret_cast<const V *>(block_entries);
+    V       *sums            = reinterpret_cast<V *>(workspace.data());
     std::fill(sums, sums + n_components * m, V{});
     for_each_register_block<n_register_rows>(
-      block.rows.size() / n_components,
-      [&](const unsigned int i, const auto n_rows) {
-        const V *const from = row + std::size_t(i) * m;
+      block.own_node.size(), [&](const unsigned int i, const auto n_rows) {
+        const V *const from = row + std::size_t(i) * m_all;
         Number         factor[n_rows][n_components];
         for (unsigned int r = 0; r < n_rows; ++r)
           for (unsigned int c = 0; c < n_components; ++c)
             {
               const int j  = block.rows[n_components * (i + r) + c];
               factor[r][c] = j < 0 ? Number() : static_cast<Number>(y[j]);
+              if (const int own = block.own_node[i + r]; own >= 0)
+                values[n_components * own + c] +=
+                  block.own_entry[i + r] * factor[r][c];
             }
         for (unsigned int k = 0; k < m; ++k)
           for (unsigned int c = 0; c < n_components; ++c)
             {
               V sum = sums[c * m + k];
               for (unsigned int r = 0; r < n_rows; ++r)
-                sum += factor[r][c] * from[r * m + k];
+                sum += factor[r][c] * from[r * m_all + k];
               sums[c * m + k] = sum;
             }
       });
     const Number *from = workspace.data();
-    for (unsigned int k = 0; k < n; ++k)
-      for (unsigned int c = 0; c < n_components; ++c)
-        values[n_components * block.nodes[k] + c] += from[c * m * w + k];
+    for_each_node(block,
+                  which,
+                  [&](const unsigned int k, const unsigned int at) {
+                    for (unsigned int c = 0; c < n_components; ++c)
+                      values[n_components * block.nodes[k] + c] +=
+                        from[c * m * w + at];
+                  });
   }
 
   template <typename Number>
@@ -272,15 +278,15 @@ namespace mortise
           visit(block,
                 block_entries,
                 std::integral_constant<unsigned int, 1>());
-        block_entries +=
-          block.rows.size() / n_components * padded<Number>(block.nodes.size());
+        block_entries += block.own_node.size() * block.width(CoupledNodes::all);
       }
   }
 
   template <typename Number>
   void
   CouplingProduct<Number>::multiply(Epetra_Vector             &jump,
-                                    const LevelVector<Number> &trace) const
+                                    const LevelVector<Number> &trace,
+                                    const CoupledNodes         nodes) const
   {
     trace.update_ghost_values();
     for (unsigned int v = 0; v < values.size(); ++v)
@@ -289,18 +295,19 @@ namespace mortise
                     trace.local_element(entry_of_value[v]);
     trace.zero_out_ghost_values();
     for_each_block([&](const Block &block, const Number *from, const auto n) {
-      multiply_block<n()>(block, from, jump);
+      multiply_block<n()>(block, from, jump, nodes);
     });
   }
 
   template <typename Number>
   void
   CouplingProduct<Number>::multiply_transposed(LevelVector<Number> &trace,
-                                               const Epetra_Vector &y) const
+                                               const Epetra_Vector &y,
+                                               const CoupledNodes   nodes) const
   {
     std::fill(values.begin(), values.end(), Number());
     for_each_block([&](const Block &block, const Number *from, const auto n) {
-      multiply_block_transposed<n()>(block, from, y);
+      multiply_block_transposed<n()>(block, from, y, nodes);
     });
     trace = 0;
     for (unsigned int v = 0; v < values.size(); ++v)

@@ -7,6 +7,13 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Neighbours that follow together have less energy than each of them by
+    /// itself: doc/tuning.md.
+    constexpr double share_of_followers = 0.9;
+  } // namespace
+
   template <typename Number>
   InterfaceCorrection<Number>::InterfaceCorrection(
     const BlockSystem             &system,
@@ -35,16 +42,17 @@ namespace mortise
   {
     for (const auto &leading : system.nodal->leading_displacements())
       diagonal.local_element(leading.index) +=
-        static_cast<Number>(leading.followers);
+        static_cast<Number>(share_of_followers * leading.followers);
   }
 
   template <typename Number>
   void
-  InterfaceCorrection<Number>::apply() const
+  InterfaceCorrection<Number>::apply(const CoupledNodes from,
+                                     const CoupledNodes to) const
   {
-    product.multiply(jump, trace);
+    product.multiply(jump, trace, from);
     lifting.apply_inverse_schur(multiplier, jump);
-    product.multiply_transposed(trace, multiplier);
+    product.multiply_transposed(trace, multiplier, to);
   }
 
   template <typename Number>
@@ -54,7 +62,7 @@ namespace mortise
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
       trace.local_element(k) = x.local_element(indices[k]);
-    apply();
+    apply(CoupledNodes::all, CoupledNodes::following);
     for (unsigned int k = 0; k < indices.size(); ++k)
       x.local_element(indices[k]) -= weights[k] * trace.local_element(k);
   }
@@ -66,7 +74,7 @@ namespace mortise
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
       trace.local_element(k) = weights[k] * r.local_element(indices[k]);
-    apply();
+    apply(CoupledNodes::following, CoupledNodes::all);
     for (unsigned int k = 0; k < indices.size(); ++k)
       r.local_element(indices[k]) -= trace.local_element(k);
   }

@@ -8,6 +8,7 @@
 #include <mortise/solvers/multigrid/vertex_multigrid.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace mortise
 {
@@ -42,7 +43,11 @@ namespace mortise
   {
     Implementation(const BlockSystem &system, const std::size_t max_gathered)
     {
-      const auto &all = system.nodal->levels();
+      const auto         &all       = system.nodal->levels();
+      LevelVector<double> stiffness = system.nodal->node_diagonal();
+      for (const unsigned int index : all.front().constrained)
+        stiffness.local_element(index) = 0.;
+      root_of_stiffness = std::sqrt(stiffness.linfty_norm());
       // in front of all else: what algebraic multigrid needs for a while is the
       // largest part of the memory
       vertices = std::make_unique<VertexMultigrid>(all.back(), all.size() > 1);
@@ -126,6 +131,7 @@ namespace mortise
     std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
     LevelVector<Number>                                  coarse_x, coarse_b;
     std::unique_ptr<VertexMultigrid>                     vertices;
+    double                                               root_of_stiffness;
     bool                                                 valid = true;
   };
 
@@ -145,8 +151,10 @@ namespace mortise
   void
   DegreeMultigrid::vmult(Vector &dst, const Vector &src) const
   {
-    auto        &level = *implementation->levels.front();
-    const double scale = src.linfty_norm(); // of single precision
+    auto &level = *implementation->levels.front();
+    // single precision has room for forces and displacements if both are the
+    // root of the stiffness
+    const double scale = src.linfty_norm() / implementation->root_of_stiffness;
     if (scale == 0.)
       {
         dst = 0.;

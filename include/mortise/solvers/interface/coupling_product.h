@@ -1,7 +1,8 @@
 // Products with B and B^T by dense blocks: a block is the rows of neighbouring
 // entities of the slave's mesh, and stands once for the components that have
 // the same entries, also where one of them lacks rows or columns, since
-// displacements are prescribed.
+// displacements are prescribed. Rows of dual multipliers move one node of the
+// slave each; that entry stands by itself.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
@@ -15,6 +16,14 @@
 
 namespace mortise
 {
+  /// Leading displacements are left where they are by multipliers; the others
+  /// follow.
+  enum class CoupledNodes : unsigned char
+  {
+    all,
+    following
+  };
+
   template <typename Number>
   class CouplingProduct
   {
@@ -36,15 +45,19 @@ namespace mortise
       trace.reinit(layout);
     }
 
-    /// jump = B u, @p trace the values of u at indices(). Collective.
+    /// jump = B u, @p trace the values of u at indices(); those of other than @p nodes are taken
+    /// for zero or not, as is quicker. Collective.
     void
-    multiply(Epetra_Vector &jump, const LevelVector<Number> &trace) const;
+    multiply(Epetra_Vector             &jump,
+             const LevelVector<Number> &trace,
+             CoupledNodes               nodes = CoupledNodes::all) const;
 
-    /// @p trace = the values of B^T y at indices(); it is zero elsewhere.
-    /// Collective.
+    /// @p trace = the values of B^T y at indices(); it is zero elsewhere. Those at other than @p nodes
+    /// may be left out. Collective.
     void
     multiply_transposed(LevelVector<Number> &trace,
-                        const Epetra_Vector &y) const;
+                        const Epetra_Vector &y,
+                        CoupledNodes         nodes = CoupledNodes::all) const;
 
   private:
     /// Rows of multipliers by node, for all components, and the nodes of the
@@ -53,13 +66,21 @@ namespace mortise
     {
       std::vector<int>          rows;  ///< by node and component; -1: none
       std::vector<unsigned int> nodes; ///< among those of values
+      /// So many in front follow, the others lead.
+      unsigned int        n_following = 0;
+      std::vector<int>    own_node;  ///< by node: moved by it alone; -1: none
+      std::vector<Number> own_entry; ///< likewise
+
+      /// Entries of a row, padded.
+      unsigned int
+      width(CoupledNodes which) const;
     };
 
     /// Numbers the entries of traces.
     void
     make_layout(const BlockSystem &system, const CouplingRows &rows);
     void
-    make_blocks(const CouplingRows &rows);
+    make_blocks(const CouplingRows &rows, const std::vector<bool> &leads);
     /// visit(block, entries, number of components).
     template <typename Visit>
     void
@@ -68,12 +89,14 @@ namespace mortise
     void
     multiply_block(const Block   &block,
                    const Number  *entries,
-                   Epetra_Vector &jump) const;
+                   Epetra_Vector &jump,
+                   CoupledNodes   nodes) const;
     template <unsigned int n_components>
     void
     multiply_block_transposed(const Block         &block,
                               const Number        *entries,
-                              const Epetra_Vector &y) const;
+                              const Epetra_Vector &y,
+                              CoupledNodes         nodes) const;
 
     const unsigned int                                         n_components;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;

@@ -46,14 +46,14 @@ namespace mortise
       const unsigned int n       = indices.size();
       for (unsigned int k = 0; k < n; ++k)
         trace.local_element(k) = weights[k] * residual(indices[k]);
-      apply();
+      apply(CoupledNodes::following, CoupledNodes::all);
       if (some_lead)
         {
           for (unsigned int k = 0; k < n; ++k)
             trace.local_element(k) = smoothed[k] =
               inverse.local_element(indices[k]) *
               (residual(indices[k]) - trace.local_element(k));
-          apply();
+          apply(CoupledNodes::all, CoupledNodes::following);
           for (unsigned int k = 0; k < n; ++k)
             subtract(indices[k],
                      inverse.local_element(indices[k]) * residual(indices[k]) -
@@ -73,9 +73,9 @@ namespace mortise
     project_residual(LevelVector<Number> &r) const;
 
   private:
-    /// trace := B^T C^{-1} B trace.
+    /// trace := B^T C^{-1} B trace; it is zero but at @p from, and needed at @p to.
     void
-    apply() const;
+    apply(CoupledNodes from, CoupledNodes to) const;
 
     const BlockSystem             &system;
     const CouplingProduct<Number> &product;

@@ -1,0 +1,177 @@
+// The penalty of the ties on one level, make_nodal_penalty().
+#include <mortise/mortar/nodal_block.h>
+#include <mortise/operators/levels/nodal_level.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// With this factor gamma is 0.7 E p^2 / h on all levels below the finest,
+    /// as large as entries of the diagonal of K: iterations for p = 2, 4, 6, 8
+    /// on the thick sphere are 9, 10, 15, 16 with half of it, 8, 9, 15, 17 with
+    /// it or twice as much.
+    constexpr double nodal_penalty = 0.4;
+
+    /// Calls visit(row trace, column trace, block, factor) for the blocks of
+    /// the penalty.
+    template <typename Visit>
+    void
+    for_each_block(const std::vector<Coupling> &couplings, const Visit &visit)
+    {
+      for (const Coupling &coupling : couplings)
+        for (unsigned int s = 0; s < coupling.local.size(); ++s)
+          if (const LocalCoupling &local = coupling.local[s];
+              !local.partners.empty())
+            {
+              const FaceTrace &slave = coupling.interface->slave().traces[s];
+              const double     gamma =
+                nodal_penalty * local.penalty * slave.degree * slave.degree;
+              visit(slave, slave, local.mass, gamma);
+              for (const auto &partner : local.partners)
+                {
+                  const FaceTrace &master =
+                    coupling.interface->master_traces()[partner.master];
+                  visit(slave, master, partner.mixed, -gamma);
+                  visit(master, master, partner.mass, gamma);
+                }
+            }
+    }
+    using Indices = std::vector<unsigned int>;
+
+    void
+    make_unique(Indices &list)
+    {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+
+    /// First components at the nodes of a face.
+    Indices
+    indices_on(const NodalLevel  &level,
+               const FaceTrace   &trace,
+               const unsigned int number)
+    {
+      Indices indices;
+      for (const auto node : trace.nodes[number].nodes)
+        indices.push_back(level.layout->global_to_local(dim * node));
+      return indices;
+    }
+
+    /// By node: with which others the interfaces couple it.
+    std::vector<Indices>
+    coupled_indices(const NodalLevel            &level,
+                    const unsigned int           number,
+                    const std::vector<Coupling> &couplings)
+    {
+      std::vector<Indices> columns(
+        (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
+        dim);
+      const auto record = [&](const Indices &rows, const Indices &more) {
+        for (const unsigned int row : rows)
+          {
+            auto &list = columns[row / dim];
+            list.insert(list.end(), more.begin(), more.end());
+            if (list.size() > 4096)
+              make_unique(list);
+          }
+      };
+      for_each_block(couplings,
+                     [&](const FaceTrace &row,
+                         const FaceTrace &column,
+                         const auto &,
+                         const double) {
+                       const Indices rows = indices_on(level, row, number),
+                                     more = indices_on(level, column, number);
+                       record(rows, more);
+                       if (&row != &column)
+                         record(more, rows);
+                     });
+      for (Indices &list : columns)
+        make_unique(list);
+      return columns;
+    }
+
+    /// Adds to the entries of a penalty.
+    class PenaltyEntries
+    {
+    public:
+      /// Nodes with the same @p columns become a group.
+      PenaltyEntries(std::vector<Indices> columns, NodalPenalty &penalty)
+        : penalty(penalty)
+        , index_of_node(columns.size())
+      {
+        std::map<Indices, unsigned int> group_of_columns;
+        for (unsigned int node = 0; node < columns.size(); ++node)
+          if (auto &list = columns[node]; !list.empty())
+            {
+              const auto [found, is_new] =
+                group_of_columns.emplace(list, penalty.groups.size());
+              if (is_new)
+                penalty.groups.push_back({{}, list, {}});
+              auto &group         = penalty.groups[found->second];
+              index_of_node[node] = {found->second, group.rows.size()};
+              group.rows.push_back(dim * node);
+              list = Indices();
+            }
+        for (auto &group : penalty.groups)
+          group.values.resize(group.rows.size() * group.columns.size());
+      }
+
+      void
+      add(const unsigned int row, const unsigned int column, const double value)
+      {
+        const auto [g, r] = index_of_node[row / dim];
+        auto &group       = penalty.groups[g];
+        group.values[r * group.columns.size() +
+                     (std::lower_bound(
+                        group.columns.begin(), group.columns.end(), column) -
+                      group.columns.begin())] += value;
+      }
+
+    private:
+      NodalPenalty &penalty;
+      /// Group and row in it.
+      std::vector<std::pair<unsigned int, unsigned int>> index_of_node;
+    };
+  } // namespace
+
+  NodalPenalty
+  make_nodal_penalty(const NodalLevel            &level,
+                     const unsigned int           number,
+                     const std::vector<Coupling> &couplings)
+  {
+    NodalPenalty   penalty;
+    PenaltyEntries entries(coupled_indices(level, number, couplings), penalty);
+    for_each_block(
+      couplings,
+      [&](const FaceTrace          &row,
+          const FaceTrace          &column,
+          const FullMatrix<double> &modal,
+          const double              factor) {
+        const FaceNodes &on_rows       = row.nodes[number],
+                        &on_columns    = column.nodes[number];
+        const FullMatrix<double> nodal = resolve_hanging(
+          nodal_block(modal,
+                      {row.shape, row.degree, on_rows.degree},
+                      {column.shape, column.degree, on_columns.degree}),
+          on_rows,
+          on_columns);
+        const Indices rows = indices_on(level, row, number),
+                      more = indices_on(level, column, number);
+        for (unsigned int i = 0; i < rows.size(); ++i)
+          for (unsigned int j = 0; j < more.size(); ++j)
+            {
+              entries.add(rows[i], more[j], factor * nodal(i, j));
+              if (&row != &column)
+                entries.add(more[j], rows[i], factor * nodal(i, j));
+            }
+      });
+    return penalty;
+  }
+} // namespace mortise
