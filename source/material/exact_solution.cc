@@ -103,6 +103,8 @@ namespace mortise
       Response(const Layer &layer, const unsigned int d)
         : a(layer.inner_radius)
         , b(layer.outer_radius)
+        , offset(layer.offset_inside)
+        , compliance(layer.compliance_inside)
         , d(d)
       {
         const double E  = layer.material.young_modulus,
@@ -135,15 +137,16 @@ namespace mortise
                       one_by_s);
       }
 
-      double       a, b;
+      double       a, b, offset, compliance;
       unsigned int d;
       double       one_by_k, one_by_s, ratio;
     };
 
     /// Pressures at all radii, from the inside out. The unknowns are the
     /// pressures where layers meet, so that contrast in stiffness never enters
-    /// a difference: the equations (equal displacement from both sides) are
-    /// tridiagonal and diagonally dominant for each sign.
+    /// a difference: the equations (displacements of both sides that differ by
+    /// the offset, and by what a spring gives) are tridiagonal and diagonally
+    /// dominant for each sign.
     std::vector<double>
     interface_pressures(const std::vector<Response> &responses,
                         const double                 pressure_inside,
@@ -155,17 +158,18 @@ namespace mortise
       pressures[0] = pressure_inside;
       pressures[n] = pressure_outside;
       // Thomas' algorithm; row i: lower p_{i-1} + middle p_i + upper p_{i+1} =
-      // 0.
+      // offset.
       for (unsigned int i = 1; i < n; ++i)
         {
           const Response &below = responses[i - 1], &above = responses[i];
           const double    lower  = below.displacement(below.b, 1., 0.);
           const double    middle = below.displacement(below.b, 0., 1.) -
-                                above.displacement(above.a, 1., 0.);
+                                above.displacement(above.a, 1., 0.) -
+                                above.compliance;
           upper[i]            = -above.displacement(above.a, 0., 1.);
           const double factor = lower / diagonal[i - 1];
           diagonal[i]         = middle - (i > 1 ? factor * upper[i - 1] : 0.);
-          pressures[i]        = -factor * pressures[i - 1];
+          pressures[i]        = above.offset - factor * pressures[i - 1];
         }
       for (unsigned int i = n - 1; i >= 1; --i)
         pressures[i] =

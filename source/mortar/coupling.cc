@@ -1,10 +1,17 @@
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
 #include <mortise/mortar/coupling.h>
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/mortar/row_assembler.h>
 
+#include "coupled_faces.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace mortise
@@ -14,12 +21,6 @@ namespace mortise
   namespace
   {
     using Index = types::global_dof_index;
-
-    Expansion
-    component(const FaceTrace &trace, const unsigned int c)
-    {
-      return {trace.begin, trace.column, trace.weight, c * trace.n_functions()};
-    }
 
     /// The columns of one side of the constraint: hierarchical functions, or
     /// nodal ones where the trace has nodes. Prescribed ones are among them
@@ -87,12 +88,32 @@ namespace mortise
       std::vector<double>       weight;
     };
 
-    Expansion
-    component(const MultiplierSpace::FaceRows &rows, const unsigned int c)
+    /// The rows of component @p c, those along the normal times its part of that.
+    class ConstraintRows
     {
-      const unsigned int n = (rows.begin.size() - 1) / dim;
-      return {rows.begin, rows.index, rows.weight, c * n};
-    }
+    public:
+      ConstraintRows(const MultiplierSpace::FaceRows &rows)
+        : rows(rows)
+        , weight(dim)
+      {
+        for (unsigned int c = 0; c < dim && !rows.normals.empty(); ++c)
+          for (unsigned int k = 0; k < rows.n_nodes(); ++k)
+            for (unsigned int e = rows.begin[k]; e < rows.begin[k + 1]; ++e)
+              weight[c].push_back(rows.weight[e] * rows.normals[k][c]);
+      }
+
+      Expansion
+      component(const unsigned int c) const
+      {
+        if (rows.normals.empty())
+          return {rows.begin, rows.index, rows.weight, c * rows.n_nodes()};
+        return {rows.begin, rows.index, weight[c], 0};
+      }
+
+    private:
+      const MultiplierSpace::FaceRows &rows;
+      std::vector<std::vector<double>> weight; ///< by component
+    };
 
     /// The prescribed displacements of one side.
     class PrescribedTrace
@@ -149,90 +170,28 @@ namespace mortise
       for (const auto &entity : entities)
         visit(entity.second);
     }
-
-    bool
-    has_columns(const FaceTrace &trace, const unsigned int c)
-    {
-      const Expansion dofs = component(trace, c);
-      return dofs.begin[dofs.offset + trace.n_functions()] >
-             dofs.begin[dofs.offset];
-    }
-
-    /// Faces belong to one boundary each.
-    bool
-    have_same_slave(const Coupling &a, const Coupling &b)
-    {
-      const BodySurface &first  = a.interface->slave(),
-                        &second = b.interface->slave();
-      return !first.faces.empty() &&
-             first.faces.size() == second.faces.size() &&
-             first.cells[0] == second.cells[0] &&
-             first.face_numbers[0] == second.face_numbers[0];
-    }
-
-    /// Does interface @p a have more of slave face @p s than @p b? Of halves, the first by name
-    /// counts as more.
-    bool
-    goes_in_front(const Coupling &a, const Coupling &b, const unsigned int s)
-    {
-      constexpr double rounding = 1e-6;
-      const double     difference =
-        a.interface->coverage()[s] - b.interface->coverage()[s];
-      return std::fabs(difference) > rounding ?
-               difference > 0. :
-               a.interface->name() < b.interface->name();
-    }
-
-    /// Calls visit(slave trace, rows, local) for each slave face with a
-    /// partner.
-    template <typename Visit>
-    void
-    for_each_face(const std::vector<Coupling> &couplings, const Visit &visit)
-    {
-      for (const Coupling &coupling : couplings)
-        for (unsigned int s = 0; s < coupling.local.size(); ++s)
-          if (!coupling.local[s].partners.empty())
-            visit(coupling, s);
-    }
   } // namespace
-
-  std::vector<std::vector<PartnerState>>
-  partner_states(const std::vector<Coupling> &couplings)
-  {
-    std::vector<std::vector<PartnerState>> all;
-    for (const Coupling &coupling : couplings)
-      {
-        std::vector<const Coupling *> sharing;
-        for (const Coupling &other : couplings)
-          if (&other != &coupling && have_same_slave(coupling, other))
-            sharing.push_back(&other);
-        all.emplace_back();
-        for (unsigned int s = 0; s < coupling.local.size(); ++s)
-          {
-            const double covered = coupling.interface->coverage()[s];
-            PartnerState state   = {cover_of(covered, true), {}};
-            for (const Coupling *other : sharing)
-              if (goes_in_front(*other, coupling, s))
-                state.cover = cover_of(covered, false);
-            const auto find_free = [&](const FaceTrace &trace) {
-              for (unsigned int c = 0; c < dim; ++c)
-                state.can_follow[c] |= has_columns(trace, c);
-            };
-            find_free(coupling.interface->slave().traces[s]);
-            for (const auto &partner : coupling.local[s].partners)
-              find_free(coupling.interface->master_traces()[partner.master]);
-            all.back().push_back(state);
-          }
-      }
-    return all;
-  }
 
   namespace
   {
+    /// By coupling and slave face.
+    using RowsByFace =
+      std::vector<const std::vector<MultiplierSpace::FaceRows> *>;
+
+    RowsByFace
+    rows_of(const std::vector<Coupling> &couplings)
+    {
+      RowsByFace rows;
+      for (const Coupling &coupling : couplings)
+        rows.push_back(&coupling.multipliers->rows());
+      return rows;
+    }
+
     /// [D, -M] with the columns that @p Columns makes of a trace.
     template <typename Columns>
     void
     assemble_blocks(const std::vector<Coupling> &couplings,
+                    const RowsByFace            &all_rows,
                     const CouplingPartition     &partition,
                     SparseMatrix                &matrix)
     {
@@ -243,7 +202,8 @@ namespace mortise
       const auto for_each_block = [&](const bool values, const auto &visit) {
         for_each_face(
           couplings, [&](const Coupling &coupling, const unsigned int s) {
-            const auto          &rows  = coupling.multipliers->rows()[s];
+            const ConstraintRows rows(
+              (*all_rows[&coupling - couplings.data()])[s]);
             const LocalCoupling &local = coupling.local[s];
             const FaceTrace     &slave = coupling.interface->slave().traces[s];
             const Columns        own(slave);
@@ -254,7 +214,7 @@ namespace mortise
                   block(i, i) = local.weights[nodes[i]];
                 for (unsigned int c = 0; c < dim; ++c)
                   {
-                    const ExpansionPart row(component(rows, c), nodes),
+                    const ExpansionPart row(rows.component(c), nodes),
                       column(own.component(c), nodes);
                     visit(row(), column(), block, 1.);
                   }
@@ -266,7 +226,7 @@ namespace mortise
               const FullMatrix<double> in_columns =
                 values ? columns.in_columns(block) : block;
               for (unsigned int c = 0; c < dim; ++c)
-                visit(component(rows, c),
+                visit(rows.component(c),
                       columns.component(c),
                       in_columns,
                       factor);
@@ -303,7 +263,63 @@ namespace mortise
                       const CouplingPartition     &partition,
                       SparseMatrix                &coupling)
   {
-    assemble_blocks<ConstraintColumns>(couplings, partition, coupling);
+    assemble_blocks<ConstraintColumns>(couplings,
+                                       rows_of(couplings),
+                                       partition,
+                                       coupling);
+  }
+
+  void
+  assemble_components(const std::vector<Coupling> &couplings,
+                      const CouplingPartition     &partition,
+                      SparseMatrix                &components,
+                      SparseMatrix                &frames)
+  {
+    std::vector<Index> sizes;
+    for (const Coupling &coupling : couplings)
+      sizes.push_back(
+        coupling.multipliers->n_component_rows(coupling.interface->slave()));
+    const Index mine = std::accumulate(sizes.begin(), sizes.end(), Index(0));
+    const auto counts = Utilities::MPI::all_gather(partition.comm, mine);
+    const auto me     = Utilities::MPI::this_mpi_process(partition.comm);
+    const auto first =
+      std::accumulate(counts.begin(), counts.begin() + me, Index(0));
+    IndexSet owned(std::accumulate(counts.begin(), counts.end(), Index(0)));
+    owned.add_range(first, first + mine);
+
+    std::vector<MultiplierSpace::ComponentRows> rows;
+    RowsByFace                                  rows_by_face;
+    rows.reserve(couplings.size());
+    auto next = first;
+    for (const Coupling &coupling : couplings)
+      {
+        rows.push_back(
+          coupling.multipliers->component_rows(coupling.interface->slave(),
+                                               next));
+        rows_by_face.push_back(&rows.back().rows);
+        next += sizes[rows.size() - 1];
+      }
+    assemble_blocks<ConstraintColumns>(
+      couplings,
+      rows_by_face,
+      {partition.owned_displacement, owned, partition.comm},
+      components);
+
+    IndexSet relevant = partition.owned_multiplier;
+    for (const auto &of_coupling : rows)
+      for (const auto &[row, column, weight] : of_coupling.frames)
+        relevant.add_index(row);
+    relevant.compress();
+    DynamicSparsityPattern pattern(relevant.size(), owned.size(), relevant);
+    for (const auto &of_coupling : rows)
+      for (const auto &[row, column, weight] : of_coupling.frames)
+        pattern.add(row, column);
+    frames.reinit(
+      partition.owned_multiplier, owned, pattern, partition.comm, true);
+    for (const auto &of_coupling : rows)
+      for (const auto &[row, column, weight] : of_coupling.frames)
+        frames.set(row, column, weight);
+    frames.compress(VectorOperation::insert);
   }
 
   void
@@ -311,65 +327,9 @@ namespace mortise
                               const CouplingPartition     &partition,
                               SparseMatrix                &coupling)
   {
-    assemble_blocks<PrescribedTrace>(couplings, partition, coupling);
-  }
-
-  void
-  assemble_jump_penalty(const std::vector<Coupling> &couplings,
-                        const CouplingPartition     &partition,
-                        SparseMatrix                &jump_penalty)
-  {
-    RowAssembler assembler(partition.owned_displacement,
-                           partition.owned_displacement);
-    const auto   for_each_block = [&](const auto &block) {
-      for_each_face(
-        couplings, [&](const Coupling &coupling, const unsigned int s) {
-          const FaceTrace     &slave = coupling.interface->slave().traces[s];
-          const LocalCoupling &local = coupling.local[s];
-          for (unsigned int c = 0; c < dim; ++c)
-            {
-              block(component(slave, c),
-                    component(slave, c),
-                    local.mass,
-                    local.penalty,
-                    false);
-              for (const auto &partner : local.partners)
-                {
-                  const Expansion master = component(
-                    coupling.interface->master_traces()[partner.master], c);
-                  block(component(slave, c),
-                        master,
-                        partner.mixed,
-                        -local.penalty,
-                        false);
-                  block(master,
-                        component(slave, c),
-                        partner.mixed,
-                        -local.penalty,
-                        true);
-                  block(master, master, partner.mass, local.penalty, false);
-                }
-            }
-        });
-    };
-    for_each_block([&](const Expansion          &row,
-                       const Expansion          &column,
-                       const FullMatrix<double> &local,
-                       const double,
-                       const bool transposed) {
-      assembler.record(row,
-                       transposed ? local.n() : local.m(),
-                       column,
-                       transposed ? local.m() : local.n());
-    });
-    assembler.allocate();
-    for_each_block([&](const Expansion          &row,
-                       const Expansion          &column,
-                       const FullMatrix<double> &local,
-                       const double              factor,
-                       const bool                transposed) {
-      assembler.add(row, column, local, factor, transposed);
-    });
-    assembler.create(jump_penalty, partition.comm);
+    assemble_blocks<PrescribedTrace>(couplings,
+                                     rows_of(couplings),
+                                     partition,
+                                     coupling);
   }
 } // namespace mortise

@@ -27,7 +27,7 @@ namespace mortise
       return sum;
     }
 
-    /// Calls visit(slave face, function, component, multiplier, its weight).
+    /// Calls visit(slave face, node, direction, multiplier, its weight).
     template <typename Visit>
     void
     for_each_entry(const Coupling &coupling, const Visit &visit)
@@ -36,13 +36,10 @@ namespace mortise
         if (!coupling.local[s].partners.empty())
           {
             const auto        &rows = coupling.multipliers->rows()[s];
-            const unsigned int n    = coupling.local[s].mass.m();
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int i = 0; i < n; ++i)
-                for (unsigned int e = rows.begin[c * n + i];
-                     e < rows.begin[c * n + i + 1];
-                     ++e)
-                  visit(s, i, c, rows.index[e], rows.weight[e]);
+            const unsigned int n    = rows.n_nodes();
+            for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+                visit(s, r % n, rows.direction(r), rows.index[e], rows.weight[e]);
           }
     }
 
@@ -109,39 +106,46 @@ namespace mortise
   {
     if (owned_multiplier.size() == 0)
       return {};
-    // by component: the bound, the weight, the moment
-    constexpr unsigned int n_sums = 2 + dim;
-    auto sums = make_sums(dim * n_sums, coupling, owned_multiplier, comm);
+    // the bound, then by component the weight and the moment
+    constexpr unsigned int n_sums = 1 + dim + dim * dim;
+    auto sums = make_sums(n_sums, coupling, owned_multiplier, comm);
     for_each_entry(
       coupling,
-      [&](const unsigned int s,
-          const unsigned int i,
-          const unsigned int c,
-          const auto         index,
-          const double       w) {
+      [&](const unsigned int    s,
+          const unsigned int    i,
+          const Tensor<1, dim> &direction,
+          const auto            index,
+          const double          w) {
         const LocalCoupling &local = coupling.local[s];
-        auto *const          sum   = &sums[c * n_sums];
-        sum[0](index) += std::fabs(w) * weight_bound(coupling, s, i);
-        sum[1](index) +=
-          w * on_constants(local.constraint,
-                           i,
-                           coupling.interface->slave().traces[s].basis());
-        for (unsigned int d = 0; d < dim; ++d)
-          sum[2 + d](index) += w * local.position_moment[i][d];
+        sums[0](index) += std::fabs(w) * weight_bound(coupling, s, i);
+        const double weight =
+          on_constants(local.constraint,
+                       i,
+                       coupling.interface->slave().traces[s].basis());
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            sums[1 + c](index) += w * direction[c] * weight;
+            for (unsigned int d = 0; d < dim; ++d)
+              sums[1 + dim + dim * c + d](index) +=
+                w * direction[c] * local.position_moment[i][d];
+          }
       });
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);
 
     std::vector<MultiplierMoment> result;
     for (unsigned int k = 0; k < owned_multiplier.n_elements(); ++k)
-      for (unsigned int c = 0; c < dim; ++c)
-        if (const auto  *sum   = &sums[c * n_sums];
-            const double bound = sum[0].local_element(k))
-          {
-            result.push_back({c, sum[1].local_element(k) / bound, {}});
-            for (unsigned int d = 0; d < dim; ++d)
-              result.back().moment[d] = sum[2 + d].local_element(k) / bound;
-          }
+      if (const double bound = sums[0].local_element(k))
+        {
+          result.emplace_back();
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              result.back().weight[c] = sums[1 + c].local_element(k) / bound;
+              for (unsigned int d = 0; d < dim; ++d)
+                result.back().moment[c][d] =
+                  sums[1 + dim + dim * c + d].local_element(k) / bound;
+            }
+        }
     return result;
   }
 
@@ -169,7 +173,7 @@ namespace mortise
       coupling,
       [&](const unsigned int s,
           const unsigned int i,
-          const unsigned int,
+          const Tensor<1, dim> &,
           const auto   index,
           const double w) {
         const LocalCoupling &local = coupling.local[s];
@@ -216,12 +220,10 @@ namespace mortise
                           const MPI_Comm  comm)
   {
     std::vector<std::vector<double>> coefficients;
+    for (const auto &rows : coupling.multipliers->rows())
+      coefficients.emplace_back(dim * rows.n_nodes(), 0.);
     if (multiplier.size() == 0)
-      {
-        for (const auto &rows : coupling.multipliers->rows())
-          coefficients.emplace_back(rows.begin.size() - 1, 0.);
-        return coefficients;
-      }
+      return coefficients;
     IndexSet relevant = multiplier.locally_owned_elements();
     for (const auto &rows : coupling.multipliers->rows())
       relevant.add_indices(rows.index.begin(), rows.index.end());
@@ -229,15 +231,41 @@ namespace mortise
     Vector ghosted(multiplier.locally_owned_elements(), relevant, comm);
     ghosted = multiplier;
 
-    for (const auto &rows : coupling.multipliers->rows())
+    for (unsigned int s = 0; s < coefficients.size(); ++s)
       {
-        coefficients.emplace_back(rows.begin.size() - 1, 0.);
+        const auto        &rows = coupling.multipliers->rows()[s];
+        const unsigned int n    = rows.n_nodes();
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-          for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-            coefficients.back()[r] += rows.weight[e] * ghosted(rows.index[e]);
+          {
+            double value = 0.;
+            for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+              value += rows.weight[e] * ghosted(rows.index[e]);
+            const Tensor<1, dim> direction = rows.direction(r);
+            for (unsigned int c = 0; c < dim; ++c)
+              coefficients[s][c * n + r % n] += value * direction[c];
+          }
       }
     return coefficients;
   }
+
+  namespace
+  {
+    /// Coefficients by row, from those of components.
+    std::vector<double>
+    along_directions(const MultiplierSpace::FaceRows &rows,
+                     const std::vector<double>       &coefficients)
+    {
+      const unsigned int  n = rows.n_nodes();
+      std::vector<double> result(rows.begin.size() - 1);
+      for (unsigned int r = 0; r < result.size(); ++r)
+        {
+          const Tensor<1, dim> direction = rows.direction(r);
+          for (unsigned int c = 0; c < dim; ++c)
+            result[r] += direction[c] * coefficients[c * n + r % n];
+        }
+      return result;
+    }
+  } // namespace
 
   void
   set_multiplier(const Coupling                         &coupling,
@@ -249,20 +277,55 @@ namespace mortise
         const auto        &rows  = coupling.multipliers->rows()[s];
         const FaceTrace   &trace = coupling.interface->slave().traces[s];
         const unsigned int n     = trace.n_functions();
+        const auto values = along_directions(rows, coefficients[s]);
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
           if (rows.begin[r + 1] == rows.begin[r] + 1)
             multiplier[rows.index[rows.begin[r]]] =
-              coefficients[s][r] / rows.weight[rows.begin[r]];
+              values[r] / rows.weight[rows.begin[r]];
         const FullMatrix<double> &functions =
           face_nodal_basis(trace.shape, trace.degree).functions;
         for (const auto &[row, index] : rows.hierarchical)
           {
             double sum = 0.;
             for (unsigned int k = 0; k < n; ++k)
-              sum += functions(row % n, k) * coefficients[s][row - row % n + k];
+              sum += functions(row % n, k) * values[row - row % n + k];
             multiplier[index] = sum;
           }
       }
+  }
+
+  void
+  add_offset(const Coupling                                  &coupling,
+             const std::function<double(const Point<dim> &)> &offset,
+             const std::vector<std::vector<Tensor<1, dim>>>  &normals,
+             Vector                                          &rhs)
+  {
+    const BodySurface &slave   = coupling.interface->slave();
+    for (unsigned int s = 0; s < coupling.local.size(); ++s)
+      if (const LocalCoupling &local = coupling.local[s];
+          !local.partners.empty())
+        {
+          const auto            &rows  = coupling.multipliers->rows()[s];
+          const FaceTrace       &trace = slave.traces[s];
+          const unsigned int     n     = rows.n_nodes();
+          FullMatrix<double>     nodal(n, n); // int psi_i phi_k
+          local.constraint.mmult(
+            nodal, face_nodal_basis(trace.shape, trace.degree).functions);
+          const auto nodes = face_nodes(trace.shape, trace.degree);
+          std::vector<Tensor<1, dim>> values;
+          for (unsigned int k = 0; k < n; ++k)
+            values.push_back(offset(face_point(slave.faces[s], nodes[k])) *
+                             normals[s][k]);
+          for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+            {
+              Tensor<1, dim> sum;
+              for (unsigned int k = 0; k < n; ++k)
+                sum += nodal(r % n, k) * values[k];
+              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+                rhs[rows.index[e]] +=
+                  rows.weight[e] * (sum * rows.direction(r));
+            }
+        }
   }
 
   ResultantErrors

@@ -207,12 +207,14 @@ namespace mortise
     void
     set_leaders(const InterfaceHandler &interface,
                 const unsigned int      s,
+                const bool              may_lead,
                 LocalCoupling          &local)
     {
       local.penalty = std::numeric_limits<double>::infinity();
       for (auto &partner : local.partners)
         {
-          partner.leads           = leads(interface, local, s, partner.master);
+          partner.leads =
+            may_lead && leads(interface, local, s, partner.master);
           const FaceTrace &slave  = interface.slave().traces[s];
           const FaceTrace &master = interface.master_traces()[partner.master];
           local.penalty =
@@ -226,7 +228,8 @@ namespace mortise
   std::vector<LocalCoupling>
   integrate_coupling(InterfaceHandler     &interface,
                      const bool            with_master_mass,
-                     const MultiplierBasis basis)
+                     const MultiplierBasis basis,
+                     const bool            may_lead)
   {
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
     FullMatrix<double> slave_values, master_values, weighted, places, moment;
@@ -290,7 +293,7 @@ namespace mortise
                           basis == MultiplierBasis::dual &&
                             interface.coverage()[s] > covered_as_a_whole,
                           couplings[s]);
-          set_leaders(interface, s, couplings[s]);
+          set_leaders(interface, s, may_lead, couplings[s]);
         }
     return couplings;
   }

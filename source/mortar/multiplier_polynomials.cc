@@ -47,7 +47,7 @@ namespace mortise
         diagonal.reinit(all);
         for_each_row([&](const unsigned int s,
                          const unsigned int k,
-                         const unsigned int,
+                         const Tensor<1, dim> &,
                          const unsigned int entry,
                          const double       weight) {
           diagonal.local_element(entry) += weight * weight * masses[s](k, k);
@@ -81,23 +81,21 @@ namespace mortise
       Multipliers diagonal; ///< inverse
 
     private:
-      /// visit(s, k, c, entry, weight) for what the row of component c at node
-      /// k of face s is made of.
+      /// visit(s, k, direction, entry, weight) for what the rows of node k of
+      /// face s are made of.
       template <typename Visit>
       void
       for_each_row(const Visit &visit) const
       {
         for (unsigned int s = 0; s < masses.size(); ++s)
-          {
-            const auto        &rows = coupling.multipliers->rows()[s];
-            const unsigned int n    = masses[s].m();
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int k = 0; k < n; ++k)
-                for (unsigned int e = rows.begin[c * n + k];
-                     e < rows.begin[c * n + k + 1];
-                     ++e)
-                  visit(s, k, c, entries[s][e], rows.weight[e]);
-          }
+          if (masses[s].m() > 0)
+            {
+              const auto        &rows = coupling.multipliers->rows()[s];
+              const unsigned int n    = rows.n_nodes();
+              for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+                for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+                  visit(s, r % n, rows.direction(r), entries[s][e], rows.weight[e]);
+            }
       }
 
       void
@@ -118,10 +116,12 @@ namespace mortise
         products = values;
         for_each_row([&](const unsigned int s,
                          const unsigned int k,
-                         const unsigned int c,
+                         const Tensor<1, dim> &direction,
                          const unsigned int entry,
                          const double       weight) {
-          values[s][c](k) += weight * from.local_element(entry);
+          for (unsigned int c = 0; c < dim; ++c)
+            values[s][c](k) +=
+              direction[c] * weight * from.local_element(entry);
         });
         for (unsigned int s = 0; s < masses.size(); ++s)
           for (unsigned int c = 0; c < dim && masses[s].m() > 0; ++c)
@@ -134,10 +134,12 @@ namespace mortise
         dst.reinit(all);
         for_each_row([&](const unsigned int s,
                          const unsigned int k,
-                         const unsigned int c,
+                         const Tensor<1, dim> &direction,
                          const unsigned int entry,
                          const double       weight) {
-          dst.local_element(entry) += weight * products[s][c](k);
+          for (unsigned int c = 0; c < dim; ++c)
+            dst.local_element(entry) +=
+              direction[c] * weight * products[s][c](k);
         });
         dst.compress(VectorOperation::add);
       }

@@ -172,8 +172,8 @@ namespace mortise
     }
   } // namespace
 
-  void
-  MultiplierSpace::number(const BodySurface &slave, const Index first)
+  std::vector<MultiplierSpace::FaceRows>
+  MultiplierSpace::make_rows(const BodySurface &slave, const Index first) const
   {
     ByDof numbers(body.dof_handler.locally_owned_dofs(),
                   reduction.get_local_lines(),
@@ -188,18 +188,23 @@ namespace mortise
     numbers.update_ghost_values();
     ones.update_ghost_values();
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
-      for (const auto &dofs : face_dofs(slave.cells[s], slave.face_numbers[s]))
-        hierarchical.add(slave.traces[s].basis(), dofs);
+      {
+        const auto dofs = face_dofs(slave.cells[s], slave.face_numbers[s]);
+        for (unsigned int c = 0; c < n_directions; ++c)
+          hierarchical.add(slave.traces[s].basis(), dofs[c]);
+      }
     hierarchical.exchange();
 
-    face_rows.clear();
+    std::vector<FaceRows> result;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       {
         FaceRows          rows;
         const TraceBasis &basis = slave.traces[s].basis();
         const auto dofs = face_dofs(slave.cells[s], slave.face_numbers[s]);
         rows.begin      = {0};
-        for (unsigned int c = 0; c < dim; ++c)
+        if (!normals.empty())
+          rows.normals = normals[s];
+        for (unsigned int c = 0; c < n_directions; ++c)
           {
             rows.hold_constants[c] = true;
             const auto values =
@@ -222,7 +227,15 @@ namespace mortise
                   rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
               }
           }
-        face_rows.push_back(std::move(rows));
+        result.push_back(std::move(rows));
       }
+    return result;
+  }
+
+  void
+  MultiplierSpace::number(const BodySurface &slave, const Index first)
+  {
+    face_rows    = make_rows(slave, first);
+    first_number = first;
   }
 } // namespace mortise

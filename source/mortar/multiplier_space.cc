@@ -3,6 +3,7 @@
 #include <mortise/mortar/multiplier_faces.h>
 #include <mortise/mortar/multiplier_rules.h>
 #include <mortise/mortar/multiplier_space.h>
+#include <mortise/mortar/slave_normals.h>
 #include <mortise/mortar/stranded_vertices.h>
 
 #include <algorithm>
@@ -60,6 +61,7 @@ namespace mortise
     DofSets
     find_followers(const Body                        &body,
                    const std::vector<MultiplierFace> &faces,
+                   const unsigned int                 n_directions,
                    const MultiplierRecords           &records)
     {
       // the owner of a dof knows all faces around it
@@ -78,7 +80,7 @@ namespace mortise
             if (settled(other) > 0.5)
               followers[dof].insert(other);
       for (const MultiplierFace &face : faces)
-        for (unsigned int c = 0; c < dim && is_sliver(face); ++c)
+        for (unsigned int c = 0; c < n_directions && is_sliver(face); ++c)
           for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
             if (const auto dof = face.dofs[c][face.basis->vertex_function(v)];
                 owned.is_element(dof) && records.count(dof) == 0)
@@ -95,6 +97,7 @@ namespace mortise
     std::map<types::global_dof_index, bool>
     find_stranded(const Body                        &body,
                   const std::vector<MultiplierFace> &faces,
+                  const unsigned int                 n_directions,
                   const MultiplierRecords           &records,
                   const DofSets                     &followers)
     {
@@ -108,7 +111,7 @@ namespace mortise
         if (record.is_stranded())
           add(dof, record.can_follow);
       for (const MultiplierFace &face : faces)
-        for (unsigned int c = 0; c < dim && is_sliver(face); ++c)
+        for (unsigned int c = 0; c < n_directions && is_sliver(face); ++c)
           for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
             if (const auto dof = face.dofs[c][face.basis->vertex_function(v)];
                 records.count(dof) == 0)
@@ -150,16 +153,27 @@ namespace mortise
                                    const types::boundary_id         boundary,
                                    const BodySurface               &slave,
                                    const std::vector<PartnerState> &partners,
-                                   const std::vector<bool>         &blocked)
+                                   const std::vector<bool>         &blocked,
+                                   const TiedDirections directions)
     : body(body)
+    , n_directions(directions == TiedDirections::all ? dim : 1)
   {
+    const bool along_normals = directions == TiedDirections::normal;
+    if (along_normals)
+      normals = slave_normals(body, slave);
     const std::vector<MultiplierFace> faces =
-      collect_multiplier_faces(body, boundary, slave, partners, blocked);
+      collect_multiplier_faces(body,
+                               boundary,
+                               slave,
+                               partners,
+                               along_normals ?
+                                 blocked_normals(body, slave, normals, blocked) :
+                                 blocked);
 
     MultiplierRecords                 records;
     std::set<types::global_dof_index> on_surface;
     for (const MultiplierFace &face : faces)
-      for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int c = 0; c < n_directions; ++c)
         {
           on_surface.insert(face.dofs[c].begin(), face.dofs[c].end());
           if (face.cover >= Cover::partial)
@@ -168,12 +182,12 @@ namespace mortise
     for (auto &[dof, record] : records)
       record.blocked &= !body.conformity.is_constrained(dof);
     for (const MultiplierFace &face : faces)
-      for (unsigned int c = 0; c < dim; ++c)
+      for (unsigned int c = 0; c < n_directions; ++c)
         if (face.cover >= Cover::partial)
           make_up_for_blocked_vertices(face, c, records);
 
-    const auto followers  = find_followers(body, faces, records);
-    const auto may_follow = find_stranded(body, faces, records, followers);
+    const auto followers  = find_followers(body, faces, n_directions, records);
+    const auto may_follow = find_stranded(body, faces, n_directions, records, followers);
     const StrandedVertices stranded(body, faces, may_follow);
     IndexSet               known = body.relevant_dofs;
     stranded.add_representatives(known);

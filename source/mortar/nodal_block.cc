@@ -108,6 +108,20 @@ namespace mortise
     return result;
   }
 
+  std::vector<Point<2>>
+  face_nodes(const FaceShape shape, const unsigned int degree)
+  {
+    // the functions of vertices are those of the linear element
+    const FullMatrix<double> &values = face_nodal_basis(shape, degree).values;
+    const TraceBasis         &basis  = trace_basis(shape, degree);
+    std::vector<Point<2>>     nodes(basis.size());
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      for (unsigned int v = 1; v < basis.n_vertices(); ++v)
+        nodes[k] += values(k, basis.vertex_function(v)) *
+                    Point<2>(v % 2, v / 2);
+    return nodes;
+  }
+
   FullMatrix<double>
   resolve_hanging(FullMatrix<double> A,
                   const FaceNodes   &rows,

@@ -81,6 +81,17 @@ namespace mortise
   }
 
   void
+  BlockSystem::subtract_spring_opening(Vector       &dst,
+                                       const Vector &lambda) const
+  {
+    if (!has_springs())
+      return;
+    Vector opening(dst);
+    spring_compliance.vmult(opening, lambda);
+    dst -= opening;
+  }
+
+  void
   BlockSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
   {
     if (nodal)

@@ -103,8 +103,8 @@ namespace mortise
         // the finest level respects the constraint itself; the matrix of
         // vertices is made of the last
         if (number > 0 || spaces.size() == 1)
-          all_levels.back().penalty =
-            make_nodal_penalty(all_levels.back(), number, scene.couplings);
+          all_levels.back().penalties =
+            make_nodal_penalties(all_levels.back(), number, scene.couplings);
       }
     stiffness = std::make_unique<LevelOperator<double>>(all_levels.front(),
                                                         false,

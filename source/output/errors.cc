@@ -137,8 +137,9 @@ namespace mortise
                     exact.stress(face->points[q], tied[n].bearing);
                   const Tensor<1, dim> traction   = stress * face->normals[q];
                   Tensor<1, dim>       difference = traction;
+                  const auto &rows = couplings[n].multipliers->rows()[s];
                   for (unsigned int c = 0; c < dim; ++c)
-                    if (couplings[n].multipliers->rows()[s].hold_constants[c])
+                    if (rows.hold_constants[rows.normals.empty() ? c : 0])
                       for (unsigned int k = 0; k < n_functions; ++k)
                         difference[c] +=
                           coefficients[n][s][c * n_functions + k] *

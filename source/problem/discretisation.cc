@@ -1,4 +1,5 @@
 #include <mortise/base/error.h>
+#include <mortise/mortar/slave_normals.h>
 #include <mortise/operators/constant_pressure.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/rigid_motions.h>
@@ -48,6 +49,16 @@ namespace mortise
                                           system.owned_multiplier,
                                           run.comm};
         assemble_constraint(couplings.all(), partition, system.coupling);
+        if (couplings.have_springs())
+          assemble_compliance(couplings.all(),
+                              partition,
+                              system.spring_compliance);
+        if (!spaces.nodal.empty() &&
+            (couplings.slide() || couplings.have_springs()))
+          assemble_components(couplings.all(),
+                              partition,
+                              system.components,
+                              system.frames);
         if (spaces.choice.method != SolverMethod::direct &&
             spaces.nodal.empty())
           assemble_jump_penalty(couplings.all(),
@@ -82,7 +93,9 @@ namespace mortise
                              couplings.all()},
           run.comm);
         if (system.owned_multiplier.size() > 0)
-          system.nodal->drop_constrained_columns(system.coupling);
+          for (SparseMatrix *matrix : {&system.coupling, &system.components})
+            if (matrix->m() > 0)
+              system.nodal->drop_constrained_columns(*matrix);
         stage.details("without a matrix");
         return;
       }
@@ -183,6 +196,19 @@ namespace mortise
         g.compress(VectorOperation::insert);
         prescribed_columns.vmult(load.rhs.multiplier, g);
       }
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      if (const auto offset = data.offset(i);
+          offset && load.rhs.multiplier.size() > 0)
+        {
+          const Coupling &coupling = couplings.all()[i];
+          add_offset(
+            coupling,
+            offset,
+            slave_normals(*spaces.bodies[couplings.sides()[i].slave.body],
+                          coupling.interface->slave()),
+            load.rhs.multiplier);
+          load.rhs.multiplier.compress(VectorOperation::add);
+        }
     for (const FreePressure &free : free_pressures)
       {
         if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)

@@ -71,8 +71,23 @@ namespace mortise
         section, "Master", interface.master, "The other side.", parameters);
       section.add("Law",
                   interface.law,
-                  "What the interface does.",
-                  Allowed::one_of({"tie"}));
+                  "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
+                  "its normal; across it they move freely. spring: a thin layer or glue of the stiffnesses below.",
+                  Allowed::one_of({"tie", "slide", "spring"}));
+      section.add("Normal stiffness",
+                  interface.normal_stiffness,
+                  "Law = spring: traction by opening [force per volume]. A layer of thickness d has its modulus over "
+                  "d.",
+                  {"an expression in x, y, z, positive"});
+      section.add("Tangential stiffness",
+                  interface.tangential_stiffness,
+                  "The same across the normal [force per volume]; 0: it slides.",
+                  {"an expression in x, y, z, positive; or 0"});
+      section.add("Offset",
+                  interface.offset,
+                  "The gap that is left between the bodies on top of that between their meshes, which it takes for "
+                  "closed; negative: an interference, as of a press fit whose meshes coincide [length].",
+                  {"an expression in x, y, z, t"});
       section.add("Multiplier",
                   interface.multiplier,
                   "Space of the Lagrange multiplier (the traction): standard, the slave's traces, or dual, as many "

@@ -167,12 +167,60 @@ namespace mortise
       return a.body == b.body && a.boundary == b.boundary;
     }
 
+    /// A spring has both stiffnesses, other laws none.
+    void
+    check_stiffness(const Parameters                 &parameters,
+                    const InterfaceParameters        &interface,
+                    const std::string                &path,
+                    const std::optional<std::string> &stiffness,
+                    const bool                        may_be_zero)
+    {
+      if (!stiffness && interface.law == "spring")
+        parameters.fail(path,
+                        "nothing with Law = spring",
+                        "an expression in x, y, z");
+      if (stiffness && interface.law != "spring")
+        parameters.fail(path,
+                        in_quotes(*stiffness) + " with Law = " + interface.law,
+                        "nothing: only Law = spring has stiffnesses");
+      if (!stiffness)
+        return;
+      const double time = parameters.steps.first_time();
+      check_expression(parameters.where(path), *stiffness, time);
+      const Expression expression(*stiffness, parameters.where(path), time);
+      if (expression.depends_on_time())
+        parameters.fail(path,
+                        in_quotes(*stiffness) + ", which depends on time",
+                        "an expression in x, y, z");
+      if (!expression.is_constant())
+        return;
+      const double value = expression.value(dealii::Point<3>());
+      if (value < 0. || (value == 0. && !may_be_zero))
+        parameters.fail(path,
+                        in_quotes(*stiffness),
+                        may_be_zero ? "0 or a positive stiffness" :
+                                      "a positive stiffness");
+    }
+
     void
     check_interface(const Parameters          &parameters,
                     const InterfaceParameters &interface)
     {
       const std::string     section = "Interface " + interface.name;
       const SideParameters &slave = interface.slave, &master = interface.master;
+      check_expression(parameters.where(section + "/Offset"),
+                       interface.offset,
+                       parameters.steps.first_time());
+      check_stiffness(parameters,
+                      interface,
+                      section + "/Normal stiffness",
+                      interface.normal_stiffness,
+                      false);
+      check_stiffness(parameters,
+                      interface,
+                      section + "/Tangential stiffness",
+                      interface.tangential_stiffness,
+                      true);
       if (same(slave, master))
         parameters.fail(
           section + "/Master",

@@ -89,6 +89,13 @@ namespace mortise
                const std::vector<std::vector<DirichletCondition>> &dirichlet,
                const std::vector<TieSupport>                      &ties)
         : ties(ties)
+        , zero(std::any_of(ties.begin(),
+                           ties.end(),
+                           [](const TieSupport &tie) {
+                             return tie.directions == TiedDirections::normal;
+                           }) ?
+                 zero_support_of_sliding :
+                 zero_support)
         , held(bodies.size(), false)
       {
         const MPI_Comm comm =
@@ -173,7 +180,7 @@ namespace mortise
                       if (sides[i] == b && held[sides[1 - i]])
                         add_block(matrix, 0, 0, of_tie[t], i, i);
                   }
-                again = held[b] = null_space(matrix).empty();
+                again = held[b] = null_space(matrix, zero).empty();
                 if (again)
                   break;
               }
@@ -202,10 +209,11 @@ namespace mortise
                 if (sides[i] >= 0 && sides[j] >= 0)
                   add_block(matrix, sides[i], sides[j], of_tie[t], i, j);
           }
-        free = null_space(matrix);
+        free = null_space(matrix, zero);
       }
 
       const std::vector<TieSupport>   &ties;
+      const double                     zero; ///< see null_space()
       std::vector<Support>             of_body, of_tie;
       std::vector<std::size_t>         n_multipliers; ///< by tie, of all ranks
       std::vector<bool>                held;

@@ -51,6 +51,20 @@ namespace mortise
     return row;
   }
 
+  Motion
+  row_of(const Extent &where, const MultiplierMoment &multiplier)
+  {
+    Motion sum{};
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const Motion row =
+          row_of(where, c, multiplier.moment[c], multiplier.weight[c]);
+        for (unsigned int i = 0; i < sum.size(); ++i)
+          sum[i] += row[i];
+      }
+    return sum;
+  }
+
   Support
   support_of(const Body                            &body,
              const std::vector<DirichletCondition> &dirichlet,
@@ -77,12 +91,10 @@ namespace mortise
     Support support(2);
     for (const MultiplierMoment &m : tie.multipliers)
       {
-        Motion minus = row_of(master, m.component, m.moment, m.weight);
+        Motion minus = row_of(master, m);
         for (double &entry : minus)
           entry *= -1.;
-        support.add({row_of(slave, m.component, m.moment, m.weight), minus},
-                    1.,
-                    m.weight * m.weight);
+        support.add({row_of(slave, m), minus}, 1., m.weight.norm_square());
       }
     support.finish(comm);
     return support;
@@ -121,12 +133,12 @@ namespace mortise
   }
 
   std::vector<std::vector<double>>
-  null_space(RigidMatrix matrix)
+  null_space(RigidMatrix matrix, const double zero)
   {
     Spectrum                         all = spectrum(std::move(matrix));
     std::vector<std::vector<double>> result;
     for (unsigned int k = 0; k < all.values.size(); ++k)
-      if (!(all.values[k] > 1e-10 * all.values[0]))
+      if (!(all.values[k] > zero * all.values[0]))
         result.push_back(std::move(all.vectors[k]));
     return result;
   }

@@ -1,7 +1,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/mortar/slave_normals.h>
 #include <mortise/problem/scene_couplings.h>
+#include <mortise/problem/scene_data.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +37,8 @@ namespace mortise
     options.search_fraction      = given.search_distance;
     options.points_per_direction = given.quadrature_points;
     Coupling coupling;
+    coupling.is_spring  = given.law == "spring";
+    coupling.directions = tied_directions(run.parameters, given);
     coupling.interface = std::make_unique<InterfaceHandler>(given.name,
                                                             surface(given.slave),
                                                             surface(
@@ -52,7 +56,13 @@ namespace mortise
       integrate_coupling(*coupling.interface,
                          spaces.choice.method != SolverMethod::direct,
                          given.multiplier == "dual" ? MultiplierBasis::dual :
-                                                      MultiplierBasis::standard);
+                                                      MultiplierBasis::standard,
+                         !coupling.is_spring);
+    if (const auto stiffness = spring_stiffness(run.parameters, given))
+      set_springs(stiffness,
+                  slave_normals(*spaces.bodies[given.slave.body],
+                                coupling.interface->slave()),
+                  coupling);
   }
 
   void

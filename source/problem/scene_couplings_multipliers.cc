@@ -35,10 +35,11 @@ namespace mortise
     const std::string name    = interfaces[i].name;
     const auto       &rows    = couplings[i].multipliers->rows();
     unsigned int      n_fixed = 0, n_covered = 0;
+    const bool slides = couplings[i].directions == TiedDirections::normal;
     std::string       lost;
     for (unsigned int s = 0; s < states.size(); ++s)
       if (states[s].cover != Cover::none)
-        for (unsigned int c = 0; c < dim; ++c)
+        for (unsigned int c = 0; c < (slides ? 1 : dim); ++c)
           {
             ++n_covered;
             if (rows[s].hold_constants[c])
@@ -47,8 +48,10 @@ namespace mortise
             if (!states[s].can_follow[c] || !lost.empty())
               continue;
             std::ostringstream text;
-            text << "Interface " << name << ": nothing is tied in direction "
-                 << "xyz"[c] << " at "
+            text << "Interface " << name << ": nothing is tied "
+                 << (slides ? "along the normal" :
+                              std::string("in direction ") + "xyz"[c])
+                 << " at "
                  << couplings[i]
                       .interface->slave()
                       .cells[s]
@@ -88,7 +91,8 @@ namespace mortise
           body.boundary_id(slave.boundary, ""),
           coupling.interface->slave(),
           states[i],
-          blocked_dofs(slave.body, shared.taken()));
+          blocked_dofs(slave.body, shared.taken()),
+          coupling.directions);
         shared.take(i);
       }
     types::global_dof_index mine = 0, first = 0, total = 0;
@@ -123,6 +127,7 @@ namespace mortise
            interfaces[i].master.body,
            multiplier_moments(couplings[i], owned, run.comm),
            report.covered_area / report.slave_area,
+           couplings[i].directions,
            {}});
         const BodySurface &slave = couplings[i].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
@@ -131,7 +136,10 @@ namespace mortise
             const double area = couplings[i].interface->coverage()[s] *
                                 std::pow(slave.faces[s].size, 2);
             for (const unsigned int v : face->vertex_indices())
-              ties.back().places.emplace_back(face->vertex(v), area);
+              ties.back().places.push_back(
+                {face->vertex(v),
+                 area,
+                 slave.faces[s].vertex_normals[v]});
           }
       }
     return ties;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 
 namespace mortise
 {
@@ -47,6 +48,23 @@ namespace mortise
       return pressure.value(Point<dim>());
     }
 
+    /// Entry @p name of @p interface.
+    double
+    constant_along(const Parameters          &parameters,
+                   const double               time,
+                   const InterfaceParameters &interface,
+                   const std::string         &name,
+                   const std::string         &text)
+    {
+      const std::string where =
+        parameters.where("Interface " + interface.name + "/" + name);
+      const Expression expression(text, where, time);
+      if (!expression.is_constant())
+        throw InputError(where + ": got " + in_quotes(text) +
+                         "; the named exact solutions need a constant");
+      return expression.value(Point<dim>());
+    }
+
     std::shared_ptr<const ExactSolution>
     make_lame_solution(const Parameters            &parameters,
                        const double                 time,
@@ -79,6 +97,20 @@ namespace mortise
             innermost = b;
           if (mesh.extent[1] > layers[outermost].outer_radius)
             outermost = b;
+        }
+      for (const InterfaceParameters &interface : parameters.interfaces)
+        {
+          LameSolution::Layer &a = layers[interface.slave.body],
+                              &b = layers[interface.master.body];
+          LameSolution::Layer &outer = a.inner_radius < b.inner_radius ? b : a;
+          outer.offset_inside =
+            constant_along(parameters, time, interface, "Offset", interface.offset);
+          if (interface.normal_stiffness)
+            outer.compliance_inside = 1. / constant_along(parameters,
+                                                          time,
+                                                          interface,
+                                                          "Normal stiffness",
+                                                          *interface.normal_stiffness);
         }
       return std::make_shared<LameSolution>(
         geometry,
@@ -218,6 +250,54 @@ namespace mortise
     }
   } // namespace
 
+  std::function<Stiffness(const Point<dim> &)>
+  spring_stiffness(const Parameters          &parameters,
+                   const InterfaceParameters &interface)
+  {
+    if (!interface.normal_stiffness || !interface.tangential_stiffness)
+      return {};
+    const auto evaluator = [&](const std::string &name,
+                               const std::string &text) {
+      const std::string where =
+        parameters.where("Interface " + interface.name + "/" + name);
+      return [expression = Expression(text, where), where, text](
+               const Point<dim> &x) {
+        const double value = expression.value(x);
+        if (!(value > 0. && value <= largest_number) &&
+            !(value == 0. && expression.is_constant()))
+          {
+            std::ostringstream message;
+            message << where << ": got " << in_quotes(text) << ", which is "
+                    << value << " at " << x << "; allowed: positive values";
+            throw InputError(message.str());
+          }
+        return value;
+      };
+    };
+    return [normal = evaluator("Normal stiffness", *interface.normal_stiffness),
+            tangential =
+              evaluator("Tangential stiffness",
+                        *interface.tangential_stiffness)](const Point<dim> &x) {
+      return Stiffness{normal(x), tangential(x)};
+    };
+  }
+
+  TiedDirections
+  tied_directions(const Parameters          &parameters,
+                  const InterfaceParameters &interface)
+  {
+    if (interface.law == "slide")
+      return TiedDirections::normal;
+    if (!interface.tangential_stiffness)
+      return TiedDirections::all;
+    const Expression tangential(
+      *interface.tangential_stiffness,
+      parameters.where("Interface " + interface.name + "/Tangential stiffness"));
+    return tangential.is_constant() && tangential.value(Point<dim>()) == 0. ?
+             TiedDirections::normal :
+             TiedDirections::all;
+  }
+
   SceneData::SceneData(const Parameters &parameters,
                        const double      time,
                        FieldChecks      &checks)
@@ -312,6 +392,22 @@ namespace mortise
           }
       }
     return loads;
+  }
+
+  std::function<double(const Point<dim> &)>
+  SceneData::offset(const unsigned int i) const
+  {
+    const InterfaceParameters &given = parameters.interfaces[i];
+    const std::string          where =
+      parameters.where("Interface " + given.name + "/Offset");
+    const Expression expression(given.offset, where, time);
+    if (expression.is_constant() && !expression.depends_on_time() &&
+        expression.value(Point<dim>()) == 0.)
+      return {};
+    const std::string what = where + ": " + in_quotes(given.offset);
+    return [expression, what, &watch = checks](const Point<dim> &x) {
+      return watch(expression.value(x), x, what);
+    };
   }
 
   std::vector<DirichletCondition>

@@ -17,28 +17,29 @@ namespace mortise
     {
       double         area = 0., square = 0.;
       Tensor<1, dim> centre;
-      for (const auto &[place, weight] : tie.places)
+      for (const auto &place : tie.places)
         {
-          area += weight;
-          centre += weight * Tensor<1, dim>(place);
+          area += place.area;
+          centre += place.area * Tensor<1, dim>(place.point);
         }
       area = Utilities::MPI::sum(area, comm);
       Extent result;
       result.centre = Point<dim>(Utilities::MPI::sum(centre, comm) / area);
-      for (const auto &[place, weight] : tie.places)
-        square += weight * place.distance_square(result.centre) / area;
+      for (const auto &place : tie.places)
+        square +=
+          place.area * place.point.distance_square(result.centre) / area;
       result.size = std::sqrt(Utilities::MPI::sum(square, comm));
       return result;
     }
 
     /// The smallest x A x / x B x over all x with x B x > 0.
     double
-    smallest_ratio(const RigidMatrix &A, const RigidMatrix &B)
+    smallest_ratio(const RigidMatrix &A, const RigidMatrix &B, const double zero)
     {
       const unsigned int n     = A.m();
       const Spectrum     all   = spectrum(B);
       unsigned int       range = 0;
-      while (range < n && all.values[range] > 1e-10 * all.values[0])
+      while (range < n && all.values[range] > zero * all.values[0])
         ++range;
       if (range == 0)
         return 1.;
@@ -68,16 +69,27 @@ namespace mortise
       TieSupport       ideal       = tie;
       ideal.multipliers.clear();
       double area = 0.;
-      for (const auto &[place, weight] : tie.places)
-        area += weight;
+      for (const auto &place : tie.places)
+        area += place.area;
       area = Utilities::MPI::sum(area, comm);
-      for (const auto &[place, weight] : tie.places)
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            const double root = std::sqrt(weight / area);
+      for (const auto &place : tie.places)
+        {
+          const double root = std::sqrt(place.area / area);
+          const auto   add  = [&](const Tensor<1, dim> &direction) {
             ideal.multipliers.push_back(
-              {c, root, root * Tensor<1, dim>(place)});
-          }
+              {root * direction,
+               root * outer_product(direction, Tensor<1, dim>(place.point))});
+          };
+          if (tie.directions == TiedDirections::normal)
+            add(place.normal);
+          else
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                Tensor<1, dim> direction;
+                direction[c] = 1.;
+                add(direction);
+              }
+        }
       RigidMatrix matrices[2];
       for (unsigned int m = 0; m < 2; ++m)
         {
@@ -97,7 +109,11 @@ namespace mortise
                 add_block(matrices[m], i, j, support, i, j);
             }
         }
-      return !(smallest_ratio(matrices[0], matrices[1]) > least_ratio);
+      return !(smallest_ratio(matrices[0],
+                              matrices[1],
+                              tie.directions == TiedDirections::all ?
+                                zero_support :
+                                zero_support_of_sliding) > least_ratio);
     }
   } // namespace
 

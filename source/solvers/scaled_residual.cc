@@ -66,13 +66,16 @@ namespace mortise
                     weight_u->Values() + weight_u->MyLength(),
                     on_columns.Values());
         weight_lambda = std::make_unique<Epetra_Vector>(coupling.RowMap());
+        Epetra_Vector opening(coupling.RowMap());
+        if (system.has_springs())
+          system.spring_compliance.trilinos_matrix().ExtractDiagonalCopy(opening);
         for (int i = 0; i < weight_lambda->MyLength(); ++i)
           {
             const EpetraRow row(coupling, i);
             double          sum = 0.;
             for (int k = 0; k < row.length; ++k)
               sum += row.values[k] * row.values[k] * on_columns[row.columns[k]];
-            (*weight_lambda)[i] = inverse(sum);
+            (*weight_lambda)[i] = inverse(sum + opening[i]);
           }
       }
   }
@@ -96,6 +99,7 @@ namespace mortise
       {
         system.add_multiplier_force(r.displacement, x.multiplier);
         system.apply_constraint(r.multiplier, x.displacement);
+        system.subtract_spring_opening(r.multiplier, x.multiplier);
         r.multiplier.sadd(-1., 1., rhs.multiplier);
       }
     r.displacement.sadd(-1., 1., rhs.displacement);
@@ -143,6 +147,13 @@ namespace mortise
                       to_lambda = epetra_view(sizes.multiplier);
         B.Multiply(true, epetra_view(lambda), to_u);
         B.Multiply(false, epetra_view(u), to_lambda);
+        if (system.has_springs())
+          {
+            Vector opening(lambda); // entries of one sign are most of it
+            system.spring_compliance.vmult(opening, lambda);
+            abs(opening, opening);
+            sizes.multiplier += opening;
+          }
       }
     for (unsigned int i = 0; i < x.displacement.locally_owned_size(); ++i)
       sizes.displacement.begin()[i] +=

@@ -76,6 +76,9 @@ namespace mortise
       double        inner_radius;
       double        outer_radius;
       LinearElastic material; ///< nu = 0.5 is allowed here
+      /// Between this layer and the one inside: the gap that is left (negative:
+      /// an interference), a length, and how much tension of one opens it.
+      double offset_inside = 0., compliance_inside = 0.;
     };
 
     /// Layer i is body i; layers may come in any order of radius. The centre

@@ -9,6 +9,7 @@
 #include <mortise/mortar/local_coupling.h>
 #include <mortise/mortar/multiplier_space.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace mortise
   {
     std::unique_ptr<InterfaceHandler> interface;
     std::vector<LocalCoupling>        local; ///< by slave face
+    TiedDirections                    directions = TiedDirections::all;
+    bool                              is_spring  = false;
     std::unique_ptr<MultiplierSpace>  multipliers;
   };
 
@@ -35,12 +38,42 @@ namespace mortise
     MPI_Comm                comm;
   };
 
-  /// The constraint B u = 0 of all interfaces: B = [D, -M], multipliers x
+  /// The constraint B u = 0 of all interfaces: B = [D, -M], where bodies slide
+  /// its component along the normal of each slave node; multipliers x
   /// displacements that are free. Collective.
   void
   assemble_constraint(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition,
                       SparseMatrix                &coupling);
+
+  /// The constraint by component, B_c u = 0, and R with B = R B_c, for scenes in
+  /// which bodies slide. Collective.
+  void
+  assemble_components(const std::vector<Coupling> &couplings,
+                      const CouplingPartition     &partition,
+                      SparseMatrix                &components,
+                      SparseMatrix                &frames);
+
+  /// Set what interface @p coupling is as a spring from @p stiffness at points of the slave.
+  /// @p normals: slave_normals().
+  void
+  set_springs(
+    const std::function<Stiffness(const dealii::Point<dim> &)> &stiffness,
+    const std::vector<std::vector<dealii::Tensor<1, dim>>>     &normals,
+    Coupling                                                   &coupling);
+
+  /// C with B u - C lambda = g: int psi K^{-1} psi of springs, K their stiffness;
+  /// lumped where multipliers are dual, which is as good as these are. Rows of
+  /// ties are zero. Collective.
+  void
+  assemble_compliance(const std::vector<Coupling> &couplings,
+                      const CouplingPartition     &partition,
+                      SparseMatrix                &compliance);
+
+  /// The penalties along normals and across them, where @p penalty is that of a
+  /// tie: less where a spring gives way.
+  Stiffness
+  penalty_of(const Coupling &coupling, unsigned int s, double penalty);
 
   /// The columns that this B lacks: those of prescribed displacements, and of
   /// what hangs on them, in the numbering of the scene, which the partition has
@@ -57,12 +90,12 @@ namespace mortise
                         const CouplingPartition     &partition,
                         SparseMatrix                &jump_penalty);
 
-  /// What a multiplier feels of rigid motions.
+  /// What a multiplier feels of rigid motions: that of component c over a bound
+  /// of int |psi|.
   struct MultiplierMoment
   {
-    unsigned int           component; ///< of the displacement
-    double                 weight;    ///< int psi over a bound of int |psi|
-    dealii::Tensor<1, dim> moment; ///< int psi x over the same bound, a length
+    dealii::Tensor<1, dim> weight; ///< int psi_c
+    dealii::Tensor<2, dim> moment; ///< [c]: int psi_c x, a length
   };
 
   /// Of the owned multipliers of @p coupling. Collective.
@@ -117,6 +150,17 @@ namespace mortise
   multiplier_on_faces(const Coupling &coupling,
                       const Vector   &multiplier,
                       MPI_Comm        comm);
+
+  /// Add int psi . n offset to the right hand side of B u = g: the gap that is
+  /// left between the bodies, on top of that between their meshes. @p offset: at
+  /// points of the slave, a length; @p normals: slave_normals(). The caller
+  /// compresses (add).
+  void
+  add_offset(
+    const Coupling                                                  &coupling,
+    const std::function<double(const dealii::Point<dim> &position)> &offset,
+    const std::vector<std::vector<dealii::Tensor<1, dim>>>          &normals,
+    Vector                                                          &rhs);
 
   /// What undoes multiplier_coefficients(). The caller compresses (insert).
   void

@@ -15,6 +15,7 @@
 
 #include <mortise/interface/interface_handler.h>
 
+#include <limits>
 #include <vector>
 
 namespace mortise
@@ -23,6 +24,14 @@ namespace mortise
   {
     standard,
     dual
+  };
+
+  /// Of a thin layer: traction by opening, along its normal and across, force
+  /// per volume. Infinite where nothing opens.
+  struct Stiffness
+  {
+    double normal     = std::numeric_limits<double>::infinity();
+    double tangential = std::numeric_limits<double>::infinity();
   };
 
   /// Integrals over the covered part of one slave face. Functions N are those
@@ -52,6 +61,8 @@ namespace mortise
       gap_moment; ///< int psi_i (x_master - x_slave)
     std::vector<dealii::Tensor<1, dim>> position_moment; ///< int psi_i x_slave
     std::vector<Partner>                partners;
+    std::vector<Stiffness>              springs; ///< by node; empty: a tie
+    std::vector<dealii::Tensor<1, dim>> spring_normals; ///< likewise
     double                              penalty =
       0.; ///< scale of jump penalties: about E / h of the softer side, or of
           ///< the slave where a master leads, since it is what moves
@@ -63,9 +74,11 @@ namespace mortise
     }
   };
 
-  /// Clip @p interface and integrate; one entry per slave face. Collective.
+  /// Clip @p interface and integrate; one entry per slave face. @p may_lead: let slaves follow
+  /// where that pays. Collective.
   std::vector<LocalCoupling>
   integrate_coupling(InterfaceHandler &interface,
                      bool              with_master_mass,
-                     MultiplierBasis   basis);
+                     MultiplierBasis   basis,
+                     bool              may_lead = true);
 } // namespace mortise

@@ -27,11 +27,20 @@
 #include <mortise/mortar/multiplier_faces.h>
 
 #include <array>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace mortise
 {
+  /// What multipliers hold together: all components of displacements, or those
+  /// along the normal of the slave, where bodies slide.
+  enum class TiedDirections : unsigned char
+  {
+    all,
+    normal
+  };
+
   class MultiplierSpace
   {
   public:
@@ -39,7 +48,9 @@ namespace mortise
 
     /// Multipliers on one face: value_c(xi) = sum_k psi_k(xi) sum_j weight_j
     /// lambda_index_j with row = c (degree + 1)^2 + k, k the nodes of the face,
-    /// psi as in LocalCoupling. Most nodes have a multiplier of their own.
+    /// psi as in LocalCoupling. Most nodes have a multiplier of their own. Along
+    /// normals, value_c(xi) = sum_k psi_k(xi) n_kc sum_j weight_j lambda_index_j
+    /// with row = k.
     struct FaceRows
     {
       std::vector<unsigned int> begin;
@@ -48,9 +59,30 @@ namespace mortise
       /// Those that are coefficients of hierarchical functions instead: their
       /// row, numbered as those of values, and multiplier.
       std::vector<std::pair<unsigned int, Index>> hierarchical;
-      /// By component: is there a multiplier that is one on the whole face? If
-      /// not, constant tractions do not pass.
+      /// By component, that along the normal being the first: is there a
+      /// multiplier that is one on the whole face? If not, constant tractions do
+      /// not pass.
       std::array<bool, dim> hold_constants{};
+      /// Of nodes, where bodies slide; else empty.
+      std::vector<dealii::Tensor<1, dim>> normals;
+
+      /// The direction of @p row, a multiple of whose multipliers' sum is its
+      /// part of the traction.
+      dealii::Tensor<1, dim>
+      direction(const unsigned int row) const
+      {
+        if (!normals.empty())
+          return normals[row];
+        dealii::Tensor<1, dim> result;
+        result[row / n_nodes()] = 1.;
+        return result;
+      }
+
+      unsigned int
+      n_nodes() const
+      {
+        return normals.empty() ? (begin.size() - 1) / dim : normals.size();
+      }
     };
 
     /// Decide which multipliers there are. @p blocked: whether a locally owned displacement dof
@@ -61,7 +93,8 @@ namespace mortise
                     dealii::types::boundary_id       boundary,
                     const BodySurface               &slave,
                     const std::vector<PartnerState> &partners,
-                    const std::vector<bool>         &blocked);
+                    const std::vector<bool>         &blocked,
+                    TiedDirections directions = TiedDirections::all);
 
     /// Multipliers owned by this rank.
     unsigned int
@@ -90,12 +123,41 @@ namespace mortise
       return face_rows;
     }
 
+    /// The constraint in rows that move one component each: a multiplier is a
+    /// combination of them. Where all directions are tied, both are the same
+    /// but for their numbers.
+    struct ComponentRows
+    {
+      /// As rows() of all directions, in numbers of component rows. By slave
+      /// face.
+      std::vector<FaceRows> rows;
+      /// (multiplier, component row, weight); those that several faces see are
+      /// there several times.
+      std::vector<std::tuple<Index, Index, double>> frames;
+    };
+
+    /// Component rows owned by this rank. Collective.
+    unsigned int
+    n_component_rows(const BodySurface &slave) const;
+
+    /// Valid after number(). @p first: the number of the first row that this
+    /// rank owns. Collective.
+    ComponentRows
+    component_rows(const BodySurface &slave, Index first) const;
+
   private:
-    const Body        &body;
-    std::vector<Index> owned_dofs;
+    /// The rows with the owned multipliers numbered from @p first on. Collective.
+    std::vector<FaceRows>
+    make_rows(const BodySurface &slave, Index first) const;
+
+    const Body                                      &body;
+    std::vector<std::vector<dealii::Tensor<1, dim>>> normals; ///< by face
+    unsigned int                                     n_directions;
+    std::vector<Index>                               owned_dofs;
     std::vector<bool>  at_vertices; ///< by owned multiplier
     dealii::AffineConstraints<double>
                           reduction; ///< in the body's numbering; closed
     std::vector<FaceRows> face_rows;
+    Index                 first_number = 0;
   };
 } // namespace mortise

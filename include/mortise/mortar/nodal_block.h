@@ -2,10 +2,14 @@
 // functions of the same or a lower degree.
 #pragma once
 
+#include <deal.II/base/point.h>
+
 #include <deal.II/lac/full_matrix.h>
 
 #include <mortise/body/elements/face_shape.h>
 #include <mortise/body/spaces/nodal_space.h>
+
+#include <vector>
 
 namespace mortise
 {
@@ -37,6 +41,10 @@ namespace mortise
   /// Made once for each shape and degree.
   const FaceNodalBasis &
   face_nodal_basis(FaceShape shape, unsigned int degree);
+
+  /// The nodes, in coordinates of the face.
+  std::vector<dealii::Point<2>>
+  face_nodes(FaceShape shape, unsigned int degree);
 
   /// F_r^T A F_c where F_r, F_c say how the values at the nodes of the rows'
   /// and the columns' face follow from those of others; as it is where none

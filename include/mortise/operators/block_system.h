@@ -3,7 +3,7 @@
 //
 //     [ K  G^T  B^T ] [ u      ]
 //     [ G  -C    0  ] [ p      ]
-//     [ B   0    0  ] [ lambda ]
+//     [ B   0   -S  ] [ lambda ]
 //
 // where the pressure p is that of bodies in mixed form, if there are any,
 // together with what preconditioners need to know about it. Prescribed
@@ -74,6 +74,22 @@ namespace mortise
     /// dofs are zero. No rows at all when the scene has no interface.
     SparseMatrix coupling;
 
+    /// S, the compliance of springs: zero, or empty, where bodies are tied.
+    SparseMatrix spring_compliance;
+
+    /// Where bodies slide or hang on springs, and displacements are values at nodes, B = R B_c: B_c
+    /// (components) has rows that move one component each, by entity of the
+    /// mesh, in it by component, and R (frames) the normals. Else empty: B is
+    /// such a matrix itself.
+    SparseMatrix components, frames;
+
+    /// B, or B_c.
+    const Epetra_CrsMatrix &
+    coupling_by_component() const
+    {
+      return (frames.m() > 0 ? components : coupling).trilinos_matrix();
+    }
+
     /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the
     /// softer side: symmetric, positive semi-definite, touches interface dofs
     /// only. K + J is regular even where K is not; it is for preconditioning
@@ -129,6 +145,16 @@ namespace mortise
     /// dst = B u, what the constraints see. Collective.
     void
     apply_constraint(Vector &dst, const Vector &u) const;
+
+    /// dst -= S lambda, what springs give. Collective.
+    void
+    subtract_spring_opening(Vector &dst, const Vector &lambda) const;
+
+    bool
+    has_springs() const
+    {
+      return spring_compliance.m() > 0;
+    }
 
     /// dst = P p. Collective.
     void

@@ -75,8 +75,11 @@ namespace mortise
     std::string    name;
     SideParameters slave; ///< carries the multiplier
     SideParameters master;
-    std::string    law               = "tie";
+    std::string    law               = "tie"; ///< or "slide", "spring"
     std::string    multiplier        = "dual";
+    std::string    offset            = "0";
+    /// For "spring" alone.
+    std::optional<std::string> normal_stiffness, tangential_stiffness;
     double         search_distance   = 0.5;
     unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
   };

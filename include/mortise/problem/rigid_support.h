@@ -36,6 +36,10 @@ namespace mortise
          const dealii::Tensor<1, dim> &position,
          double                        weight = 1.);
 
+  /// What a multiplier feels of a + w x (x - centre).
+  Motion
+  row_of(const Extent &where, const MultiplierMoment &multiplier);
+
   /// Weighted means of squares of rows, each on @p n_bodies bodies: what is
   /// prevented.
   class Support
@@ -91,9 +95,15 @@ namespace mortise
     unsigned int                  slave, master; ///< bodies
     std::vector<MultiplierMoment> multipliers;   ///< of this rank
     double                        coverage;      ///< of the slave surface
-    /// Of this rank: points spread over the covered part of the slave surface,
-    /// and the area that each stands for.
-    std::vector<std::pair<dealii::Point<dim>, double>> places;
+    TiedDirections                directions;
+    struct Place
+    {
+      dealii::Point<dim>     point;
+      double                 area; ///< that it stands for
+      dealii::Tensor<1, dim> normal;
+    };
+    /// Of this rank, spread over the covered part of the slave surface.
+    std::vector<Place> places;
   };
 
   /// Of the slave, then of the master, translations of all together weighing
@@ -126,7 +136,12 @@ namespace mortise
   Spectrum
   spectrum(RigidMatrix matrix);
 
-  /// A basis of the null space.
+  /// What is less than this share of the largest eigenvalue is zero: rounding,
+  /// or what meshes leave of a surface that slides along itself.
+  constexpr double zero_support = 1e-10, zero_support_of_sliding = 1e-6;
+
+  /// A basis of the null space; less than @p zero of the largest eigenvalue is
+  /// zero.
   std::vector<std::vector<double>>
-  null_space(RigidMatrix matrix);
+  null_space(RigidMatrix matrix, double zero);
 } // namespace mortise

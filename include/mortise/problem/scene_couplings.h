@@ -5,6 +5,7 @@
 #include <mortise/problem/rigid_support.h>
 #include <mortise/problem/scene_spaces.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace mortise
@@ -37,6 +38,27 @@ namespace mortise
     all() const
     {
       return couplings;
+    }
+
+    /// Does an interface let bodies slide?
+    bool
+    slide() const
+    {
+      return std::any_of(couplings.begin(),
+                         couplings.end(),
+                         [](const Coupling &coupling) {
+                           return coupling.directions == TiedDirections::normal;
+                         });
+    }
+
+    bool
+    have_springs() const
+    {
+      return std::any_of(couplings.begin(),
+                         couplings.end(),
+                         [](const Coupling &coupling) {
+                           return coupling.is_spring;
+                         });
     }
 
     /// Of the scene; of size 0 without interfaces.

@@ -8,6 +8,7 @@
 #include <mortise/operators/scene_system.h>
 #include <mortise/problem/parameters.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -16,6 +17,17 @@ namespace mortise
   /// Material of each body.
   std::vector<Material>
   materials(const Parameters &parameters);
+
+  /// What @p interface is as a spring; null where it is none. The function throws InputError for a
+  /// stiffness that is not positive somewhere.
+  std::function<Stiffness(const dealii::Point<dim> &)>
+  spring_stiffness(const Parameters          &parameters,
+                   const InterfaceParameters &interface);
+
+  /// Along the normal alone, or all of them?
+  TiedDirections
+  tied_directions(const Parameters          &parameters,
+                  const InterfaceParameters &interface);
 
   /// What acts on a scene at one time. Both arguments of the constructor must
   /// live on; @p checks is told of values that no run can use.
@@ -38,6 +50,10 @@ namespace mortise
     /// Body force and tractions of @p body.
     Loads
     loads(const Body &body) const;
+
+    /// The gap that interface @p i leaves between the bodies; null where it is zero at all times.
+    std::function<double(const dealii::Point<dim> &)>
+    offset(unsigned int i) const;
 
     /// Prescribed displacements of @p body; a condition without a value is zero at all times.
     std::vector<DirichletCondition>

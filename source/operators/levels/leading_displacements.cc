@@ -199,7 +199,7 @@ namespace mortise
                             level.layout->get_mpi_communicator()) == 0)
       return {};
     const SlaveNodes slaves(level, diagonal, couplings);
-    // by node, at its first component
+    // the first by displacement, the others by node, at its first component
     LevelVector<double> sums(level.layout), leads(sums), stays(sums);
     for_each_slave(
       couplings,
@@ -212,6 +212,14 @@ namespace mortise
                    can_follow = slaves.can_follow(slave.nodes[0]);
         if (!is_led && can_follow)
           return;
+        const auto share_of = [&](const LocalCoupling::Partner &partner,
+                                  const unsigned int            c) {
+          return coupling.directions == TiedDirections::all ?
+                   1. :
+                   std::pow(coupling.interface->master_faces()[partner.master]
+                              .frame.normal[c],
+                            2);
+        };
         std::vector<FullMatrix<double>> following;
         if (is_led)
           following = follow(coupling, s);
@@ -225,7 +233,8 @@ namespace mortise
                   if (const auto node = node_of(slave.nodes[0], i); node)
                     sum +=
                       slaves.share(*node) * std::pow(following[k](i, j), 2);
-                sums(dim * nodes[j]) += sum;
+                for (unsigned int c = 0; c < dim; ++c)
+                  sums(dim * nodes[j] + c) += share_of(partners[k], c) * sum;
                 if (!can_follow)
                   stays(dim * nodes[j]) = 1.;
                 else if (partners[k].leads)
@@ -242,10 +251,9 @@ namespace mortise
     const auto                       first = level.layout->local_range().first;
     for (unsigned int i = 0; i < is_constrained.size(); ++i)
       if (const unsigned int node = i - i % dim;
-          !is_constrained[i] && sums.local_element(node) > 0. &&
-          leads.local_element(node) > 0. && stays.local_element(node) == 0. &&
+          !is_constrained[i] && leads.local_element(node) > 0. && stays.local_element(node) == 0. &&
           !slaves.is_slave((first + node) / dim))
-        result.push_back({i, sums.local_element(node)});
+        result.push_back({i, sums.local_element(i)});
     return result;
   }
 } // namespace mortise

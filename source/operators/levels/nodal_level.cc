@@ -132,59 +132,9 @@ namespace mortise
     , stiffness(*level.space, *level.layout, pressures)
     , hanging(*level.space, *level.layout)
   {
-    if (!with_penalty)
-      return;
-    // rows are filled with zeros to whole vectors of the processor
-    std::size_t size = 0, widest = 0;
-    for (const auto &group : level.penalty.groups)
-      {
-        const std::size_t n = padded<Number>(group.columns.size());
-        size += group.rows.size() * n;
-        widest = std::max(widest, n);
-      }
-    penalty.resize(size);
-    workspace.resize(dim * widest);
-    Number *to = penalty.data();
-    for (const auto &group : level.penalty.groups)
-      for (unsigned int r = 0; r < group.rows.size(); ++r)
-        {
-          const unsigned int n = group.columns.size();
-          std::copy_n(&group.values[r * n], n, to);
-          to += padded<Number>(n);
-        }
-  }
-
-  template <typename Number>
-  void
-  LevelOperator<Number>::add_penalty(const Number *src, Number *dst) const
-  {
-    using V                   = typename Batch<Number>::Vector;
-    const unsigned int width  = Batch<Number>::size;
-    const V           *values = reinterpret_cast<const V *>(penalty.data());
-    for (const auto &group : level.penalty.groups)
-      {
-        const unsigned int n = group.columns.size(), m = padded<Number>(n);
-        std::array<Number *, dim> gathered;
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            gathered[c] = workspace.data() + c * m;
-            std::fill(gathered[c] + n, gathered[c] + m, Number());
-          }
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int c = 0; c < dim; ++c)
-            gathered[c][j] = src[group.columns[j] + c];
-        for (const unsigned int row : group.rows)
-          {
-            V sums[dim] = {};
-            for (unsigned int j = 0; j < m / width; ++j, ++values)
-              for (unsigned int c = 0; c < dim; ++c)
-                sums[c] +=
-                  *values * reinterpret_cast<const V *>(gathered[c])[j];
-            for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int l = 0; l < width; ++l)
-                dst[row + c] += sums[c][l];
-          }
-      }
+    if (with_penalty)
+      for (const NodalPenalty &penalty : level.penalties)
+        penalties.emplace_back(penalty);
   }
 
   template <typename Number>
@@ -195,8 +145,8 @@ namespace mortise
     complete(src);
     dst = 0;
     stiffness.add_product(src.begin(), dst.begin());
-    if (!penalty.empty())
-      add_penalty(src.begin(), dst.begin());
+    for (const auto &penalty : penalties)
+      penalty.add(src.begin(), dst.begin());
     release(src);
     gather(dst);
   }
@@ -218,17 +168,8 @@ namespace mortise
     Number *out = diagonal.begin();
     stiffness.add_diagonal(out);
     hanging.collect_diagonal(out);
-    const Number *values = penalty.data();
-    if (!penalty.empty())
-      for (const auto &group : level.penalty.groups)
-        for (const unsigned int row : group.rows)
-          {
-            for (unsigned int k = 0; k < group.columns.size(); ++k)
-              if (group.columns[k] == row)
-                for (unsigned int c = 0; c < dim; ++c)
-                  out[row + c] += values[k];
-            values += padded<Number>(group.columns.size());
-          }
+    for (const auto &penalty : penalties)
+      penalty.add_diagonal(out);
     diagonal.compress(VectorOperation::add);
     for (const unsigned int index : level.constrained)
       diagonal.local_element(index) = 1;

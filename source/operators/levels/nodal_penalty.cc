@@ -1,4 +1,4 @@
-// The penalty of the ties on one level, make_nodal_penalty().
+// The penalties of the interfaces on one level, make_nodal_penalties().
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/operators/levels/nodal_level.h>
 
@@ -18,20 +18,42 @@ namespace mortise
     /// it or twice as much.
     constexpr double nodal_penalty = 0.4;
 
+    /// Those that have a penalty across the normals as well as along them, or
+    /// along them on top of that.
+    struct Couplings
+    {
+      bool                          along_normals;
+      std::vector<const Coupling *> all;
+
+      double
+      penalty(const Coupling    &coupling,
+              const unsigned int s,
+              const double       of_tie) const
+      {
+        const Stiffness result = penalty_of(coupling, s, of_tie);
+        return along_normals ? result.normal - result.tangential :
+                               result.tangential;
+      }
+    };
+
     /// Calls visit(row trace, column trace, block, factor) for the blocks of
     /// the penalty.
     template <typename Visit>
     void
-    for_each_block(const std::vector<Coupling> &couplings, const Visit &visit)
+    for_each_block(const Couplings &couplings, const Visit &visit)
     {
-      for (const Coupling &coupling : couplings)
-        for (unsigned int s = 0; s < coupling.local.size(); ++s)
-          if (const LocalCoupling &local = coupling.local[s];
+      for (const Coupling *const one : couplings.all)
+        for (unsigned int s = 0; s < one->local.size(); ++s)
+          if (const LocalCoupling &local = one->local[s];
               !local.partners.empty())
             {
-              const FaceTrace &slave = coupling.interface->slave().traces[s];
+              const Coupling  &coupling = *one;
+              const FaceTrace &slave    = coupling.interface->slave().traces[s];
               const double     gamma =
-                nodal_penalty * local.penalty * slave.degree * slave.degree;
+                couplings.penalty(coupling,
+                                  s,
+                                  nodal_penalty * local.penalty * slave.degree *
+                                    slave.degree);
               visit(slave, slave, local.mass, gamma);
               for (const auto &partner : local.partners)
                 {
@@ -65,9 +87,9 @@ namespace mortise
 
     /// By node: with which others the interfaces couple it.
     std::vector<Indices>
-    coupled_indices(const NodalLevel            &level,
-                    const unsigned int           number,
-                    const std::vector<Coupling> &couplings)
+    coupled_indices(const NodalLevel  &level,
+                    const unsigned int number,
+                    const Couplings   &couplings)
     {
       std::vector<Indices> columns(
         (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
@@ -139,39 +161,123 @@ namespace mortise
       /// Group and row in it.
       std::vector<std::pair<unsigned int, unsigned int>> index_of_node;
     };
+
+    NodalPenalty
+    make_penalty(const NodalLevel  &level,
+                 const unsigned int number,
+                 const Couplings   &couplings)
+    {
+      NodalPenalty   penalty;
+      PenaltyEntries entries(coupled_indices(level, number, couplings),
+                             penalty);
+      for_each_block(
+        couplings,
+        [&](const FaceTrace          &row,
+            const FaceTrace          &column,
+            const FullMatrix<double> &modal,
+            const double              factor) {
+          const FaceNodes &on_rows       = row.nodes[number],
+                          &on_columns    = column.nodes[number];
+          const FullMatrix<double> nodal = resolve_hanging(
+            nodal_block(modal,
+                        {row.shape, row.degree, on_rows.degree},
+                        {column.shape, column.degree, on_columns.degree}),
+            on_rows,
+            on_columns);
+          const Indices rows = indices_on(level, row, number),
+                        more = indices_on(level, column, number);
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            for (unsigned int j = 0; j < more.size(); ++j)
+              {
+                entries.add(rows[i], more[j], factor * nodal(i, j));
+                if (&row != &column)
+                  entries.add(more[j], rows[i], factor * nodal(i, j));
+              }
+        });
+      return penalty;
+    }
+
+    /// Directions at the nodes of a face, @p sign times its outward normals.
+    void
+    add_normals(const NodalLevel            &level,
+                const FaceTrace             &trace,
+                const FaceNodes             &on_face,
+                const SurfaceFace           &face,
+                const double                 sign,
+                std::vector<Tensor<1, dim>> &normals)
+    {
+      const auto points = face_nodes(trace.shape, on_face.degree);
+      const auto add    = [&](const types::global_dof_index node,
+                           const unsigned int            k,
+                           const double                  weight) {
+        normals[level.layout->global_to_local(dim * node) / dim] +=
+          sign * weight * averaged_normal(face, points[k]);
+      };
+      for (unsigned int k = 0; k < points.size(); ++k)
+        if (!on_face.hang())
+          add(on_face.nodes[k], k, 1.);
+        else
+          for (unsigned int e = on_face.begin[k]; e < on_face.begin[k + 1]; ++e)
+            add(on_face.nodes[on_face.column[e]], k, on_face.weight[e]);
+    }
+
+    /// By node that the interfaces couple, of one length.
+    std::vector<Tensor<1, dim>>
+    nodal_normals(const NodalLevel  &level,
+                  const unsigned int number,
+                  const Couplings   &couplings)
+    {
+      std::vector<Tensor<1, dim>> normals(
+        (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
+        dim);
+      for (const Coupling *coupling : couplings.all)
+        for (unsigned int s = 0; s < coupling->local.size(); ++s)
+          for (const auto &partner : coupling->local[s].partners)
+            {
+              const InterfaceHandler &interface = *coupling->interface;
+              const FaceTrace        &slave     = interface.slave().traces[s],
+                              &master =
+                                interface.master_traces()[partner.master];
+              add_normals(level,
+                          slave,
+                          slave.nodes[number],
+                          interface.slave().faces[s],
+                          1.,
+                          normals);
+              add_normals(level,
+                          master,
+                          master.nodes[number],
+                          interface.master_faces()[partner.master],
+                          -1.,
+                          normals);
+            }
+      for (auto &normal : normals)
+        if (const double length = normal.norm(); length > 0.)
+          normal /= length;
+      return normals;
+    }
   } // namespace
 
-  NodalPenalty
-  make_nodal_penalty(const NodalLevel            &level,
-                     const unsigned int           number,
-                     const std::vector<Coupling> &couplings)
+  std::vector<NodalPenalty>
+  make_nodal_penalties(const NodalLevel            &level,
+                       const unsigned int           number,
+                       const std::vector<Coupling> &couplings)
   {
-    NodalPenalty   penalty;
-    PenaltyEntries entries(coupled_indices(level, number, couplings), penalty);
-    for_each_block(
-      couplings,
-      [&](const FaceTrace          &row,
-          const FaceTrace          &column,
-          const FullMatrix<double> &modal,
-          const double              factor) {
-        const FaceNodes &on_rows       = row.nodes[number],
-                        &on_columns    = column.nodes[number];
-        const FullMatrix<double> nodal = resolve_hanging(
-          nodal_block(modal,
-                      {row.shape, row.degree, on_rows.degree},
-                      {column.shape, column.degree, on_columns.degree}),
-          on_rows,
-          on_columns);
-        const Indices rows = indices_on(level, row, number),
-                      more = indices_on(level, column, number);
-        for (unsigned int i = 0; i < rows.size(); ++i)
-          for (unsigned int j = 0; j < more.size(); ++j)
-            {
-              entries.add(rows[i], more[j], factor * nodal(i, j));
-              if (&row != &column)
-                entries.add(more[j], rows[i], factor * nodal(i, j));
-            }
-      });
-    return penalty;
+    std::vector<NodalPenalty> penalties;
+    for (const bool along_normals : {false, true})
+      {
+        Couplings of_kind{along_normals, {}};
+        for (const Coupling &coupling : couplings)
+          if (along_normals ? coupling.is_spring ||
+                                coupling.directions == TiedDirections::normal :
+                              coupling.directions == TiedDirections::all)
+            of_kind.all.push_back(&coupling);
+        if (of_kind.all.empty())
+          continue;
+        penalties.push_back(make_penalty(level, number, of_kind));
+        if (along_normals)
+          penalties.back().normals = nodal_normals(level, number, of_kind);
+      }
+    return penalties;
   }
 } // namespace mortise

@@ -202,10 +202,11 @@ namespace mortise
         result.erase(std::unique(result.begin(), result.end()), result.end());
         return result;
       };
-      for (const auto &group : level.penalty.groups)
-        if (const auto rows = find(group.rows), columns = find(group.columns);
-            !rows.empty() && !columns.empty())
-          builder.couple(rows, columns);
+      for (const NodalPenalty &penalty : level.penalties)
+        for (const auto &group : penalty.groups)
+          if (const auto rows = find(group.rows), columns = find(group.columns);
+              !rows.empty() && !columns.empty())
+            builder.couple(rows, columns);
       builder.close();
     }
 
@@ -248,35 +249,65 @@ namespace mortise
       });
     }
 
-    void
-    add_penalty(const NodalLevel        &level,
-                const Functions         &functions,
-                NodalBlockMatrixBuilder &builder)
+    /// Adds the entry of @p penalty between the nodes of two local indices.
+    class PenaltyEntry
     {
+    public:
+      PenaltyEntry(const NodalPenalty      &penalty,
+                   const Functions         &functions,
+                   NodalBlockMatrixBuilder &builder)
+        : penalty(penalty)
+        , functions(functions)
+        , builder(builder)
+      {}
+
+      void
+      add(const unsigned int i, const unsigned int j, const double value)
+      {
+        rows.clear();
+        columns.clear();
+        functions.expand(i / dim, 1., rows);
+        functions.expand(j / dim, value, columns);
+        Tensor<2, dim> directions = unit_symmetric_tensor<dim>();
+        if (!penalty.normals.empty())
+          directions =
+            outer_product(penalty.normals[i / dim], penalty.normals[j / dim]);
+        for (const auto &row : rows)
+          for (const auto &column : columns)
+            {
+              double *block = builder.block(builder.local_number(row.node),
+                                            builder.local_number(column.node));
+              for (unsigned int c = 0; c < dim; ++c)
+                for (unsigned int r = 0; r < dim; ++r)
+                  if ((row.constrained >> r & 1U) == 0 &&
+                      (column.constrained >> c & 1U) == 0)
+                    block[dim * c + r] +=
+                      row.weight * column.weight * directions[r][c];
+            }
+      }
+
+    private:
+      const NodalPenalty           &penalty;
+      const Functions              &functions;
+      NodalBlockMatrixBuilder      &builder;
       std::vector<Functions::Entry> rows, columns;
-      for (const auto &group : level.penalty.groups)
-        for (unsigned int r = 0; r < group.rows.size(); ++r)
-          {
-            rows.clear();
-            functions.expand(group.rows[r] / dim, 1., rows);
-            for (unsigned int k = 0; k < group.columns.size(); ++k)
-              {
-                const double value = group.values[r * group.columns.size() + k];
-                columns.clear();
-                functions.expand(group.columns[k] / dim, value, columns);
-                for (const auto &row : rows)
-                  for (const auto &column : columns)
-                    {
-                      double *block =
-                        builder.block(builder.local_number(row.node),
-                                      builder.local_number(column.node));
-                      for (unsigned int c = 0; c < dim; ++c)
-                        if (((row.constrained | column.constrained) >> c &
-                             1U) == 0)
-                          block[(dim + 1) * c] += row.weight * column.weight;
-                    }
-              }
-          }
+    };
+
+    void
+    add_penalties(const NodalLevel        &level,
+                  const Functions         &functions,
+                  NodalBlockMatrixBuilder &builder)
+    {
+      for (const NodalPenalty &penalty : level.penalties)
+        {
+          PenaltyEntry entry(penalty, functions, builder);
+          for (const auto &group : penalty.groups)
+            for (unsigned int r = 0; r < group.rows.size(); ++r)
+              for (unsigned int k = 0; k < group.columns.size(); ++k)
+                entry.add(group.rows[r],
+                          group.columns[k],
+                          group.values[r * group.columns.size() + k]);
+        }
     }
   } // namespace
 
@@ -292,7 +323,7 @@ namespace mortise
     couple_all(level, functions, owned, builder);
     std::vector<Point<dim>> points(level.space->owned_nodes().n_elements());
     add_cells(level, functions, builder, points);
-    add_penalty(level, functions, builder);
+    add_penalties(level, functions, builder);
     IndexSet needed(owned.size());
     if (coarsening == nullptr)
       return {builder.finish(needed), points};

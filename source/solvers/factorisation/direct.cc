@@ -139,7 +139,7 @@ namespace mortise
       std::vector<double>        values;
     };
 
-    /// [K G^T B^T; G -C 0; B 0 0], not scaled.
+    /// [K G^T B^T; G -C 0; B 0 -S], not scaled.
     std::unique_ptr<Epetra_CrsMatrix>
     monolithic_matrix(const BlockSystem         &system,
                       const ScaledResidual      &residual,
@@ -191,7 +191,10 @@ namespace mortise
       local = 0;
       for (const auto k : system.owned_multiplier)
         {
-          rows.add(system.coupling.trilinos_matrix(), local++, 0);
+          rows.add(system.coupling.trilinos_matrix(), local, 0);
+          if (system.has_springs())
+            rows.add(system.spring_compliance.trilinos_matrix(), local, 2, -1.);
+          ++local;
           rows.add(numbering(2, k), 0.);
           rows.insert(numbering(2, k));
         }

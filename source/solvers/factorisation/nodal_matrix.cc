@@ -3,7 +3,9 @@
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/nodal_matrix.h>
 
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace mortise
 {
@@ -26,6 +28,32 @@ namespace mortise
                             row.values + row.length);
       }
     return nodes;
+  }
+
+  void
+  add(NodalMatrix &matrix, const Epetra_CrsMatrix &other)
+  {
+    NodalMatrix sum;
+    sum.entries           = matrix.entries;
+    sum.variants          = matrix.variants;
+    const int    *columns = matrix.columns.data();
+    const double *values  = matrix.values.data();
+    for (unsigned int i = 0; i < matrix.size(); ++i)
+      {
+        std::map<int, double> row;
+        for (unsigned int k = 0; k < matrix.lengths[i]; ++k)
+          row[*columns++] += *values++;
+        const EpetraRow added(other, static_cast<int>(i));
+        for (int k = 0; k < added.length; ++k)
+          row[other.GCID(added.columns[k])] += added.values[k];
+        sum.lengths.push_back(row.size());
+        for (const auto &[column, value] : row)
+          {
+            sum.columns.push_back(column);
+            sum.values.push_back(value);
+          }
+      }
+    matrix = std::move(sum);
   }
 
   std::unique_ptr<Epetra_CrsMatrix>

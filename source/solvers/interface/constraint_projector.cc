@@ -9,7 +9,8 @@ namespace mortise
   ConstraintProjector::ConstraintProjector(const BlockSystem  &system,
                                            const CouplingRows &rows,
                                            const Lifting      &lifting)
-    : lifting(lifting)
+    : system(system)
+    , lifting(lifting)
     , product(system, rows)
     , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
@@ -17,6 +18,29 @@ namespace mortise
     , correction(force)
   {
     product.initialize(trace);
+    for (unsigned int i = 0; i < jump.locally_owned_size(); ++i)
+      {
+        const bool is_spring =
+          system.has_springs() &&
+          EpetraRow(system.spring_compliance.trilinos_matrix(),
+                    static_cast<int>(i))
+              .length > 0;
+        (is_spring ? springs : ties).push_back(i);
+      }
+  }
+
+  void
+  ConstraintProjector::clear_springs(Vector &lambda) const
+  {
+    for (const unsigned int i : springs)
+      lambda.begin()[i] = 0.;
+  }
+
+  void
+  ConstraintProjector::clear_ties(Vector &lambda) const
+  {
+    for (const unsigned int i : ties)
+      lambda.begin()[i] = 0.;
   }
 
   void
@@ -44,7 +68,9 @@ namespace mortise
   }
 
   void
-  ConstraintProjector::satisfy(Vector &u, const Vector &g) const
+  ConstraintProjector::satisfy(Vector       &u,
+                               Vector       &lambda,
+                               const Vector &g) const
   {
     // C^{-1} may be in single precision
     double previous = std::numeric_limits<double>::infinity();
@@ -52,11 +78,14 @@ namespace mortise
       {
         apply(u);
         jump -= g;
+        system.subtract_spring_opening(jump, lambda);
         const double norm = jump.l2_norm();
         if (!(norm > 0. && norm < 0.1 * previous))
           break;
         previous = norm;
-        project(u, &g);
+        step_to_constraint(u);
+        clear_ties(multiplier);
+        lambda += multiplier;
       }
   }
 
@@ -66,6 +95,13 @@ namespace mortise
     apply(u);
     if (g != nullptr)
       jump -= *g;
+    step_to_constraint(u);
+    return multiplier;
+  }
+
+  void
+  ConstraintProjector::step_to_constraint(Vector &u) const
+  {
     Epetra_Vector y = epetra_view(multiplier);
     lifting.apply_inverse_schur(y, epetra_view(jump));
     product.multiply_transposed(trace, y);
@@ -74,6 +110,5 @@ namespace mortise
       force.begin()[indices[k]] = trace.local_element(k);
     lifting.vmult(correction, force);
     u -= correction;
-    return multiplier;
   }
 } // namespace mortise

@@ -36,6 +36,11 @@ namespace mortise
                                            const CouplingRows &rows)
     : n_components(rows.moved.n_components)
   {
+    if (system.frames.m() > 0 && n_components == dim)
+      {
+        frames       = &system.frames.trilinos_matrix();
+        by_component = std::make_unique<Epetra_Vector>(rows.matrix.RowMap());
+      }
     make_layout(system, rows);
     make_blocks(rows, leading_nodes(system, rows));
   }
@@ -294,9 +299,12 @@ namespace mortise
                     Number() :
                     trace.local_element(entry_of_value[v]);
     trace.zero_out_ghost_values();
+    Epetra_Vector &to = frames ? *by_component : jump;
     for_each_block([&](const Block &block, const Number *from, const auto n) {
-      multiply_block<n()>(block, from, jump, nodes);
+      multiply_block<n()>(block, from, to, nodes);
     });
+    if (frames)
+      frames->Multiply(false, to, jump);
   }
 
   template <typename Number>
@@ -305,9 +313,12 @@ namespace mortise
                                                const Epetra_Vector &y,
                                                const CoupledNodes   nodes) const
   {
+    if (frames)
+      frames->Multiply(true, y, *by_component);
+    const Epetra_Vector &factors = frames ? *by_component : y;
     std::fill(values.begin(), values.end(), Number());
     for_each_block([&](const Block &block, const Number *from, const auto n) {
-      multiply_block_transposed<n()>(block, from, y, nodes);
+      multiply_block_transposed<n()>(block, from, factors, nodes);
     });
     trace = 0;
     for (unsigned int v = 0; v < values.size(); ++v)

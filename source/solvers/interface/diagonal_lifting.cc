@@ -1,6 +1,8 @@
 #include <mortise/solvers/interface/diagonal_lifting.h>
 #include <mortise/solvers/interface/weighted_square.h>
 
+#include <utility>
+
 namespace mortise
 {
   DiagonalLifting::DiagonalLifting(const BlockSystem            &system,
@@ -15,18 +17,32 @@ namespace mortise
       weights.local_element(leading.index) = 0.;
     LevelVector<float> trace;
     product.initialize(trace);
+    const Epetra_CrsMatrix *const springs =
+      system.has_springs() ? &system.spring_compliance.trilinos_matrix() :
+                             nullptr;
     const auto multiply =
-      [&product, trace, this](Epetra_Vector       &to,
+      [&product, trace, springs, this](Epetra_Vector       &to,
                               const Epetra_Vector &from) mutable {
         product.multiply_transposed(trace, from);
         const auto &indices = product.indices();
         for (unsigned int k = 0; k < indices.size(); ++k)
           trace.local_element(k) *= weights.local_element(indices[k]);
         product.multiply(to, trace);
+        if (springs)
+          {
+            Epetra_Vector opening(to);
+            springs->Multiply(false, from, opening);
+            to.Update(1., opening, 1.);
+          }
       };
-    factorise(weighted_square(rows, weights),
+    NodalMatrix schur = weighted_square(rows, weights);
+    if (system.frames.m() > 0)
+      schur = in_frames(schur, system.frames.trilinos_matrix());
+    if (system.has_springs())
+      add(schur, system.spring_compliance.trilinos_matrix());
+    factorise(std::move(schur),
               multiply,
-              rows.matrix.RowMap(),
+              system.coupling.trilinos_matrix().RowMap(),
               max_gathered);
   }
 

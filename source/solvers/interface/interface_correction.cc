@@ -24,6 +24,8 @@ namespace mortise
     , lifting(lifting)
     , jump(system.coupling.trilinos_matrix().RowMap())
     , multiplier(jump)
+    , carried(jump)
+    , added(jump)
     , smoothed(product.indices().size())
   {
     product.initialize(trace);
@@ -62,9 +64,46 @@ namespace mortise
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
       trace.local_element(k) = x.local_element(indices[k]);
-    apply(CoupledNodes::all, CoupledNodes::following);
+    product.multiply(jump, trace, CoupledNodes::all);
+    if (has_springs())
+      {
+        system.spring_compliance.trilinos_matrix().Multiply(false,
+                                                            carried,
+                                                            multiplier);
+        jump.Update(-1., multiplier, 1.);
+      }
+    lifting.apply_inverse_schur(multiplier, jump);
+    product.multiply_transposed(trace, multiplier, CoupledNodes::following);
     for (unsigned int k = 0; k < indices.size(); ++k)
       x.local_element(indices[k]) -= weights[k] * trace.local_element(k);
+    if (has_springs())
+      carried.Update(1., multiplier, 1.);
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::release_springs() const
+  {
+    carried.PutScalar(0.);
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::load_springs(const double keep,
+                                            const double take) const
+  {
+    added.Update(take, multiplier, keep);
+    carried.Update(1., added, 1.);
+  }
+
+  template <typename Number>
+  void
+  InterfaceCorrection<Number>::add_spring_forces(LevelVector<Number> &r) const
+  {
+    product.multiply_transposed(trace, carried);
+    const auto &indices = product.indices();
+    for (unsigned int k = 0; k < indices.size(); ++k)
+      r.local_element(indices[k]) += trace.local_element(k);
   }
 
   template <typename Number>

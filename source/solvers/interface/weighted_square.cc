@@ -93,6 +93,10 @@ namespace mortise
                       }
                 }
             }
+        // a row that moves nothing has its diagonal
+        for (int i = 0; i < entities[e].n_nodes; ++i)
+          if (mark[entities[e].first + i] != static_cast<int>(e))
+            result.push_back(entities[e].first + i);
         std::sort(result.begin(), result.end());
         return result;
       }

@@ -33,6 +33,11 @@ namespace mortise
         , z(r)
         , d(r)
         , kd(r)
+        , has_springs(system.has_springs())
+        , y(all_r.multiplier)
+        , z_lambda(y)
+        , d_lambda(y)
+        , no_offset(y)
       {}
 
       /// Start from what @p x holds, whose energy u . K u this takes into account.
@@ -49,20 +54,17 @@ namespace mortise
         Vector      &u = x.displacement, &lambda = x.multiplier;
         const double target = 0.9 * options.tolerance * rhs_norm;
         if (projector != nullptr)
-          projector->satisfy(u, rhs.multiplier);
+          projector->satisfy(u, lambda, rhs.multiplier);
         residual.compute(rhs, x, all_r);
         double rho_old = 0.;
         for (bool first = true; report.iterations < options.max_iterations;
              first      = false)
           {
-            if (projector != nullptr)
-              projector->project_residual(r, lambda);
+            remove_multipliers(lambda);
             const double reached = residual.norm(all_r);
             if (!first && options.monitor)
               options.monitor(report.iterations, reached / rhs_norm);
-            preconditioner.vmult(z, r);
-            if (projector != nullptr)
-              projector->project(z);
+            precondition();
             const double rho = r * z; // estimates the energy of the error
             if (reached <= target &&
                 rho <= std::pow(options.energy_tolerance(), 2) *
@@ -72,13 +74,15 @@ namespace mortise
               d = z;
             else
               d.sadd(rho / rho_old, 1., z);
+            if (has_springs)
+              d_lambda.sadd(first ? 0. : rho / rho_old, 1., z_lambda);
             rho_old = rho;
-            if (!step(u, rho))
+            if (!step(x, rho))
               break;
             ++report.iterations;
           }
         if (projector != nullptr)
-          projector->satisfy(u, rhs.multiplier);
+          projector->satisfy(u, lambda, rhs.multiplier);
         residual.compute(rhs, x, all_r);
       }
 
@@ -94,13 +98,10 @@ namespace mortise
       judge(const SystemVector &x, SolveReport &report)
       {
         const auto relative_error = [&] {
-          SystemVector rest = all_r;
-          if (projector != nullptr)
-            projector->project_residual(rest.displacement, rest.multiplier);
-          preconditioner.vmult(z, rest.displacement);
-          if (projector != nullptr)
-            projector->project(z);
-          return std::sqrt((z * rest.displacement) /
+          SystemVector unused = all_r;
+          remove_multipliers(unused.multiplier);
+          precondition();
+          return std::sqrt((z * r) /
                            system.stiffness_product(x.displacement));
         };
         residual.judge({rhs, x, all_r},
@@ -110,17 +111,57 @@ namespace mortise
       }
 
     private:
+      /// From r what multipliers of ties can carry, to @p lambda.
+      void
+      remove_multipliers(Vector &lambda)
+      {
+        if (projector == nullptr)
+          return;
+        if (!has_springs)
+          {
+            projector->project_residual(r, lambda);
+            return;
+          }
+        // springs carry what opens them and nothing else
+        kd = r;
+        y  = 0.;
+        projector->project_residual(kd, y);
+        projector->clear_springs(y);
+        kd = 0.;
+        system.add_multiplier_force(kd, y);
+        r -= kd;
+        lambda += y;
+      }
+
+      /// z, z_lambda from r; behind remove_multipliers().
+      void
+      precondition()
+      {
+        preconditioner.vmult(z, r);
+        if (has_springs)
+          {
+            z_lambda = preconditioner.spring_multipliers();
+            projector->satisfy(z, z_lambda, no_offset);
+          }
+        else if (projector != nullptr)
+          projector->project(z);
+      }
+
       /// Move along d; false when the matrix is not positive definite there, or
       /// not a number.
       bool
-      step(Vector &u, const double rho)
+      step(SystemVector &x, const double rho)
       {
         system.apply_stiffness(kd, d);
+        if (has_springs)
+          system.add_multiplier_force(kd, d_lambda);
         const double energy = d * kd;
         if (!(rho > 0. && energy > 0.))
           return false;
         const double alpha = rho / energy;
-        u.add(alpha, d);
+        x.displacement.add(alpha, d);
+        if (has_springs)
+          x.multiplier.add(alpha, d_lambda);
         r.add(-alpha, kd);
         energy_of_u += alpha * rho;
         return true;
@@ -136,6 +177,9 @@ namespace mortise
       SystemVector               all_r;
       Vector                    &r;
       Vector                     z, d, kd;
+      const bool                 has_springs;
+      Vector                     y, z_lambda, d_lambda; ///< multipliers
+      const Vector               no_offset;             ///< likewise
       double                     energy_of_u = 0.; ///< gained so far
     };
   } // namespace

@@ -81,6 +81,7 @@ namespace mortise
           {
             system.add_multiplier_force(y.block(u), scaled.block(l));
             system.apply_constraint(y.block(l), scaled.block(u));
+            system.subtract_spring_opening(y.block(l), scaled.block(l));
           }
         y.scale(weight);
       }
@@ -100,8 +101,8 @@ namespace mortise
       mutable BlockVector scaled;
     };
 
-    /// The block factorisation of [A^ B^T; B 0] with A^ for K + J, its Schur
-    /// complement replaced by C = B T B^T and A^{-1} B^T by T B^T: what it
+    /// The block factorisation of [A^ B^T; B -S] with A^ for K + J, its Schur
+    /// complement replaced by C = B T B^T + S and A^{-1} B^T by T B^T: what it
     /// returns satisfies the constraint exactly. Around it the upper triangle
     /// of a block factorisation with the pressures, whose Schur complement is
     /// replaced by -P.
@@ -144,8 +145,13 @@ namespace mortise
           }
         z_l = 0.;
         if (projector) // r_u - B^T y with y = C^{-1} B T r_u
-          projector->project_residual(t.block(u), z_l);
+          remove_multipliers(t.block(u), z_l);
         bulk->vmult(z_u, t.block(u));
+        if (system.has_springs())
+          {
+            z_l += bulk->spring_multipliers();
+            t.block(l) += opening(bulk->spring_multipliers());
+          }
         if (projector) // z_u - T B^T y with y = C^{-1} (B z_u - r_lambda)
           z_l += projector->project(z_u, &t.block(l));
         z.scale(scaling.inverse);
@@ -158,7 +164,7 @@ namespace mortise
       {
         Vector z(r.displacement), projected(z), multiplier(r.multiplier);
         if (projector)
-          projector->project_residual(projected, multiplier);
+          remove_multipliers(projected, multiplier);
         bulk->vmult(z, projected);
         double energy = z * projected;
         if (pressure)
@@ -185,6 +191,36 @@ namespace mortise
       }
 
     private:
+      /// From @p r what multipliers of ties can carry, to @p lambda.
+      void
+      remove_multipliers(Vector &r, Vector &lambda) const
+      {
+        if (!system.has_springs())
+          {
+            projector->project_residual(r, lambda);
+            return;
+          }
+        Vector rest(r), y(lambda);
+        y = 0.;
+        projector->project_residual(rest, y);
+        projector->clear_springs(y);
+        rest = 0.;
+        system.add_multiplier_force(rest, y);
+        r -= rest;
+        lambda += y;
+      }
+
+      /// S lambda
+      Vector
+      opening(const Vector &lambda) const
+      {
+        Vector result(lambda);
+        result = 0.;
+        system.subtract_spring_opening(result, lambda);
+        result *= -1.;
+        return result;
+      }
+
       const BlockSystem                      &system;
       const ScaledOperator                   &scaling;
       std::unique_ptr<BulkPreconditioner>     bulk;

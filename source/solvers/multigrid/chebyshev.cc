@@ -112,6 +112,7 @@ namespace mortise
                  delta = largest * (1. - 1. / range) / 2.,
                  sigma = theta / delta;
     double        rho  = 1. / sigma;
+    const bool    has_springs = correction != nullptr && correction->has_springs();
     const auto    n    = x.locally_owned_size();
     Number       *X = x.begin(), *D = d.begin(), *R = r.begin();
     const Number *B = b.begin(), *I = inverse_diagonal.begin();
@@ -122,8 +123,12 @@ namespace mortise
         const Number keep       = k == 0 ? 0. : next * rho,
                      take       = k == 0 ? 1. / theta : 2. * next / delta;
         rho                     = next;
+        if (no_product && has_springs)
+          correction->release_springs();
         if (!no_product)
           matrix.vmult(r, x);
+        if (!no_product && has_springs)
+          correction->add_spring_forces(r);
         if (no_product)
           for (unsigned int i = 0; i < n; ++i)
             X[i] = D[i] = take * I[i] * B[i];
@@ -143,6 +148,8 @@ namespace mortise
               D[i] -= take * c;
               X[i] -= take * c;
             });
+        if (has_springs)
+          correction->load_springs(keep, take);
       }
   }
 

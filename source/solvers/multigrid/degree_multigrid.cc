@@ -54,8 +54,7 @@ namespace mortise
       valid    = vertices->is_valid();
       if (system.owned_multiplier.size() > 0)
         {
-          const auto        &coupling = system.coupling.trilinos_matrix();
-          const CouplingRows rows(coupling, true);
+          const CouplingRows rows(system.coupling_by_component(), true);
           product    = std::make_unique<CouplingProduct<Number>>(system, rows);
           lifting    = std::make_unique<DiagonalLifting>(system,
                                                       rows,
@@ -67,6 +66,8 @@ namespace mortise
                                                                      *lifting);
           projector =
             std::make_unique<ConstraintProjector>(system, rows, *lifting);
+          if (system.has_springs())
+            carried.reinit(system.owned_multiplier, system.communicator);
         }
       // where degree one is the finest, its level is smoothed here and stands
       // for the vertices below, too
@@ -103,9 +104,11 @@ namespace mortise
       auto          &next_x = last ? coarse_x : levels[l + 1]->x,
            &next_b          = last ? coarse_b : levels[l + 1]->b;
       level.smoother.smooth(level.x, level.b, true);
-      level.matrix.vmult(level.r, level.x);
-      level.r.sadd(-1, 1, level.b);
       const bool constrained = l == 0 && correction;
+      level.matrix.vmult(level.r, level.x);
+      if (constrained && correction->has_springs())
+        correction->add_spring_forces(level.r);
+      level.r.sadd(-1, 1, level.b);
       if (constrained)
         correction->project_residual(level.r);
       if (transfers.empty())
@@ -131,6 +134,7 @@ namespace mortise
     std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
     LevelVector<Number>                                  coarse_x, coarse_b;
     std::unique_ptr<VertexMultigrid>                     vertices;
+    Vector                                               carried; ///< by springs
     double                                               root_of_stiffness;
     bool                                                 valid = true;
   };
@@ -158,6 +162,7 @@ namespace mortise
     if (scale == 0.)
       {
         dst = 0.;
+        implementation->carried = 0.;
         return;
       }
     const unsigned int n    = level.b.locally_owned_size();
@@ -169,6 +174,20 @@ namespace mortise
     implementation->cycle(0);
     for (unsigned int i = 0; i < n; ++i)
       to[i] = scale * static_cast<double>(level.x.local_element(i));
+    auto &carried = implementation->carried;
+    if (carried.size() == 0)
+      return;
+    const Epetra_Vector &of_level =
+      implementation->correction->carried_by_springs();
+    for (unsigned int i = 0; i < carried.locally_owned_size(); ++i)
+      carried.begin()[i] = scale * of_level[static_cast<int>(i)];
+    implementation->projector->clear_ties(carried);
+  }
+
+  const Vector &
+  DegreeMultigrid::spring_multipliers() const
+  {
+    return implementation->carried;
   }
 
   const ConstraintProjector *

@@ -56,10 +56,12 @@ namespace mortise
 
     explicit Implementation(const BlockSystem &system)
       : bulk(system)
+      , system(system)
       , x(system.owned_displacement, system.communicator)
       , r(x)
       , y(x)
       , multiplier(system.owned_multiplier, system.communicator)
+      , carried(multiplier)
     {
       valid = coarse.initialize({system.vertex_dofs, system.vertex_points},
                                 *bulk,
@@ -87,7 +89,7 @@ namespace mortise
       Epetra_Vector target = epetra_view(y);
       solve(target, epetra_view(r));
       if (projector)
-        projector->project(y);
+        carried += projector->project(y);
       x += y;
     }
 
@@ -113,7 +115,8 @@ namespace mortise
     BulkMatrix                           bulk;
     BlockSmoother                        smoother;
     VertexSolver                         coarse;
-    Vector                               x, r, y, multiplier;
+    const BlockSystem                   &system;
+    Vector                               x, r, y, multiplier, carried;
     std::unique_ptr<InterfaceLifting>    lifting;
     std::unique_ptr<ConstraintProjector> projector;
     bool                                 valid = true;
@@ -135,6 +138,9 @@ namespace mortise
     auto &data = *implementation;
     data.x     = 0.;
     data.r     = src;
+    data.carried = 0.;
+    if (data.system.has_springs())
+      data.projector->project_residual(data.r, data.multiplier);
     data.smooth(BlockSmoother::Sweep::forward);
     data.compute_residual(src);
     data.correct([&](Epetra_Vector &to, const Epetra_Vector &from) {
@@ -143,6 +149,14 @@ namespace mortise
     data.compute_residual(src);
     data.smooth(BlockSmoother::Sweep::backward);
     dst = data.x;
+    if (data.projector)
+      data.projector->clear_ties(data.carried);
+  }
+
+  const Vector &
+  HierarchicalPreconditioner::spring_multipliers() const
+  {
+    return implementation->carried;
   }
 
   const ConstraintProjector *

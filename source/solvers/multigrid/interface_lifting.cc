@@ -137,6 +137,14 @@ namespace mortise
                              patch.multipliers.begin(),
                              patch.multipliers.end(),
                              true);
+    if (system.has_springs())
+      for (const auto row : system.owned_multiplier)
+        {
+          const auto &S = system.spring_compliance.trilinos_matrix();
+          const EpetraRow opening(S, S.LRID(static_cast<int>(row)));
+          for (int k = 0; k < opening.length; ++k)
+            sparsity.add(row, S.GCID(opening.columns[k]));
+        }
     SparseMatrix schur;
     schur.reinit(system.owned_multiplier,
                  system.owned_multiplier,
@@ -190,6 +198,14 @@ namespace mortise
                   l);
         schur.add(patch.multipliers, local, false);
       }
+    if (system.has_springs())
+      for (const auto row : system.owned_multiplier)
+        {
+          const auto &S = system.spring_compliance.trilinos_matrix();
+          const EpetraRow opening(S, S.LRID(static_cast<int>(row)));
+          for (int k = 0; k < opening.length; ++k)
+            schur.add(row, S.GCID(opening.columns[k]), opening.values[k]);
+        }
     schur.compress(VectorOperation::add);
     factorise(schur.trilinos_matrix());
   }

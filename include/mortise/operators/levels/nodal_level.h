@@ -6,6 +6,7 @@
 
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/levels/nodal_operator.h>
+#include <mortise/operators/levels/nodal_penalty.h>
 #include <mortise/operators/matrix_free/hanging_nodes.h>
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
 
@@ -14,21 +15,6 @@
 
 namespace mortise
 {
-  /// The jump penalty sum over interfaces of gamma int [[u]].[[v]], see
-  /// BlockSystem, between the nodes that this rank's slave faces and their
-  /// partners have; the same for each component.
-  struct NodalPenalty
-  {
-    /// Nodes that couple with the same others, as those inside a face do.
-    struct Group
-    {
-      std::vector<unsigned int> rows;    ///< indices of first components
-      std::vector<unsigned int> columns; ///< indices of first components
-      std::vector<double>       values;  ///< row by row
-    };
-    std::vector<Group> groups;
-  };
-
   struct NodalLevel
   {
     std::unique_ptr<NodalSpace> space;
@@ -37,10 +23,10 @@ namespace mortise
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     /// Owned components that are prescribed or hang, indices in vectors.
     std::vector<unsigned int> constrained;
-    NodalPenalty              penalty;
+    std::vector<NodalPenalty> penalties; ///< of ties, and of what slides
   };
 
-  /// Level @p number of the scene on @p space, without its penalty. @p numbering and
+  /// Level @p number of the scene on @p space, without its penalties. @p numbering and
   /// @p constraints are those of the scene, which hold or let hang whole faces or nothing.
   /// Collective.
   NodalLevel
@@ -51,10 +37,11 @@ namespace mortise
                    const std::vector<Coupling>             &couplings,
                    MPI_Comm                                 comm);
 
-  NodalPenalty
-  make_nodal_penalty(const NodalLevel            &level,
-                     unsigned int                 number,
-                     const std::vector<Coupling> &couplings);
+  /// One for each kind of interface that there is.
+  std::vector<NodalPenalty>
+  make_nodal_penalties(const NodalLevel            &level,
+                       unsigned int                 number,
+                       const std::vector<Coupling> &couplings);
 
   /// K of one level, or K + J. Vectors are zero where components are
   /// constrained, and stay so.
@@ -136,10 +123,6 @@ namespace mortise
     const NodalLevel                  &level;
     const MatrixFreeElasticity<Number> stiffness;
     const HangingNodes<Number>         hanging;
-    void
-    add_penalty(const Number *src, Number *dst) const;
-
-    dealii::AlignedVector<Number>         penalty; ///< of all groups
-    mutable dealii::AlignedVector<Number> workspace;
+    std::vector<PenaltyProduct<Number>> penalties;
   };
 } // namespace mortise

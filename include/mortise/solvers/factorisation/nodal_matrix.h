@@ -36,6 +36,11 @@ namespace mortise
   NodalMatrix
   rows_as_nodes(const Epetra_CrsMatrix &matrix);
 
+  /// matrix += @p other, whose rows are nodes of one component in the same
+  /// order.
+  void
+  add(NodalMatrix &matrix, const Epetra_CrsMatrix &other);
+
   /// The matrix of these rows, numbered by node and component. Collective.
   std::unique_ptr<Epetra_CrsMatrix>
   as_matrix(const NodalMatrix &rows, const Epetra_Comm &comm);

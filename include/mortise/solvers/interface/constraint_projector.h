@@ -4,9 +4,12 @@
 #include <mortise/solvers/interface/coupling_product.h>
 #include <mortise/solvers/interface/lifting.h>
 
+#include <vector>
+
 namespace mortise
 {
-  /// P = I - T B^T C^{-1} B with C = B T B^T and T the lifting given.
+  /// P = I - T B^T C^{-1} B with C = B T B^T + S and T the lifting given. For P u
+  /// and lambda = C^{-1} B u, B P u = S lambda: springs carry what opens them.
   class ConstraintProjector
   {
   public:
@@ -19,9 +22,16 @@ namespace mortise
     void
     project_residual(Vector &r, Vector &lambda) const;
 
-    /// Project @p u onto B u = g to rounding. Collective.
+    /// Project @p u, and of @p lambda what springs carry, onto B u - S lambda = g to rounding.
+    /// Collective.
     void
-    satisfy(Vector &u, const Vector &g) const;
+    satisfy(Vector &u, Vector &lambda, const Vector &g) const;
+
+    /// Zero where springs carry @p lambda, or elsewhere.
+    void
+    clear_springs(Vector &lambda) const;
+    void
+    clear_ties(Vector &lambda) const;
 
     /// u := P u, or with @p g the projection onto B u = g: u - T B^T y. Returns y. Collective.
     const Vector &
@@ -31,7 +41,12 @@ namespace mortise
     /// jump = B u.
     void
     apply(const Vector &u) const;
+    /// multiplier = C^{-1} jump, u -= T B^T multiplier.
+    void
+    step_to_constraint(Vector &u) const;
 
+    const BlockSystem            &system;
+    std::vector<unsigned int>     ties, springs; ///< owned multipliers
     const Lifting                &lifting;
     const CouplingProduct<double> product;
     mutable LevelVector<double>   trace;

@@ -64,9 +64,35 @@ namespace mortise
           subtract(indices[k], weights[k] * trace.local_element(k));
     }
 
-    /// x := P x = x - T B^T C^{-1} B x. Collective.
+    /// x := x - T B^T y with y = C^{-1} (B x - S lambda), lambda what springs carry, and they carry
+    /// y more. Collective.
     void
     project(LevelVector<Number> &x) const;
+
+    /// Springs: what they carry for the x that a smoother works on is kept here,
+    /// since what opens a stiff one is less than the rounding of x. None do.
+    void
+    release_springs() const;
+
+    /// d := keep d + take C^{-1} B (...), the multipliers of the last correct(), and carry d more.
+    void
+    load_springs(double keep, double take) const;
+
+    /// r += B^T of what they carry. Collective.
+    void
+    add_spring_forces(LevelVector<Number> &r) const;
+
+    const Epetra_Vector &
+    carried_by_springs() const
+    {
+      return carried;
+    }
+
+    bool
+    has_springs() const
+    {
+      return system.has_springs();
+    }
 
     /// r := P^T r. Collective.
     void
@@ -83,6 +109,7 @@ namespace mortise
     std::vector<Number>            weights;           ///< T, by index
     bool                           some_lead = false; ///< on some rank
     mutable Epetra_Vector          jump, multiplier;
+    mutable Epetra_Vector          carried, added; ///< by springs
     mutable LevelVector<Number>    trace;    ///< values at the indices
     mutable std::vector<Number>    smoothed; ///< likewise
   };

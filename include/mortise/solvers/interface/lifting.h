@@ -15,7 +15,7 @@
 namespace mortise
 {
   /// T symmetric, positive semi-definite and positive on the range of B^T, and
-  /// C = B T B^T factorised.
+  /// C = B T B^T + S factorised, S the compliance of springs.
   class Lifting
   {
   public:

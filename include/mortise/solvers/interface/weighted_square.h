@@ -12,4 +12,9 @@ namespace mortise
   NodalMatrix
   weighted_square(const CouplingRows        &coupling,
                   const LevelVector<double> &weights);
+
+  /// R C R^T for the C of rows by component, each row a node. @p frames: R, see
+  /// BlockSystem. Collective.
+  NodalMatrix
+  in_frames(const NodalMatrix &C, const Epetra_CrsMatrix &frames);
 } // namespace mortise

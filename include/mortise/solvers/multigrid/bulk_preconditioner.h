@@ -11,9 +11,9 @@
 
 namespace mortise
 {
-  /// An approximate inverse of the elasticity block, symmetric and positive
-  /// definite on what projector() leaves, hence usable between projections in
-  /// conjugate gradients and GMRES.
+  /// An approximate inverse of the elasticity block, with the springs in it,
+  /// symmetric and positive definite on what projector() leaves, hence usable
+  /// between projections in conjugate gradients and GMRES.
   class BulkPreconditioner
   {
   public:
@@ -29,6 +29,10 @@ namespace mortise
     /// Collective.
     virtual void
     vmult(Vector &dst, const Vector &src) const = 0;
+
+    /// What springs carry for the last dst, zero for ties; with springs alone.
+    virtual const Vector &
+    spring_multipliers() const = 0;
 
     /// Null without an interface.
     virtual const ConstraintProjector *

@@ -21,6 +21,9 @@ namespace mortise
     void
     vmult(Vector &dst, const Vector &src) const override;
 
+    const Vector &
+    spring_multipliers() const override;
+
     /// With the lifting by the diagonal of K.
     const ConstraintProjector *
     projector() const override;

@@ -24,6 +24,9 @@ namespace mortise
     vmult(Vector &dst, const Vector &src) const override;
 
     /// With the lifting by the patches of the smoother.
+    const Vector &
+    spring_multipliers() const override;
+
     const ConstraintProjector *
     projector() const override;
 

@@ -1,0 +1,35 @@
+// Normals at the nodes of slave faces: those of the true surface, one for each
+// node that faces share, the mean of theirs.
+#pragma once
+
+#include <mortise/body/body.h>
+#include <mortise/interface/body_surface.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// By function of a face: do faces that share its dof have the same node
+  /// there? Not where nodes hang or degrees meet. @p dofs: of a component.
+  std::vector<bool>
+  have_shared_nodes(const TraceBasis                                   &basis,
+            const std::vector<dealii::types::global_dof_index> &dofs,
+            const Body                                         &body);
+
+  /// Outward, of unit length, by slave face and node, nodes as in TraceBasis.
+  /// Where nodes hang or degrees meet, faces keep normals of their own.
+  /// Collective.
+  std::vector<std::vector<dealii::Tensor<1, dim>>>
+  slave_normals(const Body &body, const BodySurface &slave);
+
+  /// Whether nothing of the normal displacement is left free at a node, by
+  /// owned displacement dof; dofs of the first component stand for nodes.
+  /// @p blocked: likewise, whether a displacement is prescribed or belongs to
+  /// an earlier interface. Collective.
+  std::vector<bool>
+  blocked_normals(
+    const Body                                             &body,
+    const BodySurface                                      &slave,
+    const std::vector<std::vector<dealii::Tensor<1, dim>>> &normals,
+    const std::vector<bool>                                &blocked);
+} // namespace mortise

@@ -1,0 +1,126 @@
+// The rows of the constraint by component, MultiplierSpace::component_rows().
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/mortar/multiplier_space.h>
+#include <mortise/mortar/slave_normals.h>
+
+#include <algorithm>
+#include <array>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Index = MultiplierSpace::Index;
+    using ByDof = LinearAlgebra::distributed::Vector<double>;
+
+    /// The rows of slave faces whose bodies slide: three for each node. Nodes
+    /// that faces share are numbered with their dofs; those that hang, or where
+    /// degrees meet, by face.
+    class RowsOfNodes
+    {
+    public:
+      RowsOfNodes(const Body &body, const BodySurface &slave)
+        : numbers(body.dof_handler.locally_owned_dofs(),
+                  body.relevant_dofs,
+                  body.triangulation().get_communicator())
+      {
+        for (unsigned int s = 0; s < slave.faces.size(); ++s)
+          {
+            dofs.push_back(face_dofs(slave.cells[s], slave.face_numbers[s]));
+            shared.push_back(
+              have_shared_nodes(slave.traces[s].basis(), dofs[s][0], body));
+            for (unsigned int k = 0; k < shared[s].size(); ++k)
+              for (unsigned int c = 0; c < dim && shared[s][k]; ++c)
+                numbers(dofs[s][c][k]) = 1.;
+          }
+        numbers.compress(VectorOperation::add);
+      }
+
+      unsigned int
+      n_owned() const
+      {
+        unsigned int result =
+          std::count_if(numbers.begin(), numbers.end(), [](const double value) {
+            return value > 0.;
+          });
+        for (const auto &of_face : shared)
+          result += dim * std::count(of_face.begin(), of_face.end(), false);
+        return result;
+      }
+
+      /// From @p first on. Collective.
+      void
+      number(const Index first)
+      {
+        Index next = first;
+        for (double &value : numbers)
+          if (value > 0.)
+            value = next++;
+        numbers.update_ghost_values();
+        for (unsigned int s = 0; s < shared.size(); ++s)
+          {
+            rows.emplace_back();
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int k = 0; k < shared[s].size(); ++k)
+                rows[s].push_back(shared[s][k] ?
+                                    static_cast<Index>(numbers(dofs[s][c][k])) :
+                                    next++);
+          }
+      }
+
+      /// By face: component c of node k at c n + k.
+      std::vector<std::vector<Index>> rows;
+
+    private:
+      std::vector<std::array<std::vector<Index>, dim>> dofs;   ///< by face
+      std::vector<std::vector<bool>>                   shared; ///< likewise
+      ByDof                                            numbers;
+    };
+  } // namespace
+
+  unsigned int
+  MultiplierSpace::n_component_rows(const BodySurface &slave) const
+  {
+    return normals.empty() ? n_owned() : RowsOfNodes(body, slave).n_owned();
+  }
+
+  MultiplierSpace::ComponentRows
+  MultiplierSpace::component_rows(const BodySurface &slave,
+                                  const Index        first) const
+  {
+    ComponentRows result;
+    if (normals.empty())
+      {
+        result.rows = make_rows(slave, first);
+        for (unsigned int i = 0; i < n_owned(); ++i)
+          result.frames.emplace_back(first_number + i, first + i, 1.);
+        return result;
+      }
+    RowsOfNodes of_nodes(body, slave);
+    of_nodes.number(first);
+    for (unsigned int s = 0; s < face_rows.size(); ++s)
+      {
+        const FaceRows    &own = face_rows[s];
+        const unsigned int n   = own.n_nodes();
+        FaceRows           rows;
+        rows.begin = {0};
+        for (unsigned int r = 0; r < dim * n; ++r)
+          {
+            rows.index.push_back(of_nodes.rows[s][r]);
+            rows.weight.push_back(1.);
+            rows.begin.push_back(r + 1);
+            for (unsigned int e = own.begin[r % n]; e < own.begin[r % n + 1];
+                 ++e)
+              result.frames.emplace_back(own.index[e],
+                                         of_nodes.rows[s][r],
+                                         own.weight[e] *
+                                           own.normals[r % n][r / n]);
+          }
+        result.rows.push_back(std::move(rows));
+      }
+    return result;
+  }
+} // namespace mortise

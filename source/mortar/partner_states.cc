@@ -1,0 +1,93 @@
+// What slave faces meet, partner_states().
+#include <mortise/mortar/coupling.h>
+
+#include <array>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    bool
+    has_columns(const FaceTrace &trace, const unsigned int c)
+    {
+      const unsigned int n = trace.n_functions();
+      return trace.begin[(c + 1) * n] > trace.begin[c * n];
+    }
+
+    /// Faces belong to one boundary each.
+    bool
+    have_same_slave(const Coupling &a, const Coupling &b)
+    {
+      const BodySurface &first  = a.interface->slave(),
+                        &second = b.interface->slave();
+      return !first.faces.empty() &&
+             first.faces.size() == second.faces.size() &&
+             first.cells[0] == second.cells[0] &&
+             first.face_numbers[0] == second.face_numbers[0];
+    }
+
+    /// Does interface @p a have more of slave face @p s than @p b? Of halves, the first by name
+    /// counts as more.
+    bool
+    goes_in_front(const Coupling &a, const Coupling &b, const unsigned int s)
+    {
+      constexpr double rounding = 1e-6;
+      const double     difference =
+        a.interface->coverage()[s] - b.interface->coverage()[s];
+      return std::fabs(difference) > rounding ?
+               difference > 0. :
+               a.interface->name() < b.interface->name();
+    }
+
+    /// Does something of the normal lie in the directions that are free?
+    bool
+    can_follow_normal(const SurfaceFace           &face,
+                      const std::array<bool, dim> &free)
+    {
+      constexpr double rounding = 1e-3;
+      for (const auto &normal : face.vertex_normals)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (free[c] && std::fabs(normal[c]) > rounding)
+            return true;
+      return false;
+    }
+  } // namespace
+
+  std::vector<std::vector<PartnerState>>
+  partner_states(const std::vector<Coupling> &couplings)
+  {
+    std::vector<std::vector<PartnerState>> all;
+    for (const Coupling &coupling : couplings)
+      {
+        std::vector<const Coupling *> sharing;
+        for (const Coupling &other : couplings)
+          if (&other != &coupling && have_same_slave(coupling, other))
+            sharing.push_back(&other);
+        all.emplace_back();
+        for (unsigned int s = 0; s < coupling.local.size(); ++s)
+          {
+            const double covered = coupling.interface->coverage()[s];
+            PartnerState state   = {cover_of(covered, true), {}};
+            for (const Coupling *other : sharing)
+              if (goes_in_front(*other, coupling, s))
+                state.cover = cover_of(covered, false);
+            const auto find_free = [&](const FaceTrace &trace) {
+              for (unsigned int c = 0; c < dim; ++c)
+                state.can_follow[c] |= has_columns(trace, c);
+            };
+            find_free(coupling.interface->slave().traces[s]);
+            for (const auto &partner : coupling.local[s].partners)
+              find_free(coupling.interface->master_traces()[partner.master]);
+            if (coupling.directions == TiedDirections::normal)
+              state.can_follow = {
+                {can_follow_normal(coupling.interface->slave().faces[s],
+                                   state.can_follow)}};
+            all.back().push_back(state);
+          }
+      }
+    return all;
+  }
+} // namespace mortise

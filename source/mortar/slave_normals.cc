@@ -1,0 +1,126 @@
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/mortar/nodal_block.h>
+#include <mortise/mortar/slave_normals.h>
+
+#include <array>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using ByDof = LinearAlgebra::distributed::Vector<double>;
+
+    ByDof
+    zeros(const Body &body)
+    {
+      return ByDof(body.dof_handler.locally_owned_dofs(),
+                   body.relevant_dofs,
+                   body.triangulation().get_communicator());
+    }
+
+    /// Calls visit(s, k, dofs) for the nodes of all slave faces, with the dofs
+    /// of the three components; those that share no dof with other faces are
+    /// left out.
+    template <typename Visit>
+    void
+    for_each_node(const Body        &body,
+                  const BodySurface &slave,
+                  const Visit       &visit)
+    {
+      for (unsigned int s = 0; s < slave.faces.size(); ++s)
+        {
+          const auto dofs = face_dofs(slave.cells[s], slave.face_numbers[s]);
+          const auto own =
+            have_shared_nodes(slave.traces[s].basis(), dofs[0], body);
+          for (unsigned int k = 0; k < dofs[0].size(); ++k)
+            if (own[k])
+              visit(s,
+                    k,
+                    std::array<types::global_dof_index, dim>{
+                      {dofs[0][k], dofs[1][k], dofs[2][k]}});
+        }
+    }
+  } // namespace
+
+  std::vector<bool>
+  have_shared_nodes(const TraceBasis                           &basis,
+                    const std::vector<types::global_dof_index> &dofs,
+                    const Body                                 &body)
+  {
+    std::vector<bool> own(dofs.size(), true);
+    for (unsigned int k = 0; k < dofs.size(); ++k)
+      for (unsigned int l = 0; l < dofs.size() && own[k]; ++l)
+        if (basis.functions[k].dimension == basis.functions[l].dimension &&
+            basis.functions[k].entity == basis.functions[l].entity)
+          own[k] = !body.conformity.is_constrained(dofs[l]);
+    return own;
+  }
+
+  std::vector<std::vector<Tensor<1, dim>>>
+  slave_normals(const Body &body, const BodySurface &slave)
+  {
+    std::vector<std::vector<Tensor<1, dim>>> normals;
+    for (unsigned int s = 0; s < slave.faces.size(); ++s)
+      {
+        normals.emplace_back();
+        for (const Point<2> &xi :
+             face_nodes(slave.traces[s].shape, slave.traces[s].degree))
+          normals.back().push_back(face_normal(slave.faces[s], xi));
+      }
+    std::array<ByDof, dim> sums{{zeros(body), zeros(body), zeros(body)}};
+    for_each_node(body,
+                  slave,
+                  [&](const unsigned int s, const unsigned int k, auto dofs) {
+                    for (unsigned int c = 0; c < dim; ++c)
+                      sums[c](dofs[0]) += normals[s][k][c];
+                  });
+    for (ByDof &sum : sums)
+      {
+        sum.compress(VectorOperation::add);
+        sum.update_ghost_values();
+      }
+    for_each_node(body,
+                  slave,
+                  [&](const unsigned int s, const unsigned int k, auto dofs) {
+                    for (unsigned int c = 0; c < dim; ++c)
+                      normals[s][k][c] = sums[c](dofs[0]);
+                    normals[s][k] /= normals[s][k].norm();
+                  });
+    return normals;
+  }
+
+  std::vector<bool>
+  blocked_normals(const Body                                     &body,
+                  const BodySurface                              &slave,
+                  const std::vector<std::vector<Tensor<1, dim>>> &normals,
+                  const std::vector<bool>                        &blocked)
+  {
+    /// Of the square of a normal: less of it is rounding and curvature.
+    constexpr double least_free_part = 1e-6;
+
+    ByDof is_blocked = zeros(body), free_parts = is_blocked, n = is_blocked;
+    for (unsigned int i = 0; i < blocked.size(); ++i)
+      is_blocked.local_element(i) = blocked[i] ? 1. : 0.;
+    is_blocked.update_ghost_values();
+    for_each_node(body,
+                  slave,
+                  [&](const unsigned int s, const unsigned int k, auto dofs) {
+                    n(dofs[0]) += 1.;
+                    for (unsigned int c = 0; c < dim; ++c)
+                      if (is_blocked(dofs[c]) < 0.5)
+                        free_parts(dofs[0]) += std::pow(normals[s][k][c], 2);
+                  });
+    n.compress(VectorOperation::add);
+    free_parts.compress(VectorOperation::add);
+    std::vector<bool> result;
+    for (unsigned int i = 0; i < blocked.size(); ++i)
+      result.push_back(n.local_element(i) > 0. &&
+                       free_parts.local_element(i) <
+                         least_free_part * n.local_element(i));
+    return result;
+  }
+} // namespace mortise

@@ -1,0 +1,161 @@
+// Interfaces that give way, assemble_compliance().
+#include <mortise/mortar/coupling.h>
+#include <mortise/mortar/nodal_block.h>
+#include <mortise/mortar/row_assembler.h>
+
+#include <cmath>
+
+#include "coupled_faces.h"
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The root of K^{-1}.
+    Tensor<2, dim>
+    root_of_compliance(const Stiffness &spring, const Tensor<1, dim> &normal)
+    {
+      const double along  = 1. / std::sqrt(spring.normal),
+                   across = spring.tangential > 0. ?
+                              1. / std::sqrt(spring.tangential) :
+                              0.;
+      Tensor<2, dim> root = (along - across) * outer_product(normal, normal);
+      for (unsigned int c = 0; c < dim; ++c)
+        root[c][c] += across;
+      return root;
+    }
+
+    /// The compliance of one slave face, by pairs of nodes that it couples.
+    class FaceCompliance
+    {
+    public:
+      FaceCompliance(const Coupling &coupling, const unsigned int s)
+        : local(coupling.local[s])
+        , rows(coupling.multipliers->rows()[s])
+      {
+        for (unsigned int k = 0; k < local.springs.size(); ++k)
+          roots.push_back(
+            root_of_compliance(local.springs[k], local.spring_normals[k]));
+      }
+
+      /// visit(row expansion, column expansion, block)
+      template <typename Visit>
+      void
+      for_each_block(const Visit &visit) const
+      {
+        const unsigned int n = rows.n_nodes();
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            if (i == j || !local.is_dual())
+              visit(expansion(i), expansion(j), block(i, j));
+      }
+
+    private:
+      /// The rows of a node.
+      ExpansionPart
+      expansion(const unsigned int k) const
+      {
+        std::vector<unsigned int> of_node;
+        for (unsigned int r = k; r + 1 < rows.begin.size(); r += rows.n_nodes())
+          of_node.push_back(r);
+        return ExpansionPart({rows.begin, rows.index, rows.weight, 0}, of_node);
+      }
+
+      FullMatrix<double>
+      block(const unsigned int i, const unsigned int j) const
+      {
+        double factor = 0.;
+        if (local.is_dual())
+          factor = local.weights[i];
+        else
+          for (unsigned int k = 0; k < local.mass.m(); ++k)
+            factor += local.constraint(i, k) * local.multiplier(j, k);
+        const Tensor<2, dim> product = factor * roots[i] * roots[j];
+        if (!rows.normals.empty())
+          {
+            FullMatrix<double> along(1, 1);
+            along(0, 0) = rows.normals[i] * (product * rows.normals[j]);
+            return along;
+          }
+        FullMatrix<double> all(dim, dim);
+        for (unsigned int a = 0; a < dim; ++a)
+          for (unsigned int b = 0; b < dim; ++b)
+            all(a, b) = product[a][b];
+        return all;
+      }
+
+      const LocalCoupling             &local;
+      const MultiplierSpace::FaceRows &rows;
+      std::vector<Tensor<2, dim>>      roots; ///< by node
+    };
+  } // namespace
+
+  void
+  set_springs(const std::function<Stiffness(const Point<dim> &)> &stiffness,
+              const std::vector<std::vector<Tensor<1, dim>>>     &normals,
+              Coupling                                           &coupling)
+  {
+    const BodySurface &slave = coupling.interface->slave();
+    for (unsigned int s = 0; s < coupling.local.size(); ++s)
+      if (!coupling.local[s].partners.empty())
+        {
+          LocalCoupling &local = coupling.local[s];
+          local.spring_normals = normals[s];
+          for (const Point<2> &xi :
+               face_nodes(slave.traces[s].shape, slave.traces[s].degree))
+            local.springs.push_back(stiffness(face_point(slave.faces[s], xi)));
+        }
+  }
+
+  void
+  assemble_compliance(const std::vector<Coupling> &couplings,
+                      const CouplingPartition     &partition,
+                      SparseMatrix                &compliance)
+  {
+    RowAssembler assembler(partition.owned_multiplier,
+                           partition.owned_multiplier);
+    const auto   for_each_block = [&](const auto &visit) {
+      for_each_face(couplings,
+                    [&](const Coupling &coupling, const unsigned int s) {
+                      if (!coupling.local[s].springs.empty())
+                        FaceCompliance(coupling, s).for_each_block(visit);
+                    });
+    };
+    for_each_block([&](const ExpansionPart      &row,
+                       const ExpansionPart      &column,
+                       const FullMatrix<double> &block) {
+      assembler.record(row(), block.m(), column(), block.n());
+    });
+    assembler.allocate();
+    for_each_block([&](const ExpansionPart      &row,
+                       const ExpansionPart      &column,
+                       const FullMatrix<double> &block) {
+      assembler.add(row(), column(), block, 1., false);
+    });
+    assembler.create(compliance, partition.comm);
+  }
+
+  Stiffness
+  penalty_of(const Coupling    &coupling,
+             const unsigned int s,
+             const double       penalty)
+  {
+    Stiffness   result{penalty,
+                     coupling.directions == TiedDirections::all ? penalty : 0.};
+    const auto &springs = coupling.local[s].springs;
+    if (springs.empty())
+      return result;
+    double normal = 0., tangential = 0.;
+    for (const Stiffness &spring : springs)
+      {
+        normal += spring.normal / springs.size();
+        tangential += spring.tangential / springs.size();
+      }
+    result.normal = 1. / (1. / penalty + 1. / normal);
+    result.tangential =
+      tangential > 0. ? 1. / (1. / penalty + 1. / tangential) : 0.;
+    return result;
+  }
+} // namespace mortise

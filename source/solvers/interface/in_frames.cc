@@ -1,0 +1,198 @@
+// The Schur complement of multipliers along normals, in_frames().
+#include <deal.II/base/mpi.h>
+
+#include <Epetra_Map.h>
+#include <mortise/base/types.h>
+#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/interface/weighted_square.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <utility>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// What of a node a multiplier is.
+    struct Frame
+    {
+      int                     multiplier;
+      std::array<double, dim> weight;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int /*version*/)
+      {
+        archive &multiplier &weight[0] & weight[1] & weight[2];
+      }
+    };
+
+    /// The frames at the nodes of the rows by component, by global node: those
+    /// of other ranks as far as columns refer to them.
+    class FramesOfNodes
+    {
+    public:
+      FramesOfNodes(const NodalMatrix &C, const Epetra_CrsMatrix &frames)
+        : comm(communicator(frames.RowMap()))
+        , of_owned(C.size())
+      {
+        const auto sizes = Utilities::MPI::all_gather(comm, int(C.size()));
+        firsts           = {0};
+        for (const int size : sizes)
+          firsts.push_back(firsts.back() + size);
+        first = firsts[Utilities::MPI::this_mpi_process(comm)];
+        collect_owned(C, frames);
+        fetch_others(C);
+      }
+
+      const std::vector<Frame> &
+      owned(const unsigned int node) const
+      {
+        return of_owned[node];
+      }
+
+      const std::vector<Frame> &
+      operator()(const int node) const
+      {
+        return is_owned(node) ? of_owned[node - first] : others.at(node);
+      }
+
+    private:
+      bool
+      is_owned(const int node) const
+      {
+        return node >= first &&
+               node < first + static_cast<int>(of_owned.size());
+      }
+
+      void
+      collect_owned(const NodalMatrix &C, const Epetra_CrsMatrix &frames)
+      {
+        const auto transposed =
+          transpose(frames,
+                    Epetra_Map(-1,
+                               frames.DomainMap().NumMyElements(),
+                               frames.DomainMap().MyGlobalElements(),
+                               0,
+                               frames.Comm()));
+        for (unsigned int i = 0; i < C.entries.size(); ++i)
+          if (C.entries[i] >= 0)
+            {
+              const EpetraRow row(*transposed, C.entries[i]);
+              auto           &list = of_owned[i / dim];
+              for (int k = 0; k < row.length; ++k)
+                {
+                  const int multiplier = transposed->GCID(row.columns[k]);
+                  auto      found =
+                    std::find_if(list.begin(), list.end(), [&](const auto &f) {
+                      return f.multiplier == multiplier;
+                    });
+                  if (found == list.end())
+                    found = list.insert(list.end(), {multiplier, {}});
+                  found->weight[i % dim] = row.values[k];
+                }
+            }
+      }
+
+      void
+      fetch_others(const NodalMatrix &C)
+      {
+        std::map<unsigned int, std::vector<int>> wanted;
+        for (const int node : C.columns)
+          if (!is_owned(node) &&
+              others.emplace(node, std::vector<Frame>()).second)
+            wanted[std::upper_bound(firsts.begin(), firsts.end(), node) -
+                   firsts.begin() - 1]
+              .push_back(node);
+        std::map<unsigned int, std::vector<std::vector<Frame>>> answers;
+        for (const auto &[rank, nodes] :
+             Utilities::MPI::some_to_some(comm, wanted))
+          for (const int node : nodes)
+            answers[rank].push_back(of_owned[node - first]);
+        for (const auto &[rank, lists] :
+             Utilities::MPI::some_to_some(comm, answers))
+          for (unsigned int i = 0; i < lists.size(); ++i)
+            others[wanted[rank][i]] = lists[i];
+      }
+
+      const MPI_Comm                    comm;
+      std::vector<int>                  firsts; ///< nodes, by rank
+      int                               first = 0;
+      std::vector<std::vector<Frame>>   of_owned;
+      std::map<int, std::vector<Frame>> others;
+    };
+
+    using Entries = std::map<int, double>; ///< by column
+
+    /// To owned rows, what other ranks have for them. Collective.
+    void
+    exchange(const Epetra_Map &map, std::map<int, Entries> &rows)
+    {
+      const MPI_Comm comm = communicator(map);
+      const auto ends = Utilities::MPI::all_gather(comm, map.MaxMyGID() + 1);
+      std::map<unsigned int, std::map<int, Entries>> packages;
+      for (auto row = rows.begin(); row != rows.end();)
+        if (map.MyGID(row->first))
+          ++row;
+        else
+          {
+            unsigned int rank = 0;
+            while (ends[rank] <= row->first)
+              ++rank;
+            packages[rank].insert(rows.extract(row++));
+          }
+      for (const auto &[rank, package] :
+           Utilities::MPI::some_to_some(comm, packages))
+        for (const auto &[row, entries] : package)
+          for (const auto &[column, value] : entries)
+            rows[row][column] += value;
+    }
+  } // namespace
+
+  NodalMatrix
+  in_frames(const NodalMatrix &C, const Epetra_CrsMatrix &frames)
+  {
+    const FramesOfNodes    frames_of(C, frames);
+    std::map<int, Entries> rows;
+    const int             *columns = C.columns.data();
+    const double          *values  = C.values.data();
+    for (unsigned int i = 0; i < C.size(); ++i)
+      {
+        const unsigned int n = C.lengths[i];
+        for (const Frame &row : frames_of.owned(i))
+          {
+            Entries &to = rows[row.multiplier];
+            for (unsigned int k = 0; k < n; ++k)
+              for (const Frame &column : frames_of(columns[k]))
+                {
+                  double sum = 0.;
+                  for (unsigned int c = 0; c < dim; ++c)
+                    sum += row.weight[c] * column.weight[c] *
+                           values[(C.variants[i] == 1 ? 0 : c * n) + k];
+                  to[column.multiplier] += sum;
+                }
+          }
+        columns += n;
+        values += n * C.variants[i];
+      }
+    exchange(frames.RowMap(), rows);
+    NodalMatrix result;
+    result.variants.assign(frames.NumMyRows(), 1);
+    for (int i = 0; i < frames.NumMyRows(); ++i)
+      {
+        const Entries &row = rows[frames.GRID(i)];
+        result.entries.push_back(i);
+        result.lengths.push_back(row.size());
+        for (const auto &[column, value] : row)
+          {
+            result.columns.push_back(column);
+            result.values.push_back(value);
+          }
+      }
+    return result;
+  }
+} // namespace mortise
