@@ -74,8 +74,7 @@ namespace mortise
                 sums[c] +=
                   *values * reinterpret_cast<const V *>(gathered[c])[j];
             for (unsigned int c = 0; c < dim; ++c)
-              for (unsigned int l = 0; l < width; ++l)
-                dst[row + c] += sums[c][l];
+              dst[row + c] += sum_of_batch(reinterpret_cast<Number *>(&sums[c]));
           }
       }
   }
@@ -105,9 +104,7 @@ namespace mortise
             V sum = {};
             for (unsigned int j = 0; j < m / width; ++j, ++values)
               sum += *values * reinterpret_cast<const V *>(gathered)[j];
-            Number total = Number();
-            for (unsigned int l = 0; l < width; ++l)
-              total += sum[l];
+            const Number total = sum_of_batch(reinterpret_cast<Number *>(&sum));
             for (unsigned int c = 0; c < dim; ++c)
               dst[row + c] += normals[row + c] * total;
           }

@@ -212,8 +212,7 @@ namespace mortise
                 Number    sum = own < 0 ? 0 :
                                           block.own_entry[i + r] *
                                          values[n_components * own + c];
-                for (unsigned int l = 0; l < w; ++l)
-                  sum += sums[r][c][l];
+                sum += sum_of_batch(reinterpret_cast<Number *>(&sums[r][c]));
                 jump[j] = sum;
               }
       });
