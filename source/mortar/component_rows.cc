@@ -84,7 +84,8 @@ namespace mortise
   unsigned int
   MultiplierSpace::n_component_rows(const BodySurface &slave) const
   {
-    return normals.empty() ? n_owned() : RowsOfNodes(body, slave).n_owned();
+    return n_directions == dim ? n_owned() :
+                                 RowsOfNodes(body, slave).n_owned();
   }
 
   MultiplierSpace::ComponentRows
@@ -92,7 +93,7 @@ namespace mortise
                                   const Index        first) const
   {
     ComponentRows result;
-    if (normals.empty())
+    if (n_directions == dim)
       {
         result.rows = make_rows(slave, first);
         for (unsigned int i = 0; i < n_owned(); ++i)

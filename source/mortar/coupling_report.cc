@@ -149,6 +149,33 @@ namespace mortise
     return result;
   }
 
+  void
+  select_multipliers(const std::vector<bool> &active,
+                     const IndexSet          &owned_multiplier,
+                     const MPI_Comm           comm,
+                     Coupling                &coupling)
+  {
+    auto  sums  = make_sums(1, coupling, owned_multiplier, comm);
+    auto &flags = sums[0];
+    for (unsigned int i = 0; i < active.size(); ++i)
+      flags.local_element(i) = active[i] ? 1. : 0.;
+    flags.update_ghost_values();
+    std::vector<double> shares(coupling.local.size()), sizes(shares);
+    for_each_entry(coupling,
+                   [&](const unsigned int s,
+                       const unsigned int i,
+                       const Tensor<1, dim> &,
+                       const auto   index,
+                       const double w) {
+                     const double size =
+                       w * w * multiplier_product(coupling.local[s], i, i);
+                     sizes[s] += size;
+                     shares[s] += flags(index) * size;
+                   });
+    for (unsigned int s = 0; s < shares.size(); ++s)
+      coupling.local[s].active_share = sizes[s] > 0. ? shares[s] / sizes[s] : 1.;
+  }
+
   TransferErrors
   transfer_errors(const Coupling &coupling,
                   const IndexSet &owned_multiplier,

@@ -202,7 +202,7 @@ namespace mortise
         const TraceBasis &basis = slave.traces[s].basis();
         const auto dofs = face_dofs(slave.cells[s], slave.face_numbers[s]);
         rows.begin      = {0};
-        if (!normals.empty())
+        if (n_directions != dim)
           rows.normals = normals[s];
         for (unsigned int c = 0; c < n_directions; ++c)
           {

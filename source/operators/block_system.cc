@@ -78,6 +78,7 @@ namespace mortise
   BlockSystem::apply_constraint(Vector &dst, const Vector &u) const
   {
     coupling.vmult(dst, u);
+    clear_inactive(dst);
   }
 
   void
@@ -88,6 +89,7 @@ namespace mortise
       return;
     Vector opening(dst);
     spring_compliance.vmult(opening, lambda);
+    clear_inactive(opening);
     dst -= opening;
   }
 

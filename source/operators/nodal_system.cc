@@ -100,11 +100,6 @@ namespace mortise
                                               scene.constraints,
                                               scene.couplings,
                                               comm));
-        // the finest level respects the constraint itself; the matrix of
-        // vertices is made of the last
-        if (number > 0 || spaces.size() == 1)
-          all_levels.back().penalties =
-            make_nodal_penalties(all_levels.back(), number, scene.couplings);
       }
     stiffness = std::make_unique<LevelOperator<double>>(all_levels.front(),
                                                         false,
@@ -113,9 +108,7 @@ namespace mortise
     stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
     if (!scene.couplings.empty())
-      leading = find_leading_displacements(all_levels.front(),
-                                           node_diagonal(),
-                                           scene.couplings);
+      update_interfaces(scene.couplings);
     if (!pressures)
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})
@@ -124,6 +117,20 @@ namespace mortise
     stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
     clamped_cell_pressures.add_diagonal(norm_diagonal.begin());
     pressures->gather_diagonal(norm_diagonal);
+  }
+
+  void
+  NodalSystem::update_interfaces(const std::vector<Coupling> &couplings)
+  {
+    // the finest level respects the constraint itself; the matrix of vertices
+    // is made of the last
+    for (unsigned int number = 0; number < all_levels.size(); ++number)
+      if (number > 0 || all_levels.size() == 1)
+        all_levels[number].penalties =
+          make_nodal_penalties(all_levels[number], number, couplings);
+    leading = find_leading_displacements(all_levels.front(),
+                                         node_diagonal(),
+                                         couplings);
   }
 
   void

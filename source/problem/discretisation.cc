@@ -229,6 +229,21 @@ namespace mortise
     return load;
   }
 
+  void
+  Discretisation::select(const std::vector<bool> &active)
+  {
+    system.active = active;
+    couplings.select(active);
+    if (system.nodal)
+      system.nodal->update_interfaces(couplings.all());
+    else if (system.jump_penalty.m() > 0)
+      assemble_jump_penalty(couplings.all(),
+                            {system.owned_displacement,
+                             system.owned_multiplier,
+                             run.comm},
+                            system.jump_penalty);
+  }
+
   std::vector<BodySolution>
   Discretisation::solutions(const SceneLoad    &load,
                             const SystemVector &solution) const

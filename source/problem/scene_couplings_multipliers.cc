@@ -190,6 +190,13 @@ namespace mortise
     check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
   }
 
+  void
+  SceneCouplings::select(const std::vector<bool> &active)
+  {
+    for (Coupling &coupling : couplings)
+      select_multipliers(active, owned, run.comm, coupling);
+  }
+
   std::string
   SceneCouplings::count_by_name(
     const std::vector<types::global_dof_index> &indices) const

@@ -75,6 +75,14 @@ namespace mortise
   Stiffness
   penalty_of(const Coupling &coupling, unsigned int s, double penalty);
 
+  /// Set which multipliers take part, for what preconditioners see of it. @p active: by owned
+  /// multiplier. Collective.
+  void
+  select_multipliers(const std::vector<bool> &active,
+                     const dealii::IndexSet  &owned_multiplier,
+                     MPI_Comm                 comm,
+                     Coupling                &coupling);
+
   /// The columns that this B lacks: those of prescribed displacements, and of
   /// what hangs on them, in the numbering of the scene, which the partition has
   /// for displacements here. Collective.

@@ -67,6 +67,9 @@ namespace mortise
       0.; ///< scale of jump penalties: about E / h of the softer side, or of
           ///< the slave where a master leads, since it is what moves
 
+    /// How much of the face's multipliers take part, see select_multipliers().
+    double active_share = 1.;
+
     bool
     is_dual() const
     {

@@ -152,7 +152,7 @@ namespace mortise
 
     const Body                                      &body;
     std::vector<std::vector<dealii::Tensor<1, dim>>> normals; ///< by face
-    unsigned int                                     n_directions;
+    unsigned int n_directions; ///< dim, or 1: along the normals
     std::vector<Index>                               owned_dofs;
     std::vector<bool>  at_vertices; ///< by owned multiplier
     dealii::AffineConstraints<double>

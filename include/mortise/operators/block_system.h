@@ -74,6 +74,10 @@ namespace mortise
     /// dofs are zero. No rows at all when the scene has no interface.
     SparseMatrix coupling;
 
+    /// By owned multiplier: does its constraint hold? The others are zero.
+    /// Empty: all do.
+    std::vector<bool> active;
+
     /// S, the compliance of springs: zero, or empty, where bodies are tied.
     SparseMatrix spring_compliance;
 
@@ -150,6 +154,16 @@ namespace mortise
     void
     subtract_spring_opening(Vector &dst, const Vector &lambda) const;
 
+    /// Zero where multipliers are not active.
+    template <typename Multipliers>
+    void
+    clear_inactive(Multipliers &lambda) const
+    {
+      for (unsigned int i = 0; i < active.size(); ++i)
+        if (!active[i])
+          entries_of(lambda)[i] = 0.;
+    }
+
     bool
     has_springs() const
     {
@@ -163,6 +177,18 @@ namespace mortise
     /// diag(P) on the owned pressures.
     void
     copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const;
+
+    static double *
+    entries_of(Vector &v)
+    {
+      return v.begin();
+    }
+
+    static double *
+    entries_of(Epetra_Vector &v)
+    {
+      return v.Values();
+    }
 
     /// Zero, on the owned ranges. Collective.
     SystemVector

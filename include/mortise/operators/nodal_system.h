@@ -36,6 +36,10 @@ namespace mortise
                 const Scene                &scene,
                 MPI_Comm                    comm);
 
+    /// After the multipliers that take part have changed. Collective.
+    void
+    update_interfaces(const std::vector<Coupling> &couplings);
+
     /// The finest first.
     const std::vector<NodalLevel> &
     levels() const

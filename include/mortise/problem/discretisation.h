@@ -26,6 +26,11 @@ namespace mortise
     SceneLoad
     load(const SceneData &data) const;
 
+    /// Let the constraints of @p active multipliers hold, by owned one; those of the others are zero.
+    /// The solver has to be updated. Collective.
+    void
+    select(const std::vector<bool> &active);
+
     /// The solution by body. Collective.
     std::vector<BodySolution>
     solutions(const SceneLoad &load, const SystemVector &solution) const;

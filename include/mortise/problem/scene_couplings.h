@@ -40,6 +40,10 @@ namespace mortise
       return couplings;
     }
 
+    /// Let @p active multipliers take part, by owned one. Collective.
+    void
+    select(const std::vector<bool> &active);
+
     /// Does an interface let bodies slide?
     bool
     slide() const

@@ -191,11 +191,18 @@ namespace mortise
       local = 0;
       for (const auto k : system.owned_multiplier)
         {
-          rows.add(system.coupling.trilinos_matrix(), local, 0);
-          if (system.has_springs())
-            rows.add(system.spring_compliance.trilinos_matrix(), local, 2, -1.);
+          if (!system.active.empty() && !system.active[local])
+            rows.add(numbering(2, k),
+                     -1. / residual.inverse_diagonal_lambda()[local]);
+          else
+            {
+              rows.add(system.coupling.trilinos_matrix(), local, 0);
+              if (system.has_springs())
+                rows.add(
+                  system.spring_compliance.trilinos_matrix(), local, 2, -1.);
+              rows.add(numbering(2, k), 0.);
+            }
           ++local;
-          rows.add(numbering(2, k), 0.);
           rows.insert(numbering(2, k));
         }
       matrix->FillComplete();

@@ -49,19 +49,24 @@ namespace mortise
             member_of[i] = entry->second;
             ++weights[entry->second];
           }
-        begin.push_back(0);
-        std::vector<idx_t> list;
+        // rows of a node may list, as zeros, columns whose rows do not list it
+        std::vector<std::vector<idx_t>> lists(weights.size());
         for (unsigned int v = 0; v < weights.size(); ++v)
+          for (unsigned int k = graph.begin[representative[v]];
+               k < graph.begin[representative[v] + 1];
+               ++k)
+            if (const unsigned int w = member_of[graph.columns[k]]; w != v)
+              {
+                lists[v].push_back(w);
+                lists[w].push_back(v);
+              }
+        begin.push_back(0);
+        for (auto &list : lists)
           {
-            const unsigned int i = representative[v];
-            list.clear();
-            for (unsigned int k = graph.begin[i]; k < graph.begin[i + 1]; ++k)
-              if (const idx_t w = member_of[graph.columns[k]];
-                  w != static_cast<idx_t>(v))
-                list.push_back(w);
             std::sort(list.begin(), list.end());
-            list.erase(std::unique(list.begin(), list.end()), list.end());
-            neighbours.insert(neighbours.end(), list.begin(), list.end());
+            neighbours.insert(neighbours.end(),
+                              list.begin(),
+                              std::unique(list.begin(), list.end()));
             begin.push_back(neighbours.size());
           }
       }

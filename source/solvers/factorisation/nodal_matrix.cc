@@ -1,8 +1,11 @@
 // See nodal_matrix.h.
+#include <Epetra_Import.h>
+#include <Epetra_IntVector.h>
 #include <Epetra_Map.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/nodal_matrix.h>
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -54,6 +57,80 @@ namespace mortise
           }
       }
     matrix = std::move(sum);
+  }
+
+  namespace
+  {
+    /// Bits of the components that are active, by column of @p matrix. Collective.
+    std::vector<char>
+    active_columns(const NodalMatrix       &matrix,
+                   const std::vector<bool> &active,
+                   const Epetra_Map        &nodes)
+    {
+      const unsigned int n = matrix.n_components;
+      Epetra_IntVector   owned(nodes);
+      for (unsigned int i = 0; i < matrix.entries.size(); ++i)
+        if (matrix.entries[i] >= 0 && active[matrix.entries[i]])
+          owned[i / n] |= 1 << i % n;
+      std::vector<int> unique(matrix.columns);
+      std::sort(unique.begin(), unique.end());
+      unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
+      const Epetra_Map columns(
+        -1, static_cast<int>(unique.size()), unique.data(), 0, nodes.Comm());
+      Epetra_IntVector all(columns);
+      all.Import(owned, Epetra_Import(columns, nodes), Insert);
+      std::vector<char> result;
+      for (const int column : matrix.columns)
+        result.push_back(static_cast<char>(all[columns.LID(column)]));
+      return result;
+    }
+  } // namespace
+
+  NodalMatrix
+  select(const NodalMatrix       &matrix,
+         const std::vector<bool> &active,
+         const Epetra_Comm       &comm)
+  {
+    const unsigned int n = matrix.n_components;
+    const Epetra_Map   nodes(-1, static_cast<int>(matrix.size()), 0, comm);
+    const std::vector<char> bits = active_columns(matrix, active, nodes);
+    NodalMatrix             result;
+    result.n_components   = n;
+    result.entries        = matrix.entries;
+    const double *values  = matrix.values.data();
+    std::size_t   column  = 0; // first of the node
+    for (unsigned int i = 0; i < matrix.size(); ++i)
+      {
+        const unsigned int length = matrix.lengths[i];
+        const int          self   = nodes.GID(static_cast<int>(i));
+        char               own    = 0;
+        for (unsigned int k = 0; k < length; ++k)
+          if (matrix.columns[column + k] == self)
+            own = bits[column + k];
+        std::vector<unsigned int> kept;
+        bool                      alike = matrix.variants[i] == 1;
+        for (unsigned int k = 0; k < length; ++k)
+          if (const char both = own & bits[column + k];
+              both != 0 || matrix.columns[column + k] == self)
+            {
+              kept.push_back(k);
+              alike = alike && (both == (1 << n) - 1 || own == 0);
+            }
+        for (const unsigned int k : kept)
+          result.columns.push_back(matrix.columns[column + k]);
+        result.lengths.push_back(kept.size());
+        result.variants.push_back(alike ? 1 : n);
+        for (unsigned int c = 0; c < (alike ? 1 : n); ++c)
+          for (const unsigned int k : kept)
+            result.values.push_back(
+              (own & bits[column + k]) >> c & 1 ||
+                  matrix.columns[column + k] == self ?
+                values[(matrix.variants[i] == 1 ? 0 : c * length) + k] :
+                0.);
+        column += length;
+        values += std::size_t(length) * matrix.variants[i];
+      }
+    return result;
   }
 
   std::unique_ptr<Epetra_CrsMatrix>

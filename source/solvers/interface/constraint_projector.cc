@@ -79,6 +79,7 @@ namespace mortise
         apply(u);
         jump -= g;
         system.subtract_spring_opening(jump, lambda);
+        system.clear_inactive(jump);
         const double norm = jump.l2_norm();
         if (!(norm > 0. && norm < 0.1 * previous))
           break;

@@ -9,7 +9,8 @@ namespace mortise
                                    const CouplingRows           &rows,
                                    const CouplingProduct<float> &product,
                                    const std::size_t             max_gathered)
-    : weights(system.nodal->node_diagonal())
+    : Lifting(system)
+    , weights(system.nodal->node_diagonal())
   {
     for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
       weights.local_element(i) = 1. / weights.local_element(i);
@@ -21,8 +22,8 @@ namespace mortise
       system.has_springs() ? &system.spring_compliance.trilinos_matrix() :
                              nullptr;
     const auto multiply =
-      [&product, trace, springs, this](Epetra_Vector       &to,
-                              const Epetra_Vector &from) mutable {
+      [&product, &system, trace, springs, this](
+        Epetra_Vector &to, const Epetra_Vector &from) mutable {
         product.multiply_transposed(trace, from);
         const auto &indices = product.indices();
         for (unsigned int k = 0; k < indices.size(); ++k)
@@ -34,12 +35,17 @@ namespace mortise
             springs->Multiply(false, from, opening);
             to.Update(1., opening, 1.);
           }
+        system.clear_inactive(to);
       };
     NodalMatrix schur = weighted_square(rows, weights);
     if (system.frames.m() > 0)
       schur = in_frames(schur, system.frames.trilinos_matrix());
     if (system.has_springs())
       add(schur, system.spring_compliance.trilinos_matrix());
+    if (!system.active.empty())
+      schur = select(schur,
+                     system.active,
+                     system.coupling.trilinos_matrix().Comm());
     factorise(std::move(schur),
               multiply,
               system.coupling.trilinos_matrix().RowMap(),

@@ -56,6 +56,20 @@ namespace mortise
   Lifting::apply_inverse_schur(Epetra_Vector       &y,
                                const Epetra_Vector &jump) const
   {
+    if (system.active.empty())
+      {
+        solve(y, jump);
+        return;
+      }
+    Epetra_Vector of_active(jump);
+    system.clear_inactive(of_active);
+    solve(y, of_active);
+    system.clear_inactive(y);
+  }
+
+  void
+  Lifting::solve(Epetra_Vector &y, const Epetra_Vector &jump) const
+  {
     if (schwarz)
       schwarz->solve(y, jump);
     else if (cholesky)

@@ -22,7 +22,8 @@ namespace mortise
 
   InterfaceLifting::InterfaceLifting(const BlockSystem   &system,
                                      const BlockSmoother &smoother)
-    : smoother(smoother)
+    : Lifting(system)
+    , smoother(smoother)
   {
     const auto transposed =
       transpose(system.coupling.trilinos_matrix(),
@@ -207,7 +208,16 @@ namespace mortise
             schur.add(row, S.GCID(opening.columns[k]), opening.values[k]);
         }
     schur.compress(VectorOperation::add);
-    factorise(schur.trilinos_matrix());
+    if (system.active.empty())
+      factorise(schur.trilinos_matrix());
+    else
+      {
+        const Epetra_Comm &comm = schur.trilinos_matrix().Comm();
+        factorise(*as_matrix(mortise::select(rows_as_nodes(schur.trilinos_matrix()),
+                                    system.active,
+                                    comm),
+                             comm));
+      }
   }
 
   void

@@ -41,6 +41,13 @@ namespace mortise
   void
   add(NodalMatrix &matrix, const Epetra_CrsMatrix &other);
 
+  /// Without the off-diagonal entries of rows and columns that are not @p active, by local entry of
+  /// a vector. Collective.
+  NodalMatrix
+  select(const NodalMatrix       &matrix,
+         const std::vector<bool> &active,
+         const Epetra_Comm       &comm);
+
   /// The matrix of these rows, numbered by node and component. Collective.
   std::unique_ptr<Epetra_CrsMatrix>
   as_matrix(const NodalMatrix &rows, const Epetra_Comm &comm);

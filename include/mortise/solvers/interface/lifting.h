@@ -19,6 +19,11 @@ namespace mortise
   class Lifting
   {
   public:
+    /// @p system must stay alive.
+    explicit Lifting(const BlockSystem &system)
+      : system(system)
+    {}
+
     virtual ~Lifting() = default;
 
     /// False when the multipliers are not independent of each other.
@@ -38,7 +43,7 @@ namespace mortise
     vmult(Vector &dst, const Vector &src) const = 0;
 
     /// y = C^{-1} jump, to four digits at least in the norm of C; both with the
-    /// rows of B. Collective.
+    /// rows of B, those that are active: y is zero elsewhere. Collective.
     void
     apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const;
 
@@ -58,6 +63,10 @@ namespace mortise
     factorise(const Epetra_CrsMatrix &schur);
 
   private:
+    void
+    solve(Epetra_Vector &y, const Epetra_Vector &jump) const;
+
+    const BlockSystem &system;
     /// One of them; the last for what no other can.
     std::unique_ptr<SchwarzInverse>          schwarz;
     std::unique_ptr<CholeskyInverse<double>> cholesky;
