@@ -108,7 +108,12 @@ namespace mortise
     stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
     if (!scene.couplings.empty())
-      update_interfaces(scene.couplings);
+      {
+        update_penalties(scene.couplings);
+        leading = find_leading_displacements(all_levels.front(),
+                                             node_diagonal(),
+                                             scene.couplings);
+      }
     if (!pressures)
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})
@@ -120,7 +125,7 @@ namespace mortise
   }
 
   void
-  NodalSystem::update_interfaces(const std::vector<Coupling> &couplings)
+  NodalSystem::update_penalties(const std::vector<Coupling> &couplings)
   {
     // the finest level respects the constraint itself; the matrix of vertices
     // is made of the last
@@ -128,9 +133,6 @@ namespace mortise
       if (number > 0 || all_levels.size() == 1)
         all_levels[number].penalties =
           make_nodal_penalties(all_levels[number], number, couplings);
-    leading = find_leading_displacements(all_levels.front(),
-                                         node_diagonal(),
-                                         couplings);
   }
 
   void

@@ -233,9 +233,14 @@ namespace mortise
   Discretisation::select(const std::vector<bool> &active)
   {
     system.active = active;
-    couplings.select(active);
+  }
+
+  void
+  Discretisation::show_active()
+  {
+    couplings.select(*system.active);
     if (system.nodal)
-      system.nodal->update_interfaces(couplings.all());
+      system.nodal->update_penalties(couplings.all());
     else if (system.jump_penalty.m() > 0)
       assemble_jump_penalty(couplings.all(),
                             {system.owned_displacement,

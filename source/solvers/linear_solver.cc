@@ -44,11 +44,29 @@ namespace mortise
   void
   LinearSolver::update()
   {
+    selects = system.active.has_value();
+    update([this] {
+      residual = std::make_unique<ScaledResidual>(system);
+      return set_up();
+    });
+  }
+
+  void
+  LinearSolver::update_active()
+  {
+    if (!valid || !selects)
+      update();
+    else
+      update([this] { return set_up_active(); });
+  }
+
+  void
+  LinearSolver::update(const std::function<bool()> &set_up_part)
+  {
     announce_stage("solver_setup");
     const Timer timer;
-    residual = std::make_unique<ScaledResidual>(system);
-    valid    = set_up();
-    earlier  = SuccessiveSolutions(options.successive);
+    valid   = set_up_part();
+    earlier = SuccessiveSolutions(options.successive);
     setup_seconds += timer.wall_time();
   }
 

@@ -4,20 +4,13 @@
 //   scene=sphere|blocks  p=2  law=tie|slide  contrast=1 (modulus of the slave
 //   over the master's)  fine=0 (cells of the slave for each of the master's, in
 //   a line; 0: about 3 : 2)  n=4 (cells in a line)  nu=0.3  tolerance=1e-8
+#include "scenes/active_sets.h"
+
 #include <deal.II/base/mpi.h>
 
-#include <mortise/mortar/nodal_block.h>
-#include <mortise/problem/discretisation.h>
-#include <mortise/problem/scene_data.h>
-#include <mortise/solvers/solve.h>
-
-#include <cmath>
-#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <map>
-
-#include "scenes/scenes.h"
 
 using namespace dealii;
 using namespace mortise;
@@ -26,7 +19,6 @@ using namespace mortise::testing;
 namespace
 {
   using Options = std::map<std::string, std::string>;
-  using Set     = std::function<bool(const Point<dim> &)>;
 
   Settings
   settings_of(const Options &given, std::string &text)
@@ -71,111 +63,19 @@ namespace
     return settings;
   }
 
-  /// Where the owned multipliers are: the mean of the nodes that they move.
-  std::vector<Point<dim>>
-  places(const Discretisation &discretisation, const MPI_Comm comm)
-  {
-    const IndexSet &owned = discretisation.linear_system().owned_multiplier;
-    IndexSet        ghosts(owned);
-    for (const Coupling &coupling : discretisation.interfaces().all())
-      for (const auto &rows : coupling.multipliers->rows())
-        ghosts.add_indices(rows.index.begin(), rows.index.end());
-    std::vector<LinearAlgebra::distributed::Vector<double>> sums(dim + 1);
-    for (auto &sum : sums)
-      sum.reinit(owned, ghosts, comm);
-    for (const Coupling &coupling : discretisation.interfaces().all())
-      {
-        const BodySurface &slave = coupling.interface->slave();
-        for (unsigned int s = 0; s < slave.faces.size(); ++s)
-          {
-            const auto &rows = coupling.multipliers->rows()[s];
-            const auto  nodes =
-              face_nodes(slave.traces[s].shape, slave.traces[s].degree);
-            for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                {
-                  const Point<dim> x =
-                    face_point(slave.faces[s], nodes[r % rows.n_nodes()]);
-                  const double w = std::fabs(rows.weight[e]);
-                  for (unsigned int c = 0; c < dim; ++c)
-                    sums[c](rows.index[e]) += w * x[c];
-                  sums[dim](rows.index[e]) += w;
-                }
-          }
-      }
-    for (auto &sum : sums)
-      sum.compress(VectorOperation::add);
-    std::vector<Point<dim>> result(owned.n_elements());
-    for (unsigned int i = 0; i < result.size(); ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        result[i][c] = sums[c].local_element(i) / sums[dim].local_element(i);
-    return result;
-  }
-
-  /// A number from 0 to 1 that only the place decides.
-  double
-  draw(const Point<dim> &x)
-  {
-    double sum = 0.;
-    for (unsigned int c = 0; c < dim; ++c)
-      sum += std::round(1e5 * x[c]) * (12.9898 + 65.233 * c);
-    const double value = std::fabs(std::sin(sum)) * 43758.5453;
-    return value - std::floor(value);
-  }
-
-  std::vector<std::pair<std::string, Set>>
-  sets_of(const bool sphere)
-  {
-    const Point<dim> centre =
-      sphere ? Point<dim>(1.5 / std::sqrt(3.) * Tensor<1, dim>({1., 1., 1.})) :
-               Point<dim>(0.5, 0.5, 0.5);
-    const double size = sphere ? 1.5 : 1.;
-    const auto   disc = [=](const double radius) {
-      return
-        [=](const Point<dim> &x) { return x.distance(centre) < radius * size; };
-    };
-    const auto board = [=](const double width) {
-      return [=](const Point<dim> &x) {
-        return (static_cast<int>(std::floor(x[0] / width + 0.37)) +
-                static_cast<int>(std::floor(x[1] / width + 0.37))) %
-                 2 ==
-               0;
-      };
-    };
-    return {{"all", [](const auto &) { return true; }},
-            {"none", [](const auto &) { return false; }},
-            {"random half", [](const auto &x) { return draw(x) < 0.5; }},
-            {"random tenth", [](const auto &x) { return draw(x) < 0.1; }},
-            {"board, fine", board(0.12 * size)},
-            {"board, coarse", board(0.3 * size)},
-            {"disc 0.15", disc(0.15)},
-            {"disc 0.3", disc(0.3)},
-            {"disc 0.32", disc(0.32)},
-            {"disc 0.5", disc(0.5)}};
-  }
-
   void
   run(const Options &given, const MPI_Comm comm)
   {
     std::string      text;
-    const Settings   settings   = settings_of(given, text);
-    const Parameters parameters = parse_parameters(text, "benchmark", settings);
-    std::ostringstream silence;
-    RunLog             log(silence, comm);
-    Timers             timers;
-    FieldChecks        checks;
-    validate(parameters);
-    const RunContext context{parameters, log, timers, comm};
-    const SceneData  data(parameters, 1., checks);
-    Bodies           bodies = create_meshes(context);
-    Discretisation   discretisation(context, data, bodies);
+    const Settings   settings = settings_of(given, text);
+    EquationsOfScene scene(text, settings, comm);
+    Discretisation  &discretisation = scene.discretisation;
     SolverOptions    options;
     options.method    = discretisation.choice().method;
     options.tolerance = std::stod(given.at("tolerance"));
-    auto solver = make_linear_solver(discretisation.linear_system(), options);
-    const SceneLoad load = discretisation.load(data);
-    const auto      x    = places(discretisation, comm);
-    auto            sets = sets_of(given.at("scene") == "sphere");
+    auto solver  = make_linear_solver(discretisation.linear_system(), options);
+    const auto x = places(discretisation, comm);
+    auto       sets = point_sets(given.at("scene") == "sphere");
     // the node nearest to the centre of the discs, if that is one node
     double nearest = 1e300;
     for (const auto &place : x)
@@ -190,9 +90,12 @@ namespace
         for (const auto &place : x)
           active.push_back(set(place));
         discretisation.select(active);
+        SystemVector solution;
+        solver->update_active();
+        const SolveReport changed = solver->solve(scene.load.rhs, solution);
+        discretisation.show_active();
         solver->update();
-        SystemVector      solution;
-        const SolveReport report = solver->solve(load.rhs, solution);
+        const SolveReport report = solver->solve(scene.load.rhs, solution);
         const auto        n_active =
           Utilities::MPI::sum(std::count(active.begin(), active.end(), true),
                               comm);
@@ -203,7 +106,10 @@ namespace
                     << "  iterations " << std::setw(4) << report.iterations
                     << (report.converged ? "" : " not converged") << "  setup "
                     << std::setprecision(3) << report.setup_seconds
-                    << "  solve " << report.solve_seconds << std::endl;
+                    << "  solve " << report.solve_seconds
+                    << "  with the coarse levels of the set before "
+                    << changed.iterations << "  setup " << changed.setup_seconds
+                    << std::endl;
       }
   }
 } // namespace

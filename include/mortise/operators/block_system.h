@@ -18,6 +18,7 @@
 #include <mortise/operators/nodal_system.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mortise
@@ -75,8 +76,8 @@ namespace mortise
     SparseMatrix coupling;
 
     /// By owned multiplier: does its constraint hold? The others are zero.
-    /// Empty: all do.
-    std::vector<bool> active;
+    /// Nothing, on all ranks: all do.
+    std::optional<std::vector<bool>> active;
 
     /// S, the compliance of springs: zero, or empty, where bodies are tied.
     SparseMatrix spring_compliance;
@@ -159,8 +160,8 @@ namespace mortise
     void
     clear_inactive(Multipliers &lambda) const
     {
-      for (unsigned int i = 0; i < active.size(); ++i)
-        if (!active[i])
+      for (unsigned int i = 0; active && i < active->size(); ++i)
+        if (!(*active)[i])
           entries_of(lambda)[i] = 0.;
     }
 

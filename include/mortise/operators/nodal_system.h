@@ -36,9 +36,10 @@ namespace mortise
                 const Scene                &scene,
                 MPI_Comm                    comm);
 
-    /// After the multipliers that take part have changed. Collective.
+    /// Show the ties of what is active, LocalCoupling::active_share, to coarse
+    /// levels. Collective.
     void
-    update_interfaces(const std::vector<Coupling> &couplings);
+    update_penalties(const std::vector<Coupling> &couplings);
 
     /// The finest first.
     const std::vector<NodalLevel> &

@@ -26,10 +26,16 @@ namespace mortise
     SceneLoad
     load(const SceneData &data) const;
 
-    /// Let the constraints of @p active multipliers hold, by owned one; those of the others are zero.
-    /// The solver has to be updated. Collective.
+    /// Let the constraints of @p active multipliers hold, by owned one; the others
+    /// are zero. LinearSolver::update_active() must follow. Collective.
     void
     select(const std::vector<bool> &active);
+
+    /// Let preconditioners see on coarse levels what is active now, where that
+    /// is another set than when they last did. LinearSolver::update() must
+    /// follow. Collective.
+    void
+    show_active();
 
     /// The solution by body. Collective.
     std::vector<BodySolution>

@@ -8,6 +8,7 @@
 #include <mortise/solvers/solver_options.h>
 #include <mortise/solvers/successive_solutions.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -23,6 +24,12 @@ namespace mortise
     /// them. Collective.
     void
     update();
+
+    /// After BlockSystem::active has changed, and nothing else: preconditioners
+    /// go on with what does not depend on it, coarse levels with the ties that
+    /// they saw at the last update(). The first time it is that. Collective.
+    void
+    update_active();
 
     /// Solve for @p rhs = (f, h, g); what @p x held is not used.
     /// A solve that does not reach the tolerance returns converged == false
@@ -51,6 +58,13 @@ namespace mortise
     virtual bool
     set_up() = 0;
 
+    /// As set_up(), for update_active().
+    virtual bool
+    set_up_active()
+    {
+      return set_up();
+    }
+
     /// @p x is a start of the right size, zero if @p is_zero. Sets all of @p report but its
     /// names and times.
     virtual void
@@ -65,9 +79,13 @@ namespace mortise
     std::unique_ptr<ScaledResidual> residual;
 
   private:
+    void
+    update(const std::function<bool()> &set_up_part);
+
     const std::string   method;
     SuccessiveSolutions earlier;
-    bool                valid = false;
+    bool                valid   = false;
+    bool                selects = false; ///< did the last update() know active ones?
     double setup_seconds      = 0.; ///< of update(), until it is reported
   };
 

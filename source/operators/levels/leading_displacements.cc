@@ -214,12 +214,11 @@ namespace mortise
           return;
         const auto share_of = [&](const LocalCoupling::Partner &partner,
                                   const unsigned int            c) {
-          return coupling.local[s].active_share *
-                 (coupling.directions == TiedDirections::all ?
-                    1. :
-                    std::pow(coupling.interface->master_faces()[partner.master]
-                               .frame.normal[c],
-                             2));
+          return coupling.directions == TiedDirections::all ?
+                   1. :
+                   std::pow(coupling.interface->master_faces()[partner.master]
+                              .frame.normal[c],
+                            2);
         };
         std::vector<FullMatrix<double>> following;
         if (is_led)

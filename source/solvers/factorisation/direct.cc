@@ -191,7 +191,7 @@ namespace mortise
       local = 0;
       for (const auto k : system.owned_multiplier)
         {
-          if (!system.active.empty() && !system.active[local])
+          if (system.active && !(*system.active)[local])
             rows.add(numbering(2, k),
                      -1. / residual.inverse_diagonal_lambda()[local]);
           else

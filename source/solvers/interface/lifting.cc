@@ -15,6 +15,9 @@ namespace mortise
                      const Epetra_Map       &map,
                      const std::size_t       max_gathered)
   {
+    schwarz.reset();
+    cholesky.reset();
+    mumps_entries.clear();
     const auto C =
       std::make_shared<DistributedNodalMatrix>(std::move(schur), map);
     const std::size_t size = map.NumGlobalElements();
@@ -56,7 +59,7 @@ namespace mortise
   Lifting::apply_inverse_schur(Epetra_Vector       &y,
                                const Epetra_Vector &jump) const
   {
-    if (system.active.empty())
+    if (!system.active)
       {
         solve(y, jump);
         return;

@@ -198,6 +198,12 @@ namespace mortise
     return valid;
   }
 
+  bool
+  CondensedSolver::set_up_active()
+  {
+    return preconditioner->update_active();
+  }
+
   void
   CondensedSolver::run(const SystemVector &rhs,
                        SystemVector       &x,

@@ -176,6 +176,12 @@ namespace mortise
         return energy;
       }
 
+      bool
+      update_active()
+      {
+        return valid = bulk->update_active();
+      }
+
       std::string
       description() const
       {
@@ -264,7 +270,7 @@ namespace mortise
             SolveReport         &report) const;
 
     const ScaledOperator      matrix;
-    const BlockPreconditioner preconditioner;
+    BlockPreconditioner preconditioner;
     bool                      flexible = false;
   };
 
@@ -324,6 +330,12 @@ namespace mortise
     parts->flexible = system.nodal != nullptr;
     description     = parts->preconditioner.description();
     return parts->preconditioner.is_valid();
+  }
+
+  bool
+  SaddlePointSolver::set_up_active()
+  {
+    return parts->preconditioner.update_active();
   }
 
   void

@@ -152,6 +152,12 @@ namespace mortise
     return implementation->valid;
   }
 
+  bool
+  DegreeMultigrid::update_active()
+  {
+    return !implementation->lifting || implementation->lifting->update_active();
+  }
+
   void
   DegreeMultigrid::vmult(Vector &dst, const Vector &src) const
   {

@@ -132,6 +132,12 @@ namespace mortise
     return implementation->valid;
   }
 
+  bool
+  HierarchicalPreconditioner::update_active()
+  {
+    return initialize(implementation->system);
+  }
+
   void
   HierarchicalPreconditioner::vmult(Vector &dst, const Vector &src) const
   {

@@ -208,13 +208,13 @@ namespace mortise
             schur.add(row, S.GCID(opening.columns[k]), opening.values[k]);
         }
     schur.compress(VectorOperation::add);
-    if (system.active.empty())
+    if (!system.active)
       factorise(schur.trilinos_matrix());
     else
       {
         const Epetra_Comm &comm = schur.trilinos_matrix().Comm();
         factorise(*as_matrix(mortise::select(rows_as_nodes(schur.trilinos_matrix()),
-                                    system.active,
+                                    *system.active,
                                     comm),
                              comm));
       }

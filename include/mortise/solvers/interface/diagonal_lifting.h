@@ -15,12 +15,16 @@ namespace mortise
   class DiagonalLifting : public Lifting
   {
   public:
-    /// @p product must stay alive. @p max_gathered: as in SolverOptions.
+    /// @p system, @p product must stay alive. @p max_gathered: as in SolverOptions.
     /// Collective.
     DiagonalLifting(const BlockSystem            &system,
                     const CouplingRows           &rows,
                     const CouplingProduct<float> &product,
                     std::size_t                   max_gathered);
+
+    /// After other multipliers have become active. False as is_valid(). Collective.
+    bool
+    update_active();
 
     void
     vmult(Vector &dst, const Vector &src) const override;
@@ -33,6 +37,14 @@ namespace mortise
     }
 
   private:
-    LevelVector<double> weights;
+    /// Factorise @p active rows and columns of C.
+    void
+    factorise_active(NodalMatrix active);
+
+    const BlockSystem            &system;
+    const CouplingProduct<float> &product;
+    const std::size_t             max_gathered;
+    LevelVector<double>           weights;
+    NodalMatrix schur; ///< kept once not all multipliers are active
   };
 } // namespace mortise

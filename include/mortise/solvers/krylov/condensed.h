@@ -20,6 +20,9 @@ namespace mortise
     bool
     set_up() override;
 
+    bool
+    set_up_active() override;
+
     void
     run(const SystemVector &rhs,
         SystemVector       &x,

@@ -25,6 +25,10 @@ namespace mortise
     virtual bool
     initialize(const BlockSystem &system) = 0;
 
+    /// The same after LinearSolver::update_active(). Collective.
+    virtual bool
+    update_active() = 0;
+
     /// dst = approximate solution for src; dst and src are distinct.
     /// Collective.
     virtual void

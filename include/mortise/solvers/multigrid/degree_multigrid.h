@@ -18,6 +18,9 @@ namespace mortise
     bool
     initialize(const BlockSystem &system) override;
 
+    bool
+    update_active() override;
+
     void
     vmult(Vector &dst, const Vector &src) const override;
 

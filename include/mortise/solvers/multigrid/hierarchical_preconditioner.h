@@ -20,6 +20,9 @@ namespace mortise
     bool
     initialize(const BlockSystem &system) override;
 
+    bool
+    update_active() override;
+
     void
     vmult(Vector &dst, const Vector &src) const override;
 
