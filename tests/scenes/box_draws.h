@@ -1,6 +1,6 @@
-// Scenes of axis-parallel boxes, drawn at random, that are tied wherever two of
-// them share an area, with a linear displacement that every mesh holds exactly.
-// It never runs anything.
+// Scenes of axis-parallel boxes, drawn at random, that meet by one law wherever
+// two of them share an area, with a linear displacement that every mesh holds
+// exactly. It never runs anything.
 #pragma once
 
 #include <mortise/material/material.h>
@@ -43,7 +43,8 @@ namespace mortise::testing
     std::vector<DrawnBox> boxes;
     std::vector<DrawnTie> ties;
     double                G[3][3]; ///< u = G x
-    std::string           exact;   ///< the displacement
+    std::string           law        = "tie";
+    std::string           multiplier = "standard";
 
     std::string
     text() const;
@@ -100,10 +101,29 @@ namespace mortise::testing
     return traction;
   }
 
+  /// The stiffness of springs, per area.
+  constexpr double drawn_spring = 700.;
+
+  /// Does nobody meet face @p f of box @p b?
+  inline bool
+  is_outside(const DrawnScene  &scene,
+             const unsigned int b,
+             const unsigned int f)
+  {
+    return std::none_of(scene.ties.begin(),
+                        scene.ties.end(),
+                        [&](const DrawnTie &tie) {
+                          return (tie.slave.b == b && tie.slave.f == f) ||
+                                 (tie.master.b == b && tie.master.f == f);
+                        });
+  }
+
   /// The load that face @p f of box @p b needs: the traction of its own field
   /// where nobody is tied to it, nothing where a master is, and where it is
-  /// master the difference to the field of its slave. Jumps of the load lie on
-  /// lines of the mesh wherever the load is not zero everywhere.
+  /// master the difference to the field of its slave. But for ties this is so
+  /// for normal tractions alone, and tangential ones are all loads. Jumps of
+  /// the load lie on lines of the mesh wherever the load is not zero
+  /// everywhere.
   inline std::string
   drawn_load(const DrawnScene  &scene,
              const unsigned int b,
@@ -141,7 +161,9 @@ namespace mortise::testing
             drawn_traction(scene, scene.boxes[tie.slave.b], f);
           for (unsigned int c = 0; c < 3; ++c)
             {
-              const double value = is_slave ? -own[c] : -of_slave[c];
+              const bool   passes = scene.law == "tie" || c == f / 2;
+              const double value =
+                passes ? (is_slave ? -own[c] : -of_slave[c]) : 0.;
               loaded =
                 loaded || std::fabs(value + own[c]) > 1e-13 * std::fabs(own[c]);
               sum[c] += " + " + number(value) + "*" + inside;
@@ -211,11 +233,50 @@ namespace mortise::testing
         };
         result += "subsection Interface " + tie.name +
                   "\n  set Slave = " + side(tie.slave) +
-                  "\n  set Master = " + side(tie.master) + "\nend\n";
+                  "\n  set Master = " + side(tie.master) +
+                  "\n  set Law = " + law + "\n  set Multiplier = " + multiplier;
+        if (law == "spring") // nothing opens under the normal traction
+          result += "\n  set Normal stiffness = " + number(drawn_spring) +
+                    "\n  set Tangential stiffness = " + number(drawn_spring) +
+                    "\n  set Offset = " +
+                    number((tie.slave.f % 2 ? 1. : -1.) *
+                           drawn_traction(*this,
+                                          boxes[tie.slave.b],
+                                          tie.slave.f)[tie.slave.f / 2] /
+                           drawn_spring);
+        result += "\nend\n";
       }
+    std::string exact;
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int d = 0; d < 3; ++d)
+        exact += (d ? " + " : c ? "; " : "") + number(G[c][d]) + "*" + "xyz"[d];
     return result + "subsection Exact solution\n  set Displacement = " + exact +
            "\nend\nsubsection Output\n  set Directory = unused\n  set Fields =\n"
            "end\nsubsection Solver\n  set Tolerance = 1e-13\nend\n";
+  }
+
+  /// Let bodies meet by @p law with @p multiplier. Where they slide, the field
+  /// has no shear, which would have to pass, and bodies are held where they can
+  /// be: most would float.
+  inline void
+  set_law(const std::string &law,
+          const std::string &multiplier,
+          DrawnScene        &scene)
+  {
+    scene.law        = law;
+    scene.multiplier = multiplier;
+    if (law == "tie")
+      return;
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int d = 0; d < c; ++d)
+        scene.G[d][c] = -scene.G[c][d];
+    for (unsigned int b = 0; b < scene.boxes.size() && law == "slide"; ++b)
+      for (unsigned int f = 0; f < 6; ++f)
+        if (is_outside(scene, b, f))
+          {
+            scene.boxes[b].prescribed[f] = 7;
+            break;
+          }
   }
 
   /// Draws scenes; the same ones for the same seed on every machine.
@@ -399,19 +460,6 @@ namespace mortise::testing
       });
     }
 
-    bool
-    is_free(const DrawnScene  &scene,
-            const unsigned int b,
-            const unsigned int f) const
-    {
-      return std::none_of(scene.ties.begin(),
-                          scene.ties.end(),
-                          [&](const DrawnTie &tie) {
-                            return (tie.slave.b == b && tie.slave.f == f) ||
-                                   (tie.master.b == b && tie.master.f == f);
-                          });
-    }
-
     /// Meshes, degrees, materials, what is prescribed, and the field.
     void
     finish(DrawnScene        &scene,
@@ -435,7 +483,7 @@ namespace mortise::testing
       std::vector<DrawnSide> outside;
       for (unsigned int b = 0; b < scene.boxes.size(); ++b)
         for (unsigned int f = 0; f < 6; ++f)
-          if (is_free(scene, b, f))
+          if (is_outside(scene, b, f))
             {
               outside.push_back({b, f});
               if (with_chance(percent))
@@ -444,15 +492,8 @@ namespace mortise::testing
       const DrawnSide held = outside[draw(0, outside.size() - 1)];
       scene.boxes[held.b].prescribed[held.f] = 7;
       for (unsigned int c = 0; c < 3; ++c)
-        {
-          scene.exact += c ? "; " : "";
-          for (unsigned int d = 0; d < 3; ++d)
-            {
-              scene.G[c][d] = (int(draw(0, 20)) - 10) / 100.;
-              scene.exact +=
-                (d ? " + " : "") + number(scene.G[c][d]) + "*" + "xyz"[d];
-            }
-        }
+        for (unsigned int d = 0; d < 3; ++d)
+          scene.G[c][d] = (int(draw(0, 20)) - 10) / 100.;
     }
   };
 } // namespace mortise::testing

@@ -4,8 +4,8 @@
 // displacement every mesh holds, are exact, or refused with the names of the
 // interfaces where the multipliers that are left do not hold a body.
 //
-// With arguments (family, number, first seed, method) it draws as many scenes
-// as asked for and reports each that is not exact.
+// With arguments (family, number, first seed, method, law, multiplier) it draws
+// as many scenes as asked for and reports each that is not exact.
 #include <mortise/base/error.h>
 
 #include <cstdlib>
@@ -80,13 +80,16 @@ namespace
         const unsigned int              n,
         const unsigned int              first,
         const std::vector<std::string> &methods,
-        const bool                      report)
+        const bool                      report,
+        const std::string              &law        = "tie",
+        const std::string              &multiplier = "standard")
   {
     unsigned int n_wrong = 0, n_refused = 0;
     for (unsigned int seed = first; seed < first + n; ++seed)
       {
-        BoxDraws         draws(seed);
-        const DrawnScene scene = families.at(family)(draws);
+        BoxDraws   draws(seed);
+        DrawnScene scene = families.at(family)(draws);
+        set_law(law, multiplier, scene);
         if (report && n == 1)
           std::ofstream("drawn_scene.prm") << scene.text();
         for (const std::string &method : methods)
@@ -101,7 +104,9 @@ namespace
           }
       }
     const std::string what =
-      std::to_string(n) + " scenes of " + family + ", " + join_names(methods);
+      std::to_string(n) + " scenes of " + family + ", " + join_names(methods) +
+      (law == "tie" ? "" : ", " + law) +
+      (multiplier == "standard" ? "" : ", " + multiplier);
     verdict(what + ": none wrong", n_wrong, 0);
     verdict(what + ": refused at most one in twenty",
             n_refused,
@@ -115,7 +120,13 @@ main(int argc, char *argv[])
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   if (argc > 4)
     {
-      check(argv[1], std::atoi(argv[2]), std::atoi(argv[3]), {argv[4]}, true);
+      check(argv[1],
+            std::atoi(argv[2]),
+            std::atoi(argv[3]),
+            {argv[4]},
+            true,
+            argc > 5 ? argv[5] : "tie",
+            argc > 6 ? argv[6] : "standard");
       return 0;
     }
   const unsigned int n_ranks =
@@ -130,4 +141,10 @@ main(int argc, char *argv[])
   check("many bricks", 30 / share, 1, {"auto"}, false);
   check("bricks", 50 / share, 301, {"direct", "auto"}, false);
   check("towers", 50 / share, 301, {"direct", "auto"}, false);
+  for (const std::string family : {"2x2x2 cubes", "bricks", "towers"})
+    {
+      check(family, 15 / share, 401, {"auto"}, false, "tie", "dual");
+      check(family, 15 / share, 401, {"saddle point"}, false, "slide");
+      check(family, 15 / share, 401, {"condensed"}, false, "spring");
+    }
 }

@@ -48,14 +48,7 @@ namespace
                             {0.01, 0.05, 0.04},
                             {0.02, 0.06, -0.07}};
     for (unsigned int c = 0; c < 3; ++c)
-      {
-        result.exact += c ? "; " : "";
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            result.G[c][d] = G[c][d];
-            result.exact += (d ? " + " : "") + number(G[c][d]) + "*" + "xyz"[d];
-          }
-      }
+      std::copy_n(G[c], 3, result.G[c]);
     return result;
   }
 
