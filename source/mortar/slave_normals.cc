@@ -44,6 +44,59 @@ namespace mortise
                       {dofs[0][k], dofs[1][k], dofs[2][k]}});
         }
     }
+    using Normals = std::vector<std::vector<Tensor<1, dim>>>;
+
+    Normals
+    face_normals(const BodySurface &slave)
+    {
+      Normals normals;
+      for (unsigned int s = 0; s < slave.faces.size(); ++s)
+        {
+          normals.emplace_back();
+          for (const Point<2> &xi :
+               face_nodes(slave.traces[s].shape, slave.traces[s].degree))
+            normals.back().push_back(face_normal(slave.faces[s], xi));
+        }
+      return normals;
+    }
+
+    /// Calls visit(s, k, mean) with the mean of @p normals at the nodes that
+    /// faces may share. Collective.
+    template <typename Visit>
+    void
+    for_each_mean(const Body        &body,
+                  const BodySurface &slave,
+                  const Normals     &normals,
+                  const Visit       &visit)
+    {
+      std::array<ByDof, dim> sums{{zeros(body), zeros(body), zeros(body)}};
+      for_each_node(body,
+                    slave,
+                    [&](const unsigned int s, const unsigned int k, auto dofs) {
+                      for (unsigned int c = 0; c < dim; ++c)
+                        sums[c](dofs[0]) += normals[s][k][c];
+                    });
+      for (ByDof &sum : sums)
+        {
+          sum.compress(VectorOperation::add);
+          sum.update_ghost_values();
+        }
+      for_each_node(body,
+                    slave,
+                    [&](const unsigned int s, const unsigned int k, auto dofs) {
+                      Tensor<1, dim> mean;
+                      for (unsigned int c = 0; c < dim; ++c)
+                        mean[c] = sums[c](dofs[0]);
+                      visit(s, k, mean / mean.norm());
+                    });
+    }
+
+    /// Facets of curved surfaces are not: hexagons of 60 degrees just so.
+    bool
+    is_sharp(const Tensor<1, dim> &normal, const Tensor<1, dim> &mean)
+    {
+      return !(normal * mean > 0.866 - 1e-3);
+    }
   } // namespace
 
   std::vector<bool>
@@ -63,34 +116,37 @@ namespace mortise
   std::vector<std::vector<Tensor<1, dim>>>
   slave_normals(const Body &body, const BodySurface &slave)
   {
-    std::vector<std::vector<Tensor<1, dim>>> normals;
-    for (unsigned int s = 0; s < slave.faces.size(); ++s)
-      {
-        normals.emplace_back();
-        for (const Point<2> &xi :
-             face_nodes(slave.traces[s].shape, slave.traces[s].degree))
-          normals.back().push_back(face_normal(slave.faces[s], xi));
-      }
-    std::array<ByDof, dim> sums{{zeros(body), zeros(body), zeros(body)}};
-    for_each_node(body,
+    Normals normals = face_normals(slave);
+    for_each_mean(body,
                   slave,
-                  [&](const unsigned int s, const unsigned int k, auto dofs) {
-                    for (unsigned int c = 0; c < dim; ++c)
-                      sums[c](dofs[0]) += normals[s][k][c];
-                  });
-    for (ByDof &sum : sums)
-      {
-        sum.compress(VectorOperation::add);
-        sum.update_ghost_values();
-      }
-    for_each_node(body,
-                  slave,
-                  [&](const unsigned int s, const unsigned int k, auto dofs) {
-                    for (unsigned int c = 0; c < dim; ++c)
-                      normals[s][k][c] = sums[c](dofs[0]);
-                    normals[s][k] /= normals[s][k].norm();
+                  normals,
+                  [&](const unsigned int    s,
+                      const unsigned int    k,
+                      const Tensor<1, dim> &mean) {
+                    if (!is_sharp(normals[s][k], mean))
+                      normals[s][k] = mean;
                   });
     return normals;
+  }
+
+  std::optional<Point<dim>>
+  find_sharp_edge(const Body &body, const BodySurface &slave)
+  {
+    std::optional<Point<dim>> result;
+    const Normals             normals = face_normals(slave);
+    for_each_mean(body,
+                  slave,
+                  normals,
+                  [&](const unsigned int    s,
+                      const unsigned int    k,
+                      const Tensor<1, dim> &mean) {
+                    if (!result && is_sharp(normals[s][k], mean))
+                      result =
+                        face_point(slave.faces[s],
+                                   face_nodes(slave.traces[s].shape,
+                                              slave.traces[s].degree)[k]);
+                  });
+    return result;
   }
 
   std::vector<bool>

@@ -61,6 +61,19 @@ namespace mortise
                     "the slave there; exchange slave and master";
             lost = text.str();
           }
+    if (slides)
+      if (const auto place = find_sharp_edge(*spaces.bodies[interfaces[i].slave.body],
+                                             couplings[i].interface->slave()))
+        {
+          std::ostringstream text;
+          text << "Interface " << name << ": bodies slide across an edge of "
+               << spaces.bodies[interfaces[i].slave.body]->name << ": "
+               << interfaces[i].slave.boundary << " at " << *place
+               << ", where the surface has no normal. Make what lies on either "
+                  "side of it boundaries, and interfaces, of their own, or "
+                  "refine a mesh that is too coarse for a round surface";
+          lost = text.str();
+        }
     throw_if_any(lost, run.comm);
     n_fixed   = Utilities::MPI::sum(n_fixed, run.comm);
     n_covered = Utilities::MPI::sum(n_covered, run.comm);

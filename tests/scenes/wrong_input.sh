@@ -59,6 +59,62 @@ expect 2 'did you mean .inner inside' "$scene" "${file[@]}" --set "Body lower/Me
   --set 'Body lower/Mesh/Curved boundaries=inner insid: sphere'
 expect 2 'zmax' "$scene" --set 'Interface glue/Slave=lower: top'
 expect 2 'same' "$scene" --set 'Interface glue/Master=lower: zmax'
+expect 2 'Law .*did you mean "slide"' "$scene" --set 'Interface glue/Law=glide'
+expect 2 'Normal stiffness: got nothing with Law = spring' "$scene" --set 'Interface glue/Law=spring' \
+  --set 'Interface glue/Tangential stiffness=1'
+expect 2 'allowed: a positive stiffness' "$scene" --set 'Interface glue/Law=spring' \
+  --set 'Interface glue/Normal stiffness=-1' --set 'Interface glue/Tangential stiffness=1'
+expect 2 'only Law = spring has stiffnesses' "$scene" --set 'Interface glue/Tangential stiffness=1'
+expect 2 'Offset .*is inf at' "$scene" --set 'Interface glue/Offset=1/(x-x)'
+# bodies that slide across a sharp edge
+cat >"$work/corner.geo" <<'END'
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+MeshSize{:} = 0.5;
+Physical Volume("corner") = {1};
+Physical Surface("bottom") = {5};
+Physical Surface("outside") = {6, 2};
+END
+cat >"$work/corner.prm" <<'END'
+set Bodies = corner, top
+set Interfaces = glue
+subsection Body corner
+  subsection Mesh
+    set Source = file
+    set File = corner.geo
+  end
+  subsection Material
+    set Young modulus = 1
+    set Poisson ratio = 0.3
+  end
+  subsection Boundary bottom
+    set Displacement = 0, 0, 0
+  end
+end
+subsection Body top
+  subsection Mesh
+    set Source = box
+    set Extent = 0, 0, 1, 1, 1, 2
+    set Subdivisions = 3, 3, 2
+  end
+  subsection Material
+    set Young modulus = 1
+    set Poisson ratio = 0.3
+  end
+  subsection Boundary zmax
+    set Displacement = 0, 0, -0.1
+  end
+end
+subsection Interface glue
+  set Slave = corner: outside
+  set Master = top: zmin
+  set Law = slide
+end
+subsection Output
+  set Directory = out
+end
+END
+expect 2 'slide across an edge of corner: outside at 1 ' "$work/corner.prm"
 expect 2 'which is also a body' "$scene" --set 'Interfaces=glue, lower' --set 'Interface lower/Slave=lower: xmax' \
   --set 'Interface lower/Master=upper: xmax'
 # a body that hangs by nothing, and one that a single point of constants would hold

@@ -5,6 +5,7 @@
 #include <mortise/body/body.h>
 #include <mortise/interface/body_surface.h>
 
+#include <optional>
 #include <vector>
 
 namespace mortise
@@ -17,10 +18,15 @@ namespace mortise
             const Body                                         &body);
 
   /// Outward, of unit length, by slave face and node, nodes as in TraceBasis.
-  /// Where nodes hang or degrees meet, faces keep normals of their own.
-  /// Collective.
+  /// Where nodes hang, degrees meet or edges are sharp, faces keep normals of
+  /// their own. Collective.
   std::vector<std::vector<dealii::Tensor<1, dim>>>
   slave_normals(const Body &body, const BodySurface &slave);
+
+  /// A node of this rank where the normals of faces are more than 30 degrees off
+  /// their mean. Collective.
+  std::optional<dealii::Point<dim>>
+  find_sharp_edge(const Body &body, const BodySurface &slave);
 
   /// Whether nothing of the normal displacement is left free at a node, by
   /// owned displacement dof; dofs of the first component stand for nodes.
