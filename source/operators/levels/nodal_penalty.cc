@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace mortise
@@ -197,6 +198,61 @@ namespace mortise
       return penalty;
     }
 
+    /// Calls visit(trace, face, sign) for the pairs of @p coupling, for the slave
+    /// with sign 1 and for the master with -1.
+    template <typename Visit>
+    void
+    for_each_side(const Coupling &coupling, const Visit &visit)
+    {
+      const InterfaceHandler &interface = *coupling.interface;
+      for (unsigned int s = 0; s < coupling.local.size(); ++s)
+        for (const auto &partner : coupling.local[s].partners)
+          {
+            visit(interface.slave().traces[s], interface.slave().faces[s], 1.);
+            visit(interface.master_traces()[partner.master],
+                  interface.master_faces()[partner.master],
+                  -1.);
+          }
+    }
+
+    /// Parts of @p couplings in which no node belongs to two: around an edge of a
+    /// body each interface has a normal of its own.
+    std::vector<Couplings>
+    split_by_normals(const NodalLevel  &level,
+                     const unsigned int number,
+                     const Couplings   &couplings)
+    {
+      std::vector<Couplings>                         parts;
+      std::vector<std::set<types::global_dof_index>> taken;
+      for (const Coupling *coupling : couplings.all)
+        {
+          std::set<types::global_dof_index> nodes;
+          for_each_side(*coupling,
+                        [&](const FaceTrace &trace, const auto &, double) {
+                          const auto &of_face = trace.nodes[number].nodes;
+                          nodes.insert(of_face.begin(), of_face.end());
+                        });
+          const auto is_taken = [&](const auto &by) {
+            return std::any_of(nodes.begin(),
+                               nodes.end(),
+                               [&](const auto node) {
+                                 return by.count(node) > 0;
+                               });
+          };
+          const unsigned int part =
+            std::find_if_not(taken.begin(), taken.end(), is_taken) -
+            taken.begin();
+          if (part == parts.size())
+            {
+              parts.push_back({couplings.along_normals, {}});
+              taken.emplace_back();
+            }
+          parts[part].all.push_back(coupling);
+          taken[part].insert(nodes.begin(), nodes.end());
+        }
+      return parts;
+    }
+
     /// Directions at the nodes of a face, @p sign times its outward normals.
     void
     add_normals(const NodalLevel            &level,
@@ -231,26 +287,13 @@ namespace mortise
         (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
         dim);
       for (const Coupling *coupling : couplings.all)
-        for (unsigned int s = 0; s < coupling->local.size(); ++s)
-          for (const auto &partner : coupling->local[s].partners)
-            {
-              const InterfaceHandler &interface = *coupling->interface;
-              const FaceTrace        &slave     = interface.slave().traces[s],
-                              &master =
-                                interface.master_traces()[partner.master];
-              add_normals(level,
-                          slave,
-                          slave.nodes[number],
-                          interface.slave().faces[s],
-                          1.,
-                          normals);
-              add_normals(level,
-                          master,
-                          master.nodes[number],
-                          interface.master_faces()[partner.master],
-                          -1.,
-                          normals);
-            }
+        for_each_side(
+          *coupling,
+          [&](const FaceTrace   &trace,
+              const SurfaceFace &face,
+              const double       sign) {
+            add_normals(level, trace, trace.nodes[number], face, sign, normals);
+          });
       for (auto &normal : normals)
         if (const double length = normal.norm(); length > 0.)
           normal /= length;
@@ -272,11 +315,14 @@ namespace mortise
                                 coupling.directions == TiedDirections::normal :
                               coupling.directions == TiedDirections::all)
             of_kind.all.push_back(&coupling);
-        if (of_kind.all.empty())
-          continue;
-        penalties.push_back(make_penalty(level, number, of_kind));
+        if (!along_normals && !of_kind.all.empty())
+          penalties.push_back(make_penalty(level, number, of_kind));
         if (along_normals)
-          penalties.back().normals = nodal_normals(level, number, of_kind);
+          for (const Couplings &part : split_by_normals(level, number, of_kind))
+            {
+              penalties.push_back(make_penalty(level, number, part));
+              penalties.back().normals = nodal_normals(level, number, part);
+            }
       }
     return penalties;
   }
