@@ -8,7 +8,9 @@
 #include <mortise/mortar/nodal_block.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace mortise
 {
@@ -37,21 +39,26 @@ namespace mortise
             const FaceTrace &trace = coupling.interface->slave().traces[s];
             const BlockSide  side{trace.shape, trace.degree, trace.degree};
             masses.emplace_back();
-            if (!coupling.local[s].partners.empty())
-              masses.back() = nodal_block(coupling.local[s].mass, side, side);
-            entries.emplace_back();
-            for (const auto index : coupling.multipliers->rows()[s].index)
-              entries.back().push_back(
-                all.get_partitioner()->global_to_local(index));
+            if (coupling.local[s].partners.empty())
+              continue;
+            masses.back() = nodal_block(coupling.local[s].mass, side, side);
+            add_terms(coupling.multipliers->rows()[s]);
           }
+        products = values;
         diagonal.reinit(all);
-        for_each_row([&](const unsigned int s,
-                         const unsigned int k,
-                         const Tensor<1, dim> &,
-                         const unsigned int entry,
-                         const double       weight) {
-          diagonal.local_element(entry) += weight * weight * masses[s](k, k);
-        });
+        unsigned int first = 0, term = 0; // of the face
+        for (const auto &mass : masses)
+          {
+            const unsigned int n = mass.m();
+            for (; term < terms.size() && terms[term].value < first + dim * n;
+                 ++term)
+              {
+                const unsigned int k = (terms[term].value - first) % n;
+                diagonal.local_element(terms[term].entry) +=
+                  std::pow(terms[term].weight, 2) * mass(k, k);
+              }
+            first += dim * n;
+          }
         diagonal.compress(VectorOperation::add);
         // those of other interfaces are left at zero
         for (double &value : diagonal)
@@ -81,21 +88,27 @@ namespace mortise
       Multipliers diagonal; ///< inverse
 
     private:
-      /// visit(s, k, direction, entry, weight) for what the rows of node k of
-      /// face s are made of.
-      template <typename Visit>
-      void
-      for_each_row(const Visit &visit) const
+      /// A multiplier's part of a value.
+      struct Term
       {
-        for (unsigned int s = 0; s < masses.size(); ++s)
-          if (masses[s].m() > 0)
-            {
-              const auto        &rows = coupling.multipliers->rows()[s];
-              const unsigned int n    = rows.n_nodes();
-              for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-                for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                  visit(s, r % n, rows.direction(r), entries[s][e], rows.weight[e]);
-            }
+        unsigned int value, entry;
+        double       weight;
+      };
+
+      /// Those of the next face.
+      void
+      add_terms(const MultiplierSpace::FaceRows &rows)
+      {
+        const unsigned int n = rows.n_nodes(), first = values.size();
+        for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+          for (unsigned int c = 0; c < dim; ++c)
+            if (const double part = rows.direction(r)[c]; part != 0.)
+              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+                terms.push_back(
+                  {first + c * n + r % n,
+                   all.get_partitioner()->global_to_local(rows.index[e]),
+                   part * rows.weight[e]});
+        values.resize(first + dim * n);
       }
 
       void
@@ -103,52 +116,41 @@ namespace mortise
             const Multipliers &src,
             const bool         of_multipliers) const
       {
-        Multipliers from(all);
-        from.copy_locally_owned_data_from(src);
-        from.update_ghost_values();
-        std::vector<std::array<dealii::Vector<double>, dim>> values, products;
-        for (const auto &mass : masses)
-          {
-            values.emplace_back();
-            for (auto &component : values.back())
-              component.reinit(mass.m());
-          }
-        products = values;
-        for_each_row([&](const unsigned int s,
-                         const unsigned int k,
-                         const Tensor<1, dim> &direction,
-                         const unsigned int entry,
-                         const double       weight) {
-          for (unsigned int c = 0; c < dim; ++c)
-            values[s][c](k) +=
-              direction[c] * weight * from.local_element(entry);
-        });
+        all.copy_locally_owned_data_from(src);
+        all.update_ghost_values();
+        std::fill(values.begin(), values.end(), 0.);
+        for (const Term &term : terms)
+          values[term.value] += term.weight * all.local_element(term.entry);
+        unsigned int first = 0;
         for (unsigned int s = 0; s < masses.size(); ++s)
-          for (unsigned int c = 0; c < dim && masses[s].m() > 0; ++c)
-            if (const LocalCoupling &local = coupling.local[s];
-                of_multipliers && local.is_dual())
-              for (unsigned int k = 0; k < masses[s].m(); ++k)
-                products[s][c](k) = local.weights[k] * values[s][c](k);
-            else
-              masses[s].vmult(products[s][c], values[s][c]);
-        dst.reinit(all);
-        for_each_row([&](const unsigned int s,
-                         const unsigned int k,
-                         const Tensor<1, dim> &direction,
-                         const unsigned int entry,
-                         const double       weight) {
           for (unsigned int c = 0; c < dim; ++c)
-            dst.local_element(entry) +=
-              direction[c] * weight * products[s][c](k);
-        });
-        dst.compress(VectorOperation::add);
+            {
+              const unsigned int   n     = masses[s].m();
+              const double        *from  = values.data() + first;
+              double              *to    = products.data() + first;
+              const LocalCoupling &local = coupling.local[s];
+              if (n > 0 && of_multipliers && local.is_dual())
+                for (unsigned int k = 0; k < n; ++k)
+                  to[k] = local.weights[k] * from[k];
+              else
+                for (unsigned int k = 0; k < n; ++k)
+                  to[k] =
+                    std::inner_product(from, from + n, &masses[s](k, 0), 0.);
+              first += n;
+            }
+        all = 0.;
+        for (const Term &term : terms)
+          all.local_element(term.entry) += term.weight * products[term.value];
+        all.compress(VectorOperation::add);
+        dst.copy_locally_owned_data_from(all);
       }
 
       const Coupling                 &coupling;
-      std::vector<FullMatrix<double>> masses; ///< of nodal functions
-      std::vector<std::vector<unsigned int>>
-                  entries; ///< of vectors, by face as rows().index
-      Multipliers all;
+      std::vector<FullMatrix<double>> masses; ///< of nodal functions, by face
+      std::vector<Term>               terms;  ///< face by face
+      /// By face, component, node.
+      mutable std::vector<double> values, products;
+      mutable Multipliers         all;
     };
 
     /// @p multiplier in polynomials that do the same work on the slave.

@@ -6,6 +6,7 @@
 #include <mortise/solvers/factorisation/nodal_matrix.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -61,28 +62,47 @@ namespace mortise
 
   namespace
   {
-    /// Bits of the components that are active, by column of @p matrix. Collective.
-    std::vector<char>
-    active_columns(const NodalMatrix       &matrix,
-                   const std::vector<bool> &active,
-                   const Epetra_Map        &nodes)
+    Epetra_Map
+    nodes_of(const NodalMatrix &matrix, const Epetra_Comm &comm)
     {
-      const unsigned int n = matrix.n_components;
-      Epetra_IntVector   owned(nodes);
-      for (unsigned int i = 0; i < matrix.entries.size(); ++i)
-        if (matrix.entries[i] >= 0 && active[matrix.entries[i]])
-          owned[i / n] |= 1 << i % n;
+      return Epetra_Map(-1, static_cast<int>(matrix.size()), 0, comm);
+    }
+
+    /// @p owned, a number for each owned node, by column of @p matrix. Collective.
+    std::vector<int>
+    by_column(const NodalMatrix &matrix, const Epetra_IntVector &owned)
+    {
       std::vector<int> unique(matrix.columns);
       std::sort(unique.begin(), unique.end());
       unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-      const Epetra_Map columns(
-        -1, static_cast<int>(unique.size()), unique.data(), 0, nodes.Comm());
+      const Epetra_Map columns(-1,
+                               static_cast<int>(unique.size()),
+                               unique.data(),
+                               0,
+                               owned.Map().Comm());
       Epetra_IntVector all(columns);
-      all.Import(owned, Epetra_Import(columns, nodes), Insert);
-      std::vector<char> result;
+      all.Import(owned, Epetra_Import(columns, owned.Map()), Insert);
+      std::vector<int> result;
       for (const int column : matrix.columns)
-        result.push_back(static_cast<char>(all[columns.LID(column)]));
+        result.push_back(all[columns.LID(column)]);
       return result;
+    }
+
+    /// Does owned node i, whose row begins with @p columns and @p values, couple
+    /// with another one?
+    bool
+    couples(const NodalMatrix &matrix,
+            const unsigned int i,
+            const int          self,
+            const int         *columns,
+            const double      *values)
+    {
+      const unsigned int length = matrix.lengths[i];
+      for (unsigned int k = 0; k < length; ++k)
+        for (unsigned int c = 0; c < matrix.variants[i]; ++c)
+          if (columns[k] != self && values[c * length + k] != 0.)
+            return true;
+      return false;
     }
   } // namespace
 
@@ -92,8 +112,12 @@ namespace mortise
          const Epetra_Comm       &comm)
   {
     const unsigned int n = matrix.n_components;
-    const Epetra_Map   nodes(-1, static_cast<int>(matrix.size()), 0, comm);
-    const std::vector<char> bits = active_columns(matrix, active, nodes);
+    const Epetra_Map   nodes = nodes_of(matrix, comm);
+    Epetra_IntVector   owned(nodes); // bits of the components that are active
+    for (unsigned int i = 0; i < matrix.entries.size(); ++i)
+      if (matrix.entries[i] >= 0 && active[matrix.entries[i]])
+        owned[static_cast<int>(i / n)] |= 1 << i % n;
+    const std::vector<int> bits = by_column(matrix, owned);
     NodalMatrix             result;
     result.n_components   = n;
     result.entries        = matrix.entries;
@@ -103,14 +127,14 @@ namespace mortise
       {
         const unsigned int length = matrix.lengths[i];
         const int          self   = nodes.GID(static_cast<int>(i));
-        char               own    = 0;
+        int                own    = 0;
         for (unsigned int k = 0; k < length; ++k)
           if (matrix.columns[column + k] == self)
             own = bits[column + k];
         std::vector<unsigned int> kept;
         bool                      alike = matrix.variants[i] == 1;
         for (unsigned int k = 0; k < length; ++k)
-          if (const char both = own & bits[column + k];
+          if (const int both = own & bits[column + k];
               both != 0 || matrix.columns[column + k] == self)
             {
               kept.push_back(k);
@@ -127,6 +151,69 @@ namespace mortise
                   matrix.columns[column + k] == self ?
                 values[(matrix.variants[i] == 1 ? 0 : c * length) + k] :
                 0.);
+        column += length;
+        values += std::size_t(length) * matrix.variants[i];
+      }
+    return result;
+  }
+
+  NodalMatrix
+  take_coupled(const NodalMatrix                   &matrix,
+               const Epetra_Comm                   &comm,
+               std::vector<std::pair<int, double>> &lone)
+  {
+    const unsigned int n     = matrix.n_components;
+    const Epetra_Map   nodes = nodes_of(matrix, comm);
+    Epetra_IntVector   number(nodes); // among those that couple; -1: does not
+    int                mine = 0, behind = 0;
+    const int         *columns = matrix.columns.data();
+    const double      *values  = matrix.values.data();
+    for (unsigned int i = 0; i < matrix.size(); ++i)
+      {
+        const int self = nodes.GID(static_cast<int>(i));
+        number[i] =
+          couples(matrix, i, self, columns, values) ? mine++ : -1;
+        for (unsigned int c = 0; c < n && number[i] < 0; ++c)
+          if (matrix.entries[i * n + c] >= 0)
+            for (unsigned int k = 0; k < matrix.lengths[i]; ++k)
+              if (columns[k] == self)
+                lone.emplace_back(
+                  matrix.entries[i * n + c],
+                  values[(matrix.variants[i] == 1 ? 0 : c * matrix.lengths[i]) +
+                         k]);
+        columns += matrix.lengths[i];
+        values += std::size_t(matrix.lengths[i]) * matrix.variants[i];
+      }
+    comm.ScanSum(&mine, &behind, 1);
+    for (unsigned int i = 0; i < matrix.size(); ++i)
+      if (number[i] >= 0)
+        number[i] += behind - mine;
+    const std::vector<int> numbers = by_column(matrix, number);
+
+    NodalMatrix result;
+    result.n_components = n;
+    const int *column   = numbers.data();
+    values              = matrix.values.data();
+    for (unsigned int i = 0; i < matrix.size(); ++i)
+      {
+        const unsigned int length = matrix.lengths[i];
+        if (number[i] >= 0)
+          {
+            result.entries.insert(result.entries.end(),
+                                  &matrix.entries[i * n],
+                                  &matrix.entries[i * n] + n);
+            result.lengths.push_back(
+              length - std::count(column, column + length, -1));
+            result.variants.push_back(matrix.variants[i]);
+            std::copy_if(column,
+                         column + length,
+                         std::back_inserter(result.columns),
+                         [](const int c) { return c >= 0; });
+            for (unsigned int c = 0; c < matrix.variants[i]; ++c)
+              for (unsigned int k = 0; k < length; ++k)
+                if (column[k] >= 0)
+                  result.values.push_back(values[c * length + k]);
+          }
         column += length;
         values += std::size_t(length) * matrix.variants[i];
       }

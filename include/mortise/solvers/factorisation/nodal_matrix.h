@@ -5,6 +5,7 @@
 #include <Epetra_CrsMatrix.h>
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace mortise
@@ -47,6 +48,13 @@ namespace mortise
   select(const NodalMatrix       &matrix,
          const std::vector<bool> &active,
          const Epetra_Comm       &comm);
+
+  /// The nodes that couple with others. (Entry, diagonal) of what is left goes to
+  /// @p lone. Collective.
+  NodalMatrix
+  take_coupled(const NodalMatrix                   &matrix,
+               const Epetra_Comm                   &comm,
+               std::vector<std::pair<int, double>> &lone);
 
   /// The matrix of these rows, numbered by node and component. Collective.
   std::unique_ptr<Epetra_CrsMatrix>

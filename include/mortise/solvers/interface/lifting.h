@@ -10,6 +10,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace mortise
@@ -67,12 +68,16 @@ namespace mortise
     solve(Epetra_Vector &y, const Epetra_Vector &jump) const;
 
     const BlockSystem &system;
-    /// One of them; the last for what no other can.
+    /// (Entry, inverse of the diagonal) of multipliers that C couples with no
+    /// other, unless Schwarz treats all.
+    std::vector<std::pair<int, double>> lone;
+    /// For the others one of them; the last for what no other can.
     std::unique_ptr<SchwarzInverse>          schwarz;
     std::unique_ptr<CholeskyInverse<double>> cholesky;
     MumpsFactorisation                       mumps;
     std::vector<int>               mumps_entries;    ///< as in NodalMatrix
     std::unique_ptr<Epetra_Vector> mumps_x, mumps_b; ///< by these
+    bool                           uses_mumps = false;
     bool                           valid = false;
   };
 } // namespace mortise
