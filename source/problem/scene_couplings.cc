@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/mortar/slave_normals.h>
+#include <mortise/problem/interface_law.h>
 #include <mortise/problem/scene_couplings.h>
 #include <mortise/problem/scene_data.h>
 

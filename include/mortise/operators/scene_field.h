@@ -3,6 +3,7 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
+#include <mortise/base/types.h>
 #include <mortise/body/spaces/numbering.h>
 
 #include <vector>

@@ -18,17 +18,6 @@ namespace mortise
   std::vector<Material>
   materials(const Parameters &parameters);
 
-  /// What @p interface is as a spring; null where it is none. The function throws InputError for a
-  /// stiffness that is not positive somewhere.
-  std::function<Stiffness(const dealii::Point<dim> &)>
-  spring_stiffness(const Parameters          &parameters,
-                   const InterfaceParameters &interface);
-
-  /// Along the normal alone, or all of them?
-  TiedDirections
-  tied_directions(const Parameters          &parameters,
-                  const InterfaceParameters &interface);
-
   /// What acts on a scene at one time. Both arguments of the constructor must
   /// live on; @p checks is told of values that no run can use.
   class SceneData
