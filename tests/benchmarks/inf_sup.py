@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Inf-sup constants of pressures and multipliers: inf_sup.py [BENCHMARK_INF_SUP]
+"""Inf-sup constants of pressures and multipliers: inf_sup.py [BENCHMARK_INF_SUP [TABLE ...]]
 
 Runs the program benchmark_inf_sup (ninja benchmark_inf_sup) on all cases, two at a time, into doc/inf_sup.csv and writes
-doc/inf_sup.md from it; without a program it only writes the page again. The page itself is in inf_sup_report.py."""
+doc/inf_sup.md from it; without a program it only writes the page again. With names of tables
+only those are computed, the other rows are kept. The page itself is in inf_sup_report.py."""
 import concurrent.futures
 import csv
 import json
@@ -103,8 +104,14 @@ def run(program, case):
     return {"table": table} | given | json.loads(result.stdout)
 
 
-def compute(program):
-    cases = list(pressure_cases()) + list(block_cases()) + list(strip_cases())
+def rows_of_last_run():
+    with open(os.path.join(DOC, "inf_sup.csv")) as table:
+        return list(csv.DictReader(table))
+
+
+def compute(program, tables):
+    cases = [case for cases in (pressure_cases(), block_cases(), strip_cases()) for case in cases]
+    kept = [row for row in rows_of_last_run() if row["table"] not in tables] if tables else []
     cases.sort(key=lambda case: case[1]["degree"])
     names = ["table"]
     for _, given in cases:
@@ -113,7 +120,9 @@ def compute(program):
     with open(os.path.join(DOC, "inf_sup.csv"), "w") as file, concurrent.futures.ThreadPoolExecutor(2) as pool:
         writer = csv.DictWriter(file, names)
         writer.writeheader()
-        for row in pool.map(lambda case: run(program, case), cases):
+        writer.writerows(kept)
+        chosen = [case for case in cases if not tables or case[0] in tables]
+        for row in pool.map(lambda case: run(program, case), chosen):
             if row:
                 writer.writerow(row)
                 file.flush()
@@ -122,8 +131,7 @@ def compute(program):
 
 if __name__ == "__main__":
     if len(sys.argv) > 1:
-        compute(os.path.abspath(sys.argv[1]))
-    with open(os.path.join(DOC, "inf_sup.csv")) as table:
-        rows = list(csv.DictReader(table))
+        compute(os.path.abspath(sys.argv[1]), sys.argv[2:])
+    rows = rows_of_last_run()
     with open(os.path.join(DOC, "inf_sup.md"), "w") as out:
         out.write(inf_sup_report.page(rows))
