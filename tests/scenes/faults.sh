@@ -14,6 +14,7 @@ passed=0 failed=0
 export FAULTS_TEST=$work
 
 # on RANKS COMMAND...: sets code, message and milliseconds; what it prints goes to $work/log
+# Who hangs is ended after 60 s; the limits below only tell that nobody did, on a loaded machine, too.
 on() {
   local ranks=$1 start=$(date +%s%N)
   shift
@@ -67,7 +68,7 @@ for ranks in 1 2 3; do
   fresh
   on $ranks bash -c 'ulimit -f 8; exec "$@"' - "${run[@]}"
   verdict "files longer than a limit, $ranks ranks" '[ $code -eq 2 ]' 'says 1 "lower.vtu.*File too large.*ulimit -f"' \
-    'says 1 "complete are: .*summary.json"' complete '[ $milliseconds -lt 9000 ]'
+    'says 1 "complete are: .*summary.json"' complete '[ $milliseconds -lt 25000 ]'
 
   fresh
   on $ranks bash -c 'ulimit -f 1; exec "$@"' - "${run[@]}"
@@ -93,7 +94,7 @@ for ranks in 1 2 3; do
       exit $code' - "$work/disk" "$out" "${launcher[@]}" "$mortise" --output "$work/disk" "$scene"
     rmdir "$work/disk"
     verdict "a full disk, $ranks ranks" '[ $code -eq 2 ]' 'says 1 "upper.vtu.*No space left.*make room"' complete \
-      '[ ! -e "$out/upper.vtu" ]' '[ $milliseconds -lt 9000 ]'
+      '[ ! -e "$out/upper.vtu" ]' '[ $milliseconds -lt 25000 ]'
   fi
 done
 on 1 bash -c '"$@" >/dev/full' - "${run[@]}"
@@ -124,7 +125,7 @@ for ranks in 1 2 3; do
     case $code in
       0 | 127) ;;
       *) verdict "$limit KiB of memory, $ranks ranks" '[ $code -eq 4 ]' 'says 1 "error: not enough memory"' \
-        '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 9000 ]' ;;
+        '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 25000 ]' ;;
     esac
   done
   verdict "too little memory is tried, $ranks ranks" "grep -q 4 <<<'$seen'"
