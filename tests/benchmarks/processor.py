@@ -2,7 +2,7 @@
 
 import os
 
-MPI = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))), "tools", "mpi.sh")
+MPI = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "mpi.sh")
 
 
 def on_ranks(ranks):
