@@ -54,6 +54,9 @@ namespace
           }
       }
     settings.push_back("Exact solution/Displacement=");
+    settings.push_back(std::string("Solver/Method=") +
+                       (std::stod(given.at("nu")) < 0.49 ? "condensed" :
+                                                           "saddle point"));
     if (!sphere)
       {
         settings.push_back("Body lower/Boundary zmin/Displacement=-, -, 0");
