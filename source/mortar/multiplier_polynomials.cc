@@ -43,22 +43,14 @@ namespace mortise
               continue;
             masses.back() = nodal_block(coupling.local[s].mass, side, side);
             add_terms(coupling.multipliers->rows()[s]);
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int k = 0; k < masses.back().m(); ++k)
+                products.push_back(masses.back()(k, k)); // for the diagonal
           }
-        products = values;
         diagonal.reinit(all);
-        unsigned int first = 0, term = 0; // of the face
-        for (const auto &mass : masses)
-          {
-            const unsigned int n = mass.m();
-            for (; term < terms.size() && terms[term].value < first + dim * n;
-                 ++term)
-              {
-                const unsigned int k = (terms[term].value - first) % n;
-                diagonal.local_element(terms[term].entry) +=
-                  std::pow(terms[term].weight, 2) * mass(k, k);
-              }
-            first += dim * n;
-          }
+        for (const Term &term : terms)
+          diagonal.local_element(term.entry) +=
+            std::pow(term.weight, 2) * products[term.value];
         diagonal.compress(VectorOperation::add);
         // those of other interfaces are left at zero
         for (double &value : diagonal)

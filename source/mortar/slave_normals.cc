@@ -44,6 +44,7 @@ namespace mortise
                       {dofs[0][k], dofs[1][k], dofs[2][k]}});
         }
     }
+
     using Normals = std::vector<std::vector<Tensor<1, dim>>>;
 
     Normals
@@ -91,11 +92,14 @@ namespace mortise
                     });
     }
 
-    /// Facets of curved surfaces are not: hexagons of 60 degrees just so.
+    /// The cosine of 30 degrees, and rounding: the facets of a hexagon are a
+    /// round surface, just so.
+    constexpr double least_cosine = 0.866 - 1e-3;
+
     bool
     is_sharp(const Tensor<1, dim> &normal, const Tensor<1, dim> &mean)
     {
-      return !(normal * mean > 0.866 - 1e-3);
+      return !(normal * mean > least_cosine);
     }
   } // namespace
 

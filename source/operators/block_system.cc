@@ -75,10 +75,18 @@ namespace mortise
   }
 
   void
+  BlockSystem::clear_inactive(double *entries) const
+  {
+    for (unsigned int i = 0; active && i < active->size(); ++i)
+      if (!(*active)[i])
+        entries[i] = 0.;
+  }
+
+  void
   BlockSystem::apply_constraint(Vector &dst, const Vector &u) const
   {
     coupling.vmult(dst, u);
-    clear_inactive(dst);
+    clear_inactive(dst.begin());
   }
 
   void
@@ -89,7 +97,7 @@ namespace mortise
       return;
     Vector opening(dst);
     spring_compliance.vmult(opening, lambda);
-    clear_inactive(opening);
+    clear_inactive(opening.begin());
     dst -= opening;
   }
 

@@ -11,14 +11,18 @@ namespace mortise
 
   namespace
   {
-    /// Calls @p visit(body, degree, dofs, nodes) for the pressures of the owned cells of all
-    /// bodies, both in the order of the element of nodes.
-    template <typename Visit>
+    /// For the pressures of the owned cells of all bodies: what
+    /// read(body, dof, node) returns, times @p matrix(degree) along each line,
+    /// to write(body, dof, node, value).
+    template <typename Matrix, typename Read, typename Write>
     void
-    for_each_pressure_cell(const NodalSpace &space, const Visit &visit)
+    transform_pressures(const NodalSpace &space,
+                        const Matrix     &matrix,
+                        const Read       &read,
+                        const Write      &write)
     {
-      std::vector<types::global_dof_index> dofs, ordered_dofs;
-      std::vector<NodalSpace::Index>       ordered_nodes;
+      std::vector<types::global_dof_index> dofs;
+      std::vector<double>                  values;
       space.for_each_cell(
         [&](const Body &body, const auto &cell, const auto &nodes) {
           const auto         own    = body.pressure->cell(cell);
@@ -26,14 +30,12 @@ namespace mortise
           const auto         order  = cell_dof_indices(degree);
           dofs.resize(order.size());
           own->get_dof_indices(dofs);
-          ordered_dofs.clear();
-          ordered_nodes.clear();
+          values.clear();
           for (const unsigned int i : order)
-            {
-              ordered_dofs.push_back(dofs[i]);
-              ordered_nodes.push_back(nodes[i]);
-            }
-          visit(body, degree, ordered_dofs, ordered_nodes);
+            values.push_back(read(body, dofs[i], nodes[i]));
+          transform_along_lines(matrix(degree), values);
+          for (unsigned int k = 0; k < order.size(); ++k)
+            write(body, dofs[order[k]], nodes[order[k]], values[k]);
         });
     }
   } // namespace
@@ -42,24 +44,18 @@ namespace mortise
   NodalSystem::set_pressure(const Coefficients &coefficient,
                             Vector             &pressure) const
   {
-    p_in                      = 0.;
-    const auto          nodes = pressures->nodes();
-    std::vector<double> values;
-    for_each_pressure_cell(
+    p_in             = 0.;
+    const auto nodes = pressures->nodes();
+    transform_pressures(
       nodes.space,
-      [&](const Body        &body,
-          const unsigned int degree,
-          const auto        &dofs,
-          const auto        &of_cell) {
-        values.clear();
-        for (const auto dof : dofs)
-          values.push_back(coefficient(body.index, dof));
-        transform_along_lines(modes_to_nodes(degree), values);
-        for (unsigned int i = 0; i < values.size(); ++i)
-          if (nodes.layout.in_local_range(of_cell[i]) &&
-              !nodes.space.hanging_nodes().is_constrained(of_cell[i]))
-            p_in.local_element(nodes.layout.global_to_local(of_cell[i])) =
-              values[i];
+      modes_to_nodes,
+      [&](const Body &body, const auto dof, const auto) {
+        return coefficient(body.index, dof);
+      },
+      [&](const Body &, const auto, const auto node, const double value) {
+        if (nodes.layout.in_local_range(node) &&
+            !nodes.space.hanging_nodes().is_constrained(node))
+          p_in.local_element(nodes.layout.global_to_local(node)) = value;
       });
     std::copy_n(p_in.begin(), p_in.locally_owned_size(), pressure.begin());
   }
@@ -73,21 +69,15 @@ namespace mortise
   {
     std::copy_n(pressure.begin(), p_in.locally_owned_size(), p_in.begin());
     pressures->complete(p_in);
-    const auto          nodes = pressures->nodes();
-    std::vector<double> values;
-    for_each_pressure_cell(
+    const auto nodes = pressures->nodes();
+    transform_pressures(
       nodes.space,
-      [&](const Body        &body,
-          const unsigned int degree,
-          const auto        &dofs,
-          const auto        &of_cell) {
-        values.clear();
-        for (const auto node : of_cell)
-          values.push_back(
-            p_in.local_element(nodes.layout.global_to_local(node)));
-        transform_along_lines(nodes_to_modes(degree), values);
-        for (unsigned int i = 0; i < values.size(); ++i)
-          set(body.index, dofs[i], values[i]);
+      nodes_to_modes,
+      [&](const Body &, const auto, const auto node) {
+        return p_in.local_element(nodes.layout.global_to_local(node));
+      },
+      [&](const Body &body, const auto dof, const auto, const double value) {
+        set(body.index, dof, value);
       });
     pressures->release(p_in);
   }

@@ -86,7 +86,7 @@ namespace mortise
     const double factor = unit_scale(rhs);
     SystemVector scaled = rhs;
     scale(scaled, factor);
-    system.clear_inactive(scaled.multiplier);
+    system.clear_inactive(scaled.multiplier.begin());
     scale(x, factor);
     if (valid)
       run(scaled, x, is_zero, report);

@@ -155,15 +155,9 @@ namespace mortise
     void
     subtract_spring_opening(Vector &dst, const Vector &lambda) const;
 
-    /// Zero where multipliers are not active.
-    template <typename Multipliers>
+    /// Zero those of owned multipliers, @p entries, that are not active.
     void
-    clear_inactive(Multipliers &lambda) const
-    {
-      for (unsigned int i = 0; active && i < active->size(); ++i)
-        if (!(*active)[i])
-          entries_of(lambda)[i] = 0.;
-    }
+    clear_inactive(double *entries) const;
 
     bool
     has_springs() const
@@ -178,18 +172,6 @@ namespace mortise
     /// diag(P) on the owned pressures.
     void
     copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const;
-
-    static double *
-    entries_of(Vector &v)
-    {
-      return v.begin();
-    }
-
-    static double *
-    entries_of(Epetra_Vector &v)
-    {
-      return v.Values();
-    }
 
     /// Zero, on the owned ranges. Collective.
     SystemVector

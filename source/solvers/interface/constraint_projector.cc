@@ -79,7 +79,7 @@ namespace mortise
         apply(u);
         jump -= g;
         system.subtract_spring_opening(jump, lambda);
-        system.clear_inactive(jump);
+        system.clear_inactive(jump.begin());
         const double norm = jump.l2_norm();
         if (!(norm > 0. && norm < 0.1 * previous))
           break;

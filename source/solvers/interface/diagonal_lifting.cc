@@ -10,7 +10,6 @@ namespace mortise
                                    const CouplingProduct<float> &product,
                                    const std::size_t             max_gathered)
     : Lifting(system)
-    , system(system)
     , product(product)
     , max_gathered(max_gathered)
     , weights(system.nodal->node_diagonal())
@@ -61,7 +60,7 @@ namespace mortise
           springs->Multiply(false, from, opening);
           to.Update(1., opening, 1.);
         }
-      system.clear_inactive(to);
+      system.clear_inactive(to.Values());
     };
     factorise(std::move(active),
               multiply,

@@ -88,9 +88,9 @@ namespace mortise
         return;
       }
     Epetra_Vector of_active(jump);
-    system.clear_inactive(of_active);
+    system.clear_inactive(of_active.Values());
     solve(y, of_active);
-    system.clear_inactive(y);
+    system.clear_inactive(y.Values());
   }
 
   void

@@ -41,7 +41,6 @@ namespace mortise
     void
     factorise_active(NodalMatrix active);
 
-    const BlockSystem            &system;
     const CouplingProduct<float> &product;
     const std::size_t             max_gathered;
     LevelVector<double>           weights;

@@ -63,11 +63,12 @@ namespace mortise
     void
     factorise(const Epetra_CrsMatrix &schur);
 
+    const BlockSystem &system;
+
   private:
     void
     solve(Epetra_Vector &y, const Epetra_Vector &jump) const;
 
-    const BlockSystem &system;
     /// (Entry, inverse of the diagonal) of multipliers that C couples with no
     /// other, unless Schwarz treats all.
     std::vector<std::pair<int, double>> lone;
