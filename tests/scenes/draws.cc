@@ -130,21 +130,23 @@ main(int argc, char *argv[])
       return 0;
     }
   const unsigned int n_ranks =
-                       dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
-                     share = n_ranks == 1 ? 1 : 15;
-  check("2x2x2 cubes", 50 / share, 1, {"condensed"}, false);
-  check("2x2x2 cubes", 50 / share, 101, {"saddle point"}, false);
-  check("2x2x2 cubes", 50 / share, 201, {"direct"}, false);
-  check("3x3x3 cubes", 20 / share, 1, {"condensed"}, false);
-  check("3x3x3 cubes", 15 / share, 101, {"saddle point"}, false);
-  check("3x3x3 cubes", 15 / share, 201, {"direct"}, false);
-  check("many bricks", 30 / share, 1, {"auto"}, false);
-  check("bricks", 50 / share, 301, {"direct", "auto"}, false);
-  check("towers", 50 / share, 301, {"direct", "auto"}, false);
+    dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+  const auto share = [&](const unsigned int n) {
+    return n_ranks == 1 ? n : (n + 14) / 15;
+  };
+  check("2x2x2 cubes", share(30), 1, {"condensed"}, false);
+  check("2x2x2 cubes", share(30), 101, {"saddle point"}, false);
+  check("2x2x2 cubes", share(30), 201, {"direct"}, false);
+  check("3x3x3 cubes", share(10), 1, {"condensed"}, false);
+  check("3x3x3 cubes", share(8), 101, {"saddle point"}, false);
+  check("3x3x3 cubes", share(8), 201, {"direct"}, false);
+  check("many bricks", share(15), 1, {"auto"}, false);
+  check("bricks", share(30), 301, {"direct", "auto"}, false);
+  check("towers", share(30), 301, {"direct", "auto"}, false);
   for (const std::string family : {"2x2x2 cubes", "bricks", "towers"})
     {
-      check(family, 15 / share, 401, {"auto"}, false, "tie", "dual");
-      check(family, 15 / share, 401, {"saddle point"}, false, "slide");
-      check(family, 15 / share, 401, {"condensed"}, false, "spring");
+      check(family, share(15), 401, {"auto"}, false, "tie", "dual");
+      check(family, share(15), 401, {"saddle point"}, false, "slide");
+      check(family, share(15), 401, {"condensed"}, false, "spring");
     }
 }

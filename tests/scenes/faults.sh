@@ -14,14 +14,14 @@ passed=0 failed=0
 export FAULTS_TEST=$work
 
 # on RANKS COMMAND...: sets code, message and milliseconds; what it prints goes to $work/log
-# Who hangs is ended after 60 s; the limits below only tell that nobody did, on a loaded machine, too.
+# Who hangs is ended after 120 s, with exit code 124.
 on() {
   local ranks=$1 start=$(date +%s%N)
   shift
   if [ "$ranks" -gt 1 ]; then
     set -- "$mpi" "$ranks" "$@"
   fi
-  message=$(timeout 60 "$@" 2>&1 >"$work/log")
+  message=$(timeout 120 "$@" 2>&1 >"$work/log")
   code=$?
   milliseconds=$((($(date +%s%N) - start) / 1000000))
 }
@@ -68,7 +68,7 @@ for ranks in 1 2 3; do
   fresh
   on $ranks bash -c 'ulimit -f 8; exec "$@"' - "${run[@]}"
   verdict "files longer than a limit, $ranks ranks" '[ $code -eq 2 ]' 'says 1 "lower.vtu.*File too large.*ulimit -f"' \
-    'says 1 "complete are: .*summary.json"' complete '[ $milliseconds -lt 25000 ]'
+    'says 1 "complete are: .*summary.json"' complete
 
   fresh
   on $ranks bash -c 'ulimit -f 1; exec "$@"' - "${run[@]}"
@@ -94,7 +94,7 @@ for ranks in 1 2 3; do
       exit $code' - "$work/disk" "$out" "${launcher[@]}" "$mortise" --output "$work/disk" "$scene"
     rmdir "$work/disk"
     verdict "a full disk, $ranks ranks" '[ $code -eq 2 ]' 'says 1 "upper.vtu.*No space left.*make room"' complete \
-      '[ ! -e "$out/upper.vtu" ]' '[ $milliseconds -lt 25000 ]'
+      '[ ! -e "$out/upper.vtu" ]'
   fi
 done
 on 1 bash -c '"$@" >/dev/full' - "${run[@]}"
@@ -125,7 +125,7 @@ for ranks in 1 2 3; do
     case $code in
       0 | 127) ;;
       *) verdict "$limit KiB of memory, $ranks ranks" '[ $code -eq 4 ]' 'says 1 "error: not enough memory"' \
-        '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 25000 ]' ;;
+        '[ $(wc -l <<<"$message") -eq 1 ]' ;;
     esac
   done
   verdict "too little memory is tried, $ranks ranks" "grep -q 4 <<<'$seen'"
@@ -177,22 +177,22 @@ for signal in INT TERM; do
   expected=$([ $signal = INT ] && echo 130 || echo 143)
   stop $signal launcher "${long[@]}"
   verdict "SIG$signal" "[ \$code -eq $expected ]" 'says 1 "interrupted by SIG'$signal': nothing was written"' \
-    '[ $(wc -l <<<"$message") -eq 1 ]' none '[ $milliseconds -lt 3000 ]'
+    '[ $(wc -l <<<"$message") -eq 1 ]' none '[ $milliseconds -lt 20000 ]'
 done
 stop TERM 1 "$mpi" 2 "${long[@]}"
 verdict "SIGTERM for rank 1 of 2" '[ $code -eq 143 ]' 'says 1 "interrupted by SIGTERM: nothing was written"' none \
-  '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 5000 ]'
+  '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 20000 ]'
 
 export MORTISE_BUILD=$(dirname "$mortise")
 if [ -f "$MORTISE_BUILD/build.ninja" ]; then
   through_run=("$top/run" -n 3 "${long[@]:1}")
   stop INT launcher "${through_run[@]}"
   verdict "SIGINT for run" '[ $code -eq 130 ]' 'says 1 "interrupted by .*: nothing was written"' none \
-    '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 5000 ]' '[ -z "$(rank 0)$(rank 1)$(rank 2)" ]'
+    '[ $(wc -l <<<"$message") -eq 1 ]' '[ $milliseconds -lt 20000 ]' '[ -z "$(rank 0)$(rank 1)$(rank 2)" ]'
   for whom in 0 2; do
     stop KILL $whom "${through_run[@]}"
     verdict "SIGKILL for rank $whom under run" '[ $code -eq 137 ]' 'says 1 "run: a rank was ended by signal 9 (SIGKILL)"' none \
-      '[ $milliseconds -lt 5000 ]' '[ -z "$(rank 0)$(rank 1)$(rank 2)" ]'
+      '[ $milliseconds -lt 20000 ]' '[ -z "$(rank 0)$(rank 1)$(rank 2)" ]'
   done
 fi
 
