@@ -34,9 +34,9 @@ namespace mortise
               have_shared_nodes(slave.traces[s].basis(), dofs[s][0], body));
             for (unsigned int k = 0; k < shared[s].size(); ++k)
               for (unsigned int c = 0; c < dim && shared[s][k]; ++c)
-                numbers(dofs[s][c][k]) = 1.;
+                numbers(dofs[s][c][k]) = 1. + c;
           }
-        numbers.compress(VectorOperation::add);
+        numbers.compress(VectorOperation::max);
       }
 
       unsigned int
@@ -58,26 +58,51 @@ namespace mortise
         Index next = first;
         for (double &value : numbers)
           if (value > 0.)
-            value = next++;
+            {
+              add_owned(first, static_cast<unsigned int>(value) - 1);
+              value = next++;
+            }
         numbers.update_ghost_values();
         for (unsigned int s = 0; s < shared.size(); ++s)
           {
             rows.emplace_back();
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int k = 0; k < shared[s].size(); ++k)
-                rows[s].push_back(shared[s][k] ?
-                                    static_cast<Index>(numbers(dofs[s][c][k])) :
-                                    next++);
+                if (shared[s][k])
+                  rows[s].push_back(
+                    static_cast<Index>(numbers(dofs[s][c][k])));
+                else
+                  {
+                    rows[s].push_back(next++);
+                    add_owned(first, c);
+                  }
           }
       }
 
       /// By face: component c of node k at c n + k.
       std::vector<std::vector<Index>> rows;
+      /// Components have the entries of the first.
+      std::vector<CouplingMatrix::Row> owned;
 
     private:
+      /// The next row is one of component @p c; those of an entity come by
+      /// component.
+      void
+      add_owned(const Index first, const unsigned int c)
+      {
+        const unsigned int n = owned.size();
+        if (c == 0 && (n == 0 || owned.back().component > 0))
+          entity = n;
+        if (c == 0)
+          n_nodes = n + 1 - entity;
+        owned.push_back({first + entity + (n - entity) % n_nodes, c});
+      }
+
       std::vector<std::array<std::vector<Index>, dim>> dofs;   ///< by face
       std::vector<std::vector<bool>>                   shared; ///< likewise
       ByDof                                            numbers;
+      /// Of the entity that add_owned() is in: its first row, its nodes.
+      unsigned int entity = 0, n_nodes = 0;
     };
   } // namespace
 
@@ -102,9 +127,10 @@ namespace mortise
       }
     RowsOfNodes of_nodes(body, slave);
     of_nodes.number(first);
-    for (unsigned int s = 0; s < face_rows.size(); ++s)
+    result.rows.owned = of_nodes.owned;
+    for (unsigned int s = 0; s < numbered.by_face.size(); ++s)
       {
-        const FaceRows    &own = face_rows[s];
+        const FaceRows    &own = numbered.by_face[s];
         const unsigned int n   = own.n_nodes();
         FaceRows           rows;
         rows.begin = {0};
@@ -112,6 +138,7 @@ namespace mortise
           {
             rows.index.push_back(of_nodes.rows[s][r]);
             rows.weight.push_back(1.);
+            rows.is_represented.push_back(r >= n);
             rows.begin.push_back(r + 1);
             for (unsigned int e = own.begin[r % n]; e < own.begin[r % n + 1];
                  ++e)
@@ -120,7 +147,7 @@ namespace mortise
                                          own.weight[e] *
                                            own.normals[r % n][r / n]);
           }
-        result.rows.push_back(std::move(rows));
+        result.rows.by_face.push_back(std::move(rows));
       }
     return result;
   }

@@ -3,10 +3,9 @@
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 
 #include <mortise/mortar/coupling.h>
-#include <mortise/mortar/nodal_block.h>
 #include <mortise/mortar/row_assembler.h>
 
-#include "coupled_faces.h"
+#include "constraint_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,139 +21,57 @@ namespace mortise
   {
     using Index = types::global_dof_index;
 
-    /// The columns of one side of the constraint: hierarchical functions, or
-    /// nodal ones where the trace has nodes. Prescribed ones are among them
-    /// where nodes hang.
-    class ConstraintColumns
-    {
-    public:
-      explicit ConstraintColumns(const FaceTrace &trace)
-        : trace(trace)
-        , begin(1)
-      {
-        if (trace.nodes.empty())
-          return;
-        const FaceNodes &face = trace.nodes[0];
-        for (unsigned int c = 0; c < dim; ++c)
-          for (unsigned int k = 0; k < trace.n_functions(); ++k)
-            {
-              const unsigned int row = c * trace.n_functions() + k;
-              if (face.hang())
-                for (unsigned int e = face.begin[k]; e < face.begin[k + 1]; ++e)
-                  add(face.nodes[face.column[e]], c, face.weight[e]);
-              // what holds a mode holds the node in its place
-              else if (trace.begin[row + 1] > trace.begin[row])
-                add(face.nodes[k], c, 1.);
-              begin.push_back(index.size());
-            }
-      }
-
-      bool
-      are_nodal() const
-      {
-        return !trace.nodes.empty();
-      }
-
-      Expansion
-      component(const unsigned int c) const
-      {
-        if (trace.nodes.empty())
-          return mortise::component(trace, c);
-        return {begin, index, weight, c * trace.n_functions()};
-      }
-
-      /// @p local with its columns in these functions.
-      FullMatrix<double>
-      in_columns(const FullMatrix<double> &local) const
-      {
-        return trace.nodes.empty() ?
-                 local :
-                 nodal_block(local,
-                             {trace.shape, trace.degree, 0},
-                             {trace.shape, trace.degree, trace.degree});
-      }
-
-    private:
-      void
-      add(const Index node, const unsigned int c, const double factor)
-      {
-        index.push_back(dim * node + c);
-        weight.push_back(factor);
-      }
-
-      const FaceTrace          &trace;
-      std::vector<unsigned int> begin;
-      std::vector<Index>        index;
-      std::vector<double>       weight;
-    };
-
-    /// The rows of component @p c, those along the normal times its part of that.
+    /// The rows of component @p c: those along the normal times its part of that;
+    /// or only those whose entries no earlier component has, too.
     class ConstraintRows
     {
     public:
-      ConstraintRows(const MultiplierSpace::FaceRows &rows)
-        : rows(rows)
-        , weight(dim)
+      ConstraintRows(const MultiplierSpace::FaceRows &rows,
+                     const bool                       representatives)
       {
-        for (unsigned int c = 0; c < dim && !rows.normals.empty(); ++c)
-          for (unsigned int k = 0; k < rows.n_nodes(); ++k)
-            for (unsigned int e = rows.begin[k]; e < rows.begin[k + 1]; ++e)
-              weight[c].push_back(rows.weight[e] * rows.normals[k][c]);
-      }
-
-      Expansion
-      component(const unsigned int c) const
-      {
-        if (rows.normals.empty())
-          return {rows.begin, rows.index, rows.weight, c * rows.n_nodes()};
-        return {rows.begin, rows.index, weight[c], 0};
-      }
-
-    private:
-      const MultiplierSpace::FaceRows &rows;
-      std::vector<std::vector<double>> weight; ///< by component
-    };
-
-    /// The prescribed displacements of one side.
-    class PrescribedTrace
-    {
-    public:
-      explicit PrescribedTrace(const FaceTrace &trace)
-        : n_functions(trace.n_functions())
-        , begin(1)
-      {
-        for (const Index dof : trace.prescribed)
+        const unsigned int n = rows.n_nodes();
+        for (unsigned int c = 0; c < dim; ++c)
           {
-            if (dof != numbers::invalid_dof_index)
-              index.push_back(dof);
-            begin.push_back(index.size());
+            Part &part = parts[c];
+            part.begin = {0};
+            for (unsigned int k = 0; k < n; ++k)
+              {
+                const unsigned int row = rows.normals.empty() ? c * n + k : k;
+                for (unsigned int e = rows.begin[row]; e < rows.begin[row + 1];
+                     ++e)
+                  if (!representatives || !rows.is_represented[e])
+                    {
+                      part.index.push_back(rows.index[e]);
+                      part.weight.push_back(
+                        rows.weight[e] *
+                        (rows.normals.empty() ? 1. : rows.normals[k][c]));
+                    }
+                part.begin.push_back(part.index.size());
+              }
           }
-        weight.assign(index.size(), 1.);
       }
 
       bool
-      are_nodal() const
+      has_component(const unsigned int c) const
       {
-        return false;
+        return !parts[c].index.empty();
       }
 
       Expansion
       component(const unsigned int c) const
       {
-        return {begin, index, weight, c * n_functions};
-      }
-
-      const FullMatrix<double> &
-      in_columns(const FullMatrix<double> &local) const
-      {
-        return local;
+        return {parts[c].begin, parts[c].index, parts[c].weight, 0};
       }
 
     private:
-      unsigned int              n_functions;
-      std::vector<unsigned int> begin;
-      std::vector<Index>        index;
-      std::vector<double>       weight;
+      struct Part
+      {
+        std::vector<unsigned int> begin;
+        std::vector<Index>        index;
+        std::vector<double>       weight;
+      };
+
+      std::array<Part, dim> parts;
     };
 
     /// Calls visit(nodes) for the vertices, the edges and the inside of a face.
@@ -187,7 +104,8 @@ namespace mortise
       return rows;
     }
 
-    /// [D, -M] with the columns that @p Columns makes of a trace.
+    /// [D, -M] with the columns that @p Columns makes of a trace; by node once
+    /// for the components that share their entries.
     template <typename Columns>
     void
     assemble_blocks(const std::vector<Coupling> &couplings,
@@ -203,35 +121,42 @@ namespace mortise
         for_each_face(
           couplings, [&](const Coupling &coupling, const unsigned int s) {
             const ConstraintRows rows(
-              (*all_rows[&coupling - couplings.data()])[s]);
+              (*all_rows[&coupling - couplings.data()])[s], Columns::by_node);
             const LocalCoupling &local = coupling.local[s];
             const FaceTrace     &slave = coupling.interface->slave().traces[s];
-            const Columns        own(slave);
-            if (local.is_dual() && own.are_nodal())
-              for_each_entity(slave.basis(), [&](const auto &nodes) {
-                FullMatrix<double> block(nodes.size(), nodes.size());
-                for (unsigned int i = 0; i < nodes.size(); ++i)
-                  block(i, i) = local.weights[nodes[i]];
-                for (unsigned int c = 0; c < dim; ++c)
-                  {
-                    const ExpansionPart row(rows.component(c), nodes),
-                      column(own.component(c), nodes);
-                    visit(row(), column(), block, 1.);
-                  }
-              });
+            const auto           for_each_component = [&](const auto &of) {
+              for (unsigned int c = 0; c < dim; ++c)
+                if (rows.has_component(c))
+                  of(c);
+            };
             const auto all = [&](const FaceTrace          &side,
                                  const FullMatrix<double> &block,
                                  const double              factor) {
-              const Columns            columns(side);
+              const Columns            columns{side};
               const FullMatrix<double> in_columns =
                 values ? columns.in_columns(block) : block;
-              for (unsigned int c = 0; c < dim; ++c)
+              for_each_component([&](const unsigned int c) {
                 visit(rows.component(c),
                       columns.component(c),
                       in_columns,
                       factor);
+              });
             };
-            if (!(local.is_dual() && own.are_nodal()))
+            if (local.is_dual() && Columns::by_node)
+              {
+                const Columns own{slave};
+                for_each_entity(slave.basis(), [&](const auto &nodes) {
+                  FullMatrix<double> block(nodes.size(), nodes.size());
+                  for (unsigned int i = 0; i < nodes.size(); ++i)
+                    block(i, i) = local.weights[nodes[i]];
+                  for_each_component([&](const unsigned int c) {
+                    const ExpansionPart row(rows.component(c), nodes),
+                      column(own.component(c), nodes);
+                    visit(row(), column(), block, 1.);
+                  });
+                });
+              }
+            else
               all(slave, local.constraint, 1.);
             for (const auto &partner : local.partners)
               all(coupling.interface->master_traces()[partner.master],
@@ -263,23 +188,78 @@ namespace mortise
                       const CouplingPartition     &partition,
                       SparseMatrix                &coupling)
   {
-    assemble_blocks<ConstraintColumns>(couplings,
-                                       rows_of(couplings),
-                                       partition,
-                                       coupling);
+    assemble_blocks<HierarchicalColumns>(couplings,
+                                         rows_of(couplings),
+                                         partition,
+                                         coupling);
   }
 
-  void
-  assemble_components(const std::vector<Coupling> &couplings,
-                      const CouplingPartition     &partition,
-                      SparseMatrix                &components,
-                      SparseMatrix                &frames)
+  namespace
   {
-    std::vector<Index> sizes;
+    IndexSet
+    nodes_of(const IndexSet &displacements)
+    {
+      IndexSet nodes(displacements.size() / dim);
+      if (displacements.n_elements() > 0)
+        nodes.add_range(displacements.nth_index_in_set(0) / dim,
+                        (displacements.nth_index_in_set(0) +
+                         displacements.n_elements()) /
+                          dim);
+      return nodes;
+    }
+
+    using Frames = std::vector<std::tuple<Index, Index, double>>;
+
+    void
+    assemble_frames(const Frames   &all,
+                    const IndexSet &owned_multiplier,
+                    const IndexSet &owned_rows,
+                    const MPI_Comm  comm,
+                    SparseMatrix   &frames)
+    {
+      IndexSet relevant = owned_multiplier;
+      for (const auto &[multiplier, row, weight] : all)
+        relevant.add_index(multiplier);
+      relevant.compress();
+      DynamicSparsityPattern pattern(relevant.size(),
+                                     owned_rows.size(),
+                                     relevant);
+      for (const auto &[multiplier, row, weight] : all)
+        pattern.add(multiplier, row);
+      frames.reinit(owned_multiplier, owned_rows, pattern, comm, true);
+      for (const auto &[multiplier, row, weight] : all)
+        frames.set(multiplier, row, weight);
+      frames.compress(VectorOperation::insert);
+    }
+  } // namespace
+
+  CouplingMatrix
+  assemble_by_node(const std::vector<Coupling> &couplings,
+                   const CouplingPartition     &partition,
+                   const bool                   with_frames)
+  {
+    const IndexSet nodes = nodes_of(partition.owned_displacement);
+    std::vector<CouplingMatrix::Row> rows;
+    const auto add_rows = [&rows](const std::vector<CouplingMatrix::Row> &more) {
+      rows.insert(rows.end(), more.begin(), more.end());
+    };
+    SparseMatrix entries, frames;
+    if (!with_frames)
+      {
+        for (const Coupling &coupling : couplings)
+          add_rows(coupling.multipliers->matrix_rows());
+        assemble_blocks<NodalColumns>(
+          couplings,
+          rows_of(couplings),
+          {nodes, partition.owned_multiplier, partition.comm},
+          entries);
+        return {std::move(entries), rows, std::move(frames)};
+      }
+
+    Index mine = 0;
     for (const Coupling &coupling : couplings)
-      sizes.push_back(
-        coupling.multipliers->n_component_rows(coupling.interface->slave()));
-    const Index mine = std::accumulate(sizes.begin(), sizes.end(), Index(0));
+      mine +=
+        coupling.multipliers->n_component_rows(coupling.interface->slave());
     const auto counts = Utilities::MPI::all_gather(partition.comm, mine);
     const auto me     = Utilities::MPI::this_mpi_process(partition.comm);
     const auto first =
@@ -287,39 +267,27 @@ namespace mortise
     IndexSet owned(std::accumulate(counts.begin(), counts.end(), Index(0)));
     owned.add_range(first, first + mine);
 
-    std::vector<MultiplierSpace::ComponentRows> rows;
-    RowsByFace                                  rows_by_face;
-    rows.reserve(couplings.size());
-    auto next = first;
+    std::vector<MultiplierSpace::ComponentRows> all;
+    RowsByFace                                  by_face;
+    Frames                                      all_frames;
+    all.reserve(couplings.size());
     for (const Coupling &coupling : couplings)
       {
-        rows.push_back(
-          coupling.multipliers->component_rows(coupling.interface->slave(),
-                                               next));
-        rows_by_face.push_back(&rows.back().rows);
-        next += sizes[rows.size() - 1];
+        all.push_back(coupling.multipliers->component_rows(
+          coupling.interface->slave(), first + rows.size()));
+        by_face.push_back(&all.back().rows.by_face);
+        add_rows(all.back().rows.owned);
+        all_frames.insert(all_frames.end(),
+                          all.back().frames.begin(),
+                          all.back().frames.end());
       }
-    assemble_blocks<ConstraintColumns>(
-      couplings,
-      rows_by_face,
-      {partition.owned_displacement, owned, partition.comm},
-      components);
-
-    IndexSet relevant = partition.owned_multiplier;
-    for (const auto &of_coupling : rows)
-      for (const auto &[row, column, weight] : of_coupling.frames)
-        relevant.add_index(row);
-    relevant.compress();
-    DynamicSparsityPattern pattern(relevant.size(), owned.size(), relevant);
-    for (const auto &of_coupling : rows)
-      for (const auto &[row, column, weight] : of_coupling.frames)
-        pattern.add(row, column);
-    frames.reinit(
-      partition.owned_multiplier, owned, pattern, partition.comm, true);
-    for (const auto &of_coupling : rows)
-      for (const auto &[row, column, weight] : of_coupling.frames)
-        frames.set(row, column, weight);
-    frames.compress(VectorOperation::insert);
+    assemble_blocks<NodalColumns>(couplings,
+                                  by_face,
+                                  {nodes, owned, partition.comm},
+                                  entries);
+    assemble_frames(
+      all_frames, partition.owned_multiplier, owned, partition.comm, frames);
+    return {std::move(entries), rows, std::move(frames)};
   }
 
   void

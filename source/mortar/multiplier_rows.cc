@@ -6,6 +6,7 @@
 #include <mortise/mortar/nodal_block.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace mortise
@@ -170,9 +171,156 @@ namespace mortise
         }
       return values;
     }
+
+    /// The rows of a face, multipliers by their dofs. @p dofs: by direction.
+    MultiplierSpace::FaceRows
+    rows_in_dofs(const TraceBasis                &basis,
+                 const std::vector<Dofs>         &dofs,
+                 const ByDof                     &ones,
+                 const AffineConstraints<double> &reduction,
+                 const HierarchicalMultipliers   &hierarchical)
+    {
+      MultiplierSpace::FaceRows rows;
+      rows.begin = {0};
+      for (unsigned int c = 0; c < dofs.size(); ++c)
+        {
+          rows.hold_constants[c] = true;
+          const auto values =
+            values_at_nodes(basis, dofs[c], reduction, hierarchical);
+          for (unsigned int k = 0; k < values.size(); ++k)
+            {
+              double sum = 0.;
+              for (const auto &[dof, weight] : values[k])
+                {
+                  rows.index.push_back(dof);
+                  rows.weight.push_back(weight);
+                  sum += weight * ones(dof);
+                }
+              rows.begin.push_back(rows.index.size());
+              if (hierarchical.is_one(dofs[c][k]))
+                rows.hierarchical.emplace_back(c * values.size() + k,
+                                               dofs[c][k]);
+              if (basis.functions[k].dimension == 0)
+                rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
+            }
+        }
+      return rows;
+    }
+
+    /// Which rows of B components share: those of multipliers at the same dofs
+    /// whose parts of the values at nodes are the same on all faces.
+    class SharedEntries
+    {
+    public:
+      using Places = std::vector<std::pair<Index, unsigned int>>;
+
+      SharedEntries(const Dofs   &owned_dofs,
+                    const Places &places,
+                    const ByDof  &layout)
+        : owned_dofs(owned_dofs)
+        , places(places)
+        , node(layout)
+        , differs{{layout, layout}}
+      {
+        for (unsigned int i = 0; i < owned_dofs.size(); ++i)
+          node(owned_dofs[i]) = places[i].first;
+        node.update_ghost_values();
+        for (ByDof &flags : differs)
+          flags = 0.;
+      }
+
+      /// @p rows: in dofs.
+      void
+      compare(const MultiplierSpace::FaceRows &rows)
+      {
+        const unsigned int n = rows.n_nodes();
+        nodes.clear();
+        for (const Index dof : rows.index)
+          nodes.push_back(node(dof));
+        for (unsigned int c = 1; c < dim; ++c)
+          for (unsigned int other = 0; other < c; ++other)
+            for (unsigned int k = 0; k < n; ++k)
+              if (!are_equal(rows, c * n + k, other * n + k))
+                {
+                  mark(rows, c * n + k, other);
+                  mark(rows, other * n + k, c - 1);
+                }
+      }
+
+      /// Behind the last compare(). Collective.
+      void
+      exchange()
+      {
+        for (ByDof &flags : differs)
+          flags.compress(VectorOperation::add);
+      }
+
+      /// By owned multiplier, which are numbered from @p first on.
+      std::vector<CouplingMatrix::Row>
+      rows(const Index first) const
+      {
+        std::vector<CouplingMatrix::Row>       result;
+        std::array<std::vector<unsigned>, dim> entity; // by component
+        unsigned int                           last = 0;
+        for (unsigned int i = 0; i < places.size(); ++i)
+          {
+            const unsigned int c = places[i].second;
+            if (c < last)
+              entity = {};
+            last      = c;
+            Index row = first + i;
+            for (unsigned int other = c; other-- > 0;)
+              if (const auto &of_other = entity[other];
+                  entity[c].size() < of_other.size())
+                if (const unsigned int j = of_other[entity[c].size()];
+                    places[j].first == places[i].first &&
+                    differs[other](owned_dofs[i]) +
+                        differs[c - 1](owned_dofs[j]) ==
+                      0.)
+                  row = result[j].entries;
+            entity[c].push_back(i);
+            result.push_back({row, c});
+          }
+        return result;
+      }
+
+    private:
+      bool
+      are_equal(const MultiplierSpace::FaceRows &rows,
+                const unsigned int               a,
+                const unsigned int               b) const
+      {
+        const unsigned int i = rows.begin[a], j = rows.begin[b],
+                           n = rows.begin[a + 1] - i;
+        return rows.begin[b + 1] - j == n &&
+               std::equal(nodes.begin() + i,
+                          nodes.begin() + i + n,
+                          nodes.begin() + j) &&
+               std::equal(rows.weight.begin() + i,
+                          rows.weight.begin() + i + n,
+                          rows.weight.begin() + j);
+      }
+
+      /// The multipliers of @p row differ from those of the component that is
+      /// this one among the others.
+      void
+      mark(const MultiplierSpace::FaceRows &rows,
+           const unsigned int               row,
+           const unsigned int               among_others)
+      {
+        for (unsigned int e = rows.begin[row]; e < rows.begin[row + 1]; ++e)
+          differs[among_others](rows.index[e]) += 1.;
+      }
+
+      const Dofs                &owned_dofs;
+      const Places              &places;
+      ByDof                      node; ///< of the first component
+      std::array<ByDof, dim - 1> differs;
+      std::vector<double>        nodes; ///< of one face, by entry
+    };
   } // namespace
 
-  std::vector<MultiplierSpace::FaceRows>
+  MultiplierSpace::Rows
   MultiplierSpace::make_rows(const BodySurface &slave, const Index first) const
   {
     ByDof numbers(body.dof_handler.locally_owned_dofs(),
@@ -180,54 +328,51 @@ namespace mortise
                   body.triangulation().get_communicator());
     auto  ones = numbers; // coefficients of the constant one
     for (unsigned int i = 0; i < owned_dofs.size(); ++i)
-      {
-        numbers(owned_dofs[i]) = first + i;
-        ones(owned_dofs[i])    = at_vertices[i] ? 1. : 0.;
-      }
-    HierarchicalMultipliers hierarchical(reduction, numbers);
-    numbers.update_ghost_values();
+      ones(owned_dofs[i]) = at_vertices[i] ? 1. : 0.;
     ones.update_ghost_values();
+    HierarchicalMultipliers            hierarchical(reduction, numbers);
+    SharedEntries                      shared(owned_dofs, places, numbers);
+    std::vector<std::array<Dofs, dim>> dofs;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       {
-        const auto dofs = face_dofs(slave.cells[s], slave.face_numbers[s]);
+        dofs.push_back(face_dofs(slave.cells[s], slave.face_numbers[s]));
         for (unsigned int c = 0; c < n_directions; ++c)
-          hierarchical.add(slave.traces[s].basis(), dofs[c]);
+          hierarchical.add(slave.traces[s].basis(), dofs[s][c]);
       }
     hierarchical.exchange();
 
-    std::vector<FaceRows> result;
+    Rows result;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       {
-        FaceRows          rows;
-        const TraceBasis &basis = slave.traces[s].basis();
-        const auto dofs = face_dofs(slave.cells[s], slave.face_numbers[s]);
-        rows.begin      = {0};
-        if (n_directions != dim)
-          rows.normals = normals[s];
-        for (unsigned int c = 0; c < n_directions; ++c)
+        result.by_face.push_back(
+          rows_in_dofs(slave.traces[s].basis(),
+                       {dofs[s].begin(), dofs[s].begin() + n_directions},
+                       ones,
+                       reduction,
+                       hierarchical));
+        if (n_directions == dim)
+          shared.compare(result.by_face[s]);
+        else
+          result.by_face[s].normals = normals[s];
+      }
+    shared.exchange();
+    result.owned = shared.rows(first);
+
+    // from one on, less than zero where another has the same entries
+    for (unsigned int i = 0; i < owned_dofs.size(); ++i)
+      numbers(owned_dofs[i]) =
+        (result.owned[i].entries == first + i ? 1. : -1.) * (1. + first + i);
+    numbers.update_ghost_values();
+    for (FaceRows &rows : result.by_face)
+      {
+        for (Index &index : rows.index)
           {
-            rows.hold_constants[c] = true;
-            const auto values =
-              values_at_nodes(basis, dofs[c], reduction, hierarchical);
-            for (unsigned int k = 0; k < values.size(); ++k)
-              {
-                double sum = 0.;
-                for (const auto &[dof, weight] : values[k])
-                  {
-                    rows.index.push_back(static_cast<Index>(numbers(dof)));
-                    rows.weight.push_back(weight);
-                    sum += weight * ones(dof);
-                  }
-                rows.begin.push_back(rows.index.size());
-                if (hierarchical.is_one(dofs[c][k]))
-                  rows.hierarchical.emplace_back(c * values.size() + k,
-                                                 static_cast<Index>(
-                                                   numbers(dofs[c][k])));
-                if (basis.functions[k].dimension == 0)
-                  rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
-              }
+            const double number = numbers(index);
+            index               = static_cast<Index>(std::fabs(number)) - 1;
+            rows.is_represented.push_back(number < 0.);
           }
-        result.push_back(std::move(rows));
+        for (auto &[row, index] : rows.hierarchical)
+          index = static_cast<Index>(std::fabs(numbers(index))) - 1;
       }
     return result;
   }
@@ -235,7 +380,7 @@ namespace mortise
   void
   MultiplierSpace::number(const BodySurface &slave, const Index first)
   {
-    face_rows    = make_rows(slave, first);
+    numbered     = make_rows(slave, first);
     first_number = first;
   }
 } // namespace mortise

@@ -171,11 +171,16 @@ namespace mortise
                                  blocked);
 
     MultiplierRecords                 records;
-    std::set<types::global_dof_index> on_surface;
+    // with the dof of the first component there
+    std::map<types::global_dof_index,
+             std::pair<types::global_dof_index, unsigned int>>
+      on_surface;
     for (const MultiplierFace &face : faces)
       for (unsigned int c = 0; c < n_directions; ++c)
         {
-          on_surface.insert(face.dofs[c].begin(), face.dofs[c].end());
+          for (unsigned int k = 0; k < face.dofs[c].size(); ++k)
+            on_surface.emplace(face.dofs[c][k],
+                               std::make_pair(face.dofs[0][k], c));
           if (face.cover >= Cover::partial)
             apply_multiplier_rules(face, c, records);
         }
@@ -192,7 +197,7 @@ namespace mortise
     IndexSet               known = body.relevant_dofs;
     stranded.add_representatives(known);
     reduction.reinit(known);
-    for (const auto dof : on_surface)
+    for (const auto &[dof, place] : on_surface)
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
         {
@@ -208,6 +213,7 @@ namespace mortise
           if (reduction.is_constrained(dof))
             continue;
           owned_dofs.push_back(dof);
+          places.push_back(place);
           const auto record = records.find(dof);
           at_vertices.push_back(record == records.end() ||
                                 record->second.vertex);

@@ -301,21 +301,6 @@ namespace mortise
   }
 
   void
-  NodalSystem::drop_constrained_columns(SparseMatrix &coupling) const
-  {
-    const NodalLevel  &level = all_levels.front();
-    const unsigned int n     = level.space->hanging_nodes().n_constraints();
-    if (Utilities::MPI::max(n, level.layout->get_mpi_communicator()) == 0)
-      return;
-    auto &matrix = const_cast<Epetra_CrsMatrix &>(coupling.trilinos_matrix());
-    Epetra_Vector kept(matrix.DomainMap());
-    kept.PutScalar(1.);
-    for (const unsigned int index : level.constrained)
-      kept[index] = 0.;
-    matrix.RightScale(kept);
-  }
-
-  void
   NodalSystem::for_each_coefficient(
     const Vector                            &displacement,
     const std::function<void(unsigned int                    body,

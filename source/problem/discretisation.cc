@@ -48,17 +48,21 @@ namespace mortise
         const CouplingPartition partition{system.owned_displacement,
                                           system.owned_multiplier,
                                           run.comm};
-        assemble_constraint(couplings.all(), partition, system.coupling);
+        if (spaces.nodal.empty())
+          {
+            SparseMatrix B;
+            assemble_constraint(couplings.all(), partition, B);
+            system.coupling = CouplingMatrix(std::move(B));
+          }
+        else
+          system.coupling =
+            assemble_by_node(couplings.all(),
+                             partition,
+                             couplings.slide() || couplings.have_springs());
         if (couplings.have_springs())
           assemble_compliance(couplings.all(),
                               partition,
                               system.spring_compliance);
-        if (!spaces.nodal.empty() &&
-            (couplings.slide() || couplings.have_springs()))
-          assemble_components(couplings.all(),
-                              partition,
-                              system.components,
-                              system.frames);
         if (spaces.choice.method != SolverMethod::direct &&
             spaces.nodal.empty())
           assemble_jump_penalty(couplings.all(),
@@ -92,10 +96,7 @@ namespace mortise
                              fields.displacement.constraints,
                              couplings.all()},
           run.comm);
-        if (system.owned_multiplier.size() > 0)
-          for (SparseMatrix *matrix : {&system.coupling, &system.components})
-            if (matrix->m() > 0)
-              system.nodal->drop_constrained_columns(*matrix);
+        system.coupling.constrain(system.nodal->levels().front().constrained);
         stage.details("without a matrix");
         return;
       }

@@ -57,26 +57,13 @@ namespace mortise
       }
     if (interface_present)
       {
-        const auto   &coupling = system.coupling.trilinos_matrix();
-        Epetra_Vector on_columns(coupling.ColMap());
-        if (coupling.Importer() != nullptr)
-          on_columns.Import(*weight_u, *coupling.Importer(), Insert);
-        else
-          std::copy(weight_u->Values(),
-                    weight_u->Values() + weight_u->MyLength(),
-                    on_columns.Values());
-        weight_lambda = std::make_unique<Epetra_Vector>(coupling.RowMap());
-        Epetra_Vector opening(coupling.RowMap());
+        weight_lambda = std::make_unique<Epetra_Vector>(
+          system.coupling.diagonal_of_square(*weight_u));
+        Epetra_Vector opening(weight_lambda->Map());
         if (system.has_springs())
           system.spring_compliance.trilinos_matrix().ExtractDiagonalCopy(opening);
         for (int i = 0; i < weight_lambda->MyLength(); ++i)
-          {
-            const EpetraRow row(coupling, i);
-            double          sum = 0.;
-            for (int k = 0; k < row.length; ++k)
-              sum += row.values[k] * row.values[k] * on_columns[row.columns[k]];
-            (*weight_lambda)[i] = inverse(sum + opening[i]);
-          }
+          (*weight_lambda)[i] = inverse((*weight_lambda)[i] + opening[i]);
       }
   }
 
@@ -133,7 +120,7 @@ namespace mortise
     };
     if (interface_present)
       {
-        Epetra_CrsMatrix B(system.coupling.trilinos_matrix());
+        Epetra_CrsMatrix B = system.coupling.expanded();
         for (int i = 0; i < B.NumMyRows(); ++i)
           {
             const EpetraRow row(B, i);

@@ -43,7 +43,7 @@ namespace mortise::testing
               const MPI_Comm  comm = MPI_COMM_WORLD)
       : scene(slave, master, comm)
     {
-      scene.assemble(B, scene.field.numbering.owned());
+      scene.assemble(B);
       assemble_jump_penalty(scene.couplings, scene.partition(), J);
     }
 

@@ -221,15 +221,12 @@ namespace mortise::testing
     const Assembled modal(slave, master);
     TiedScene       scene(slave, master, MPI_COMM_WORLD, true);
     const IndexSet owned = displacement_indices(scene.spaces[0]->owned_nodes());
-    const NodalSystem     system(std::move(scene.spaces),
+    const NodalSystem system(std::move(scene.spaces),
                              nullptr,
                              NodalSystem::Scene{scene.field.numbering,
                                                 scene.field.constraints,
                                                 scene.couplings},
                              scene.comm);
-    mortise::SparseMatrix B;
-    scene.assemble(B, owned);
-    system.drop_constrained_columns(B);
 
     mortise::Vector at_nodes = random(owned, scene.comm);
     for (const unsigned int place : system.levels().front().constrained)
@@ -244,12 +241,29 @@ namespace mortise::testing
       });
     u.compress(VectorOperation::insert);
     const mortise::Vector expected = modal.constraint(u);
-    mortise::Vector       jump(expected);
-    B.vmult(jump, at_nodes);
-    jump -= expected;
-    verdict(what + ": at nodes as in hierarchical functions 1e-12",
-            jump.linfty_norm() / expected.linfty_norm(),
-            1e-12);
+    for (const bool with_frames : {false, true})
+      {
+        CouplingMatrix B =
+          assemble_by_node(scene.couplings,
+                           {owned, scene.owned_multiplier, scene.comm},
+                           with_frames);
+        B.constrain(system.levels().front().constrained);
+        mortise::Vector jump(expected);
+        B.vmult(jump, at_nodes);
+        jump -= expected;
+        verdict(what + ": at nodes as in hierarchical functions" +
+                  (with_frames ? ", with frames 1e-12" : " 1e-12"),
+                jump.linfty_norm() / expected.linfty_norm(),
+                1e-12);
+        mortise::Vector force = random(owned, scene.comm);
+        force                 = 0.;
+        B.Tvmult_add(force, expected);
+        const double work = force * at_nodes, of_jump = expected * expected;
+        verdict(what + ": the forces do the multipliers' work" +
+                  (with_frames ? ", with frames 1e-12" : " 1e-12"),
+                std::fabs(work / of_jump - 1.),
+                1e-12);
+      }
   }
 
   void

@@ -153,14 +153,11 @@ namespace mortise::testing
       return couplings[0];
     }
 
-    /// B with these columns, those of the numbering or of nodes.
+    /// B in the numbering's columns.
     void
-    assemble(SparseMatrix           &matrix,
-             const dealii::IndexSet &owned_displacement) const
+    assemble(SparseMatrix &matrix) const
     {
-      assemble_constraint(couplings,
-                          {owned_displacement, owned_multiplier, comm},
-                          matrix);
+      assemble_constraint(couplings, partition(), matrix);
     }
 
     /// Coefficients of @p function on the tied surface of body @p b, zero

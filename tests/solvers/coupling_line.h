@@ -1,10 +1,11 @@
-// A matrix of a coupling without a mesh: entities in a line. It never needs
-// more than a few milliseconds.
+// A matrix of a coupling without a mesh, entry by entry and by node: entities
+// in a line. It never needs more than a few milliseconds.
 #pragma once
 
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
 #include <Epetra_MpiComm.h>
+#include <mortise/mortar/coupling_matrix.h>
 
 #include <cmath>
 #include <set>
@@ -105,6 +106,67 @@ struct CouplingLine
               ++row;
             }
     result.FillComplete(columns, rows);
+    return result;
+  }
+
+  bool
+  is_free(const int node, const int component) const
+  {
+    return is_column(0, node, component);
+  }
+
+  /// Has row @p i of an entity the entries of the first component?
+  bool
+  is_shared(const int entity, const int i, const int component) const
+  {
+    if (component == 0 || !is_row(entity, i, 0) ||
+        !is_row(entity, 0, component))
+      return false;
+    for (int node = 3 * entity; node < 3 * entity + 8; ++node)
+      if ((is_free(node, component) && is_free(node, 0)) &&
+          (is_column(entity, node, component) != is_column(entity, node, 0) ||
+           value(entity, i, node, component) != value(entity, i, node, 0)))
+        return false;
+    return true;
+  }
+
+  /// The same by node.
+  mortise::CouplingMatrix
+  by_node() const
+  {
+    using mortise::CouplingMatrix;
+    const Epetra_CrsMatrix           B = matrix();
+    const Epetra_Map                 nodes(n_nodes(), 0, B.Comm());
+    Epetra_CrsMatrix                 scalar(Copy, B.RowMap(), 0);
+    std::vector<CouplingMatrix::Row> rows;
+    const Epetra_Map                 entities(n_entities, 0, B.Comm());
+    int                              row = B.RowMap().MinMyGID();
+    for (int k = 0; k < entities.NumMyElements(); ++k)
+      for (int c = 0, e = entities.GID(k), first = row; c < 3; ++c)
+        for (int i = 0; i < 3; ++i)
+          if (is_row(e, i, c))
+            {
+              const bool shared = is_shared(e, i, c);
+              rows.push_back({static_cast<unsigned>(shared ? first + i : row),
+                              static_cast<unsigned>(c)});
+              for (int node = 3 * e; node < 3 * e + 8 && !shared; ++node)
+                if (is_column(e, node, c) || !is_free(node, c))
+                  {
+                    const double entry = value(e, i, node, c);
+                    scalar.InsertGlobalValues(row, 1, &entry, &node);
+                  }
+              ++row;
+            }
+    scalar.FillComplete(nodes, B.RowMap());
+    mortise::SparseMatrix entries, frames;
+    entries.reinit(scalar);
+    CouplingMatrix result(std::move(entries), rows, std::move(frames));
+    std::vector<unsigned int> constrained;
+    for (int k = 0; k < nodes.NumMyElements(); ++k)
+      for (int c = 0; c < 3; ++c)
+        if (!is_free(nodes.GID(k), c))
+          constrained.push_back(3 * k + c);
+    result.constrain(constrained);
     return result;
   }
 };

@@ -23,18 +23,18 @@ namespace
   {
     BlockSystem system =
       springs::Builder(springs::Options(), MPI_COMM_WORLD).build();
-    dealii::DynamicSparsityPattern pattern(system.coupling.m(),
-                                           system.coupling.n());
+    SparseMatrix given;
+    given.reinit(system.coupling.by_displacement());
+    dealii::DynamicSparsityPattern pattern(given.m(), given.n());
     const auto                     for_each = [&](const auto &visit) {
-      for (unsigned int k = 0; k < system.coupling.m(); ++k)
+      for (unsigned int k = 0; k < given.m(); ++k)
         {
           std::vector<std::pair<unsigned int, double>> sum = {{k, 1.}};
           for (const Row &row : replaced)
             if (row.k == k)
               sum = row.sum;
           for (const auto &[source, factor] : sum)
-            for (auto entry = system.coupling.begin(source);
-                 entry != system.coupling.end(source);
+            for (auto entry = given.begin(source); entry != given.end(source);
                  ++entry)
               visit(k, entry->column(), factor * entry->value());
         }
@@ -51,8 +51,7 @@ namespace
       coupling.add(k, column, value);
     });
     coupling.compress(dealii::VectorOperation::add);
-    system.coupling.reinit(coupling);
-    system.coupling.copy_from(coupling);
+    system.coupling = CouplingMatrix(std::move(coupling));
     return find_dependent_multipliers(system).size();
   }
 } // namespace

@@ -227,10 +227,11 @@ namespace springs
           }
       for (const Index i : system.owned_displacement)
         j.add(i, i);
-      system.coupling.reinit(system.owned_multiplier,
-                             system.owned_displacement,
-                             b,
-                             comm);
+      SparseMatrix coupling;
+      coupling.reinit(system.owned_multiplier,
+                      system.owned_displacement,
+                      b,
+                      comm);
       system.jump_penalty.reinit(system.owned_displacement,
                                  system.owned_displacement,
                                  j,
@@ -242,8 +243,8 @@ namespace springs
                         m = 3 * master(t) + d;
             if (system.owned_multiplier.is_element(l))
               {
-                system.coupling.set(l, s, area(t));
-                system.coupling.set(l, m, -area(t));
+                coupling.set(l, s, area(t));
+                coupling.set(l, m, -area(t));
               }
             for (const Index row : {s, m})
               if (system.owned_displacement.is_element(row))
@@ -252,8 +253,9 @@ namespace springs
                                           column,
                                           row == column ? gamma : -gamma);
           }
-      for (auto *matrix : {&system.coupling, &system.jump_penalty})
+      for (auto *matrix : {&coupling, &system.jump_penalty})
         matrix->compress(dealii::VectorOperation::insert);
+      system.coupling = CouplingMatrix(std::move(coupling));
     }
 
     const Options      o;

@@ -42,10 +42,11 @@ namespace
     for (const auto i : owned)
       weights(i) = 1. + i / 3 % 5;
 
-    const NodalMatrix C = weighted_square(CouplingRows(B, true), weights);
-    const auto alike    = std::count(C.variants.begin(), C.variants.end(), 1U);
-    const int  n_alike  = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
-              n_nodes   = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);
+    const CouplingMatrix by_node = CouplingLine{n_entities}.by_node();
+    const NodalMatrix    C = weighted_square(CouplingRows(by_node), weights);
+    const auto alike   = std::count(C.variants.begin(), C.variants.end(), 1U);
+    const int  n_alike = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
+              n_nodes  = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);
     // those of entities that share columns with deviating ones: 20 at the ends,
     // 15 of entities 5 to 11
     say("nodes whose components differ", n_nodes - n_alike, 35);
@@ -59,11 +60,11 @@ namespace
       u[i] *= weights.local_element(i);
     B.Multiply(false, u, expected);
     const auto    matrix = as_matrix(C, B.Comm());
-    Epetra_Vector by_node(matrix->RowMap()), product(by_node);
+    Epetra_Vector at_nodes(matrix->RowMap()), product(at_nodes);
     for (unsigned int i = 0; i < C.entries.size(); ++i)
       if (C.entries[i] >= 0)
-        by_node[i] = y[C.entries[i]];
-    matrix->Multiply(false, by_node, product);
+        at_nodes[i] = y[C.entries[i]];
+    matrix->Multiply(false, at_nodes, product);
     for (unsigned int i = 0; i < C.entries.size(); ++i)
       if (C.entries[i] >= 0)
         got[C.entries[i]] = product[i];

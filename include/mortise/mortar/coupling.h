@@ -6,6 +6,7 @@
 #include <deal.II/base/index_set.h>
 
 #include <mortise/base/types.h>
+#include <mortise/mortar/coupling_matrix.h>
 #include <mortise/mortar/local_coupling.h>
 #include <mortise/mortar/multiplier_space.h>
 
@@ -46,13 +47,12 @@ namespace mortise
                       const CouplingPartition     &partition,
                       SparseMatrix                &coupling);
 
-  /// The constraint by component, B_c u = 0, and R with B = R B_c, for scenes in
-  /// which bodies slide. Collective.
-  void
-  assemble_components(const std::vector<Coupling> &couplings,
-                      const CouplingPartition     &partition,
-                      SparseMatrix                &components,
-                      SparseMatrix                &frames);
+  /// The same, displacements being values at nodes, which the partition numbers: the traces have
+  /// them. @p with_frames: bodies slide or hang on springs. Collective.
+  CouplingMatrix
+  assemble_by_node(const std::vector<Coupling> &couplings,
+                   const CouplingPartition     &partition,
+                   bool                         with_frames);
 
   /// Set what interface @p coupling is as a spring from @p stiffness at points of the slave.
   /// @p normals: slave_normals().

@@ -24,6 +24,7 @@
 
 #include <mortise/body/body.h>
 #include <mortise/interface/body_surface.h>
+#include <mortise/mortar/coupling_matrix.h>
 #include <mortise/mortar/multiplier_faces.h>
 
 #include <array>
@@ -56,6 +57,9 @@ namespace mortise
       std::vector<unsigned int> begin;
       std::vector<Index>  index; ///< numbering of all multipliers of the scene
       std::vector<double> weight;
+      /// By entry: has an earlier component a multiplier there whose row of B
+      /// has the same entries?
+      std::vector<bool> is_represented;
       /// Those that are coefficients of hierarchical functions instead: their
       /// row, numbered as those of values, and multiplier.
       std::vector<std::pair<unsigned int, Index>> hierarchical;
@@ -116,11 +120,24 @@ namespace mortise
     void
     number(const BodySurface &slave, Index first);
 
+    struct Rows
+    {
+      std::vector<FaceRows>            by_face; ///< of the slave
+      std::vector<CouplingMatrix::Row> owned;
+    };
+
     /// By slave face; valid after number().
     const std::vector<FaceRows> &
     rows() const
     {
-      return face_rows;
+      return numbered.by_face;
+    }
+
+    /// The rows of B by owned multiplier; valid after number().
+    const std::vector<CouplingMatrix::Row> &
+    matrix_rows() const
+    {
+      return numbered.owned;
     }
 
     /// The constraint in rows that move one component each: a multiplier is a
@@ -128,9 +145,7 @@ namespace mortise
     /// but for their numbers.
     struct ComponentRows
     {
-      /// As rows() of all directions, in numbers of component rows. By slave
-      /// face.
-      std::vector<FaceRows> rows;
+      Rows rows; ///< of all directions, in numbers of component rows
       /// (multiplier, component row, weight); those that several faces see are
       /// there several times.
       std::vector<std::tuple<Index, Index, double>> frames;
@@ -147,17 +162,19 @@ namespace mortise
 
   private:
     /// The rows with the owned multipliers numbered from @p first on. Collective.
-    std::vector<FaceRows>
+    Rows
     make_rows(const BodySurface &slave, Index first) const;
 
     const Body                                      &body;
     std::vector<std::vector<dealii::Tensor<1, dim>>> normals; ///< by face
     unsigned int n_directions; ///< dim, or 1: along the normals
     std::vector<Index>                               owned_dofs;
-    std::vector<bool>  at_vertices; ///< by owned multiplier
+    std::vector<bool>                                at_vertices; ///< by owned multiplier
+    /// By owned multiplier: the dof of the first component there, its component.
+    std::vector<std::pair<Index, unsigned int>> places;
     dealii::AffineConstraints<double>
-                          reduction; ///< in the body's numbering; closed
-    std::vector<FaceRows> face_rows;
-    Index                 first_number = 0;
+          reduction; ///< in the body's numbering; closed
+    Rows  numbered;
+    Index first_number = 0;
   };
 } // namespace mortise

@@ -14,6 +14,7 @@
 
 #include <Epetra_Vector.h>
 #include <mortise/base/types.h>
+#include <mortise/mortar/coupling_matrix.h>
 #include <mortise/operators/free_pressures.h>
 #include <mortise/operators/nodal_system.h>
 
@@ -72,8 +73,8 @@ namespace mortise
     FreePressures free_pressures;
 
     /// B: rows are multipliers, columns displacements; columns of constrained
-    /// dofs are zero. No rows at all when the scene has no interface.
-    SparseMatrix coupling;
+    /// dofs are zero. Empty when the scene has no interface. By node where nodal is there.
+    CouplingMatrix coupling;
 
     /// By owned multiplier: does its constraint hold? The others are zero.
     /// Nothing, on all ranks: all do.
@@ -81,19 +82,6 @@ namespace mortise
 
     /// S, the compliance of springs: zero, or empty, where bodies are tied.
     SparseMatrix spring_compliance;
-
-    /// Where bodies slide or hang on springs, and displacements are values at nodes, B = R B_c: B_c
-    /// (components) has rows that move one component each, by entity of the
-    /// mesh, in it by component, and R (frames) the normals. Else empty: B is
-    /// such a matrix itself.
-    SparseMatrix components, frames;
-
-    /// B, or B_c.
-    const Epetra_CrsMatrix &
-    coupling_by_component() const
-    {
-      return (frames.m() > 0 ? components : coupling).trilinos_matrix();
-    }
 
     /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the
     /// softer side: symmetric, positive semi-definite, touches interface dofs

@@ -116,11 +116,6 @@ namespace mortise
                   const FieldNumbering     &numbering,
                   SceneLoad                &load) const;
 
-    /// B without the columns of prescribed components, which hanging nodes
-    /// bring in. Collective.
-    void
-    drop_constrained_columns(SparseMatrix &coupling) const;
-
     /// A hierarchical coefficient, by body and dof.
     using Coefficients =
       std::function<double(unsigned int, dealii::types::global_dof_index)>;

@@ -162,7 +162,7 @@ namespace mortise
           transpose(system.divergence.trilinos_matrix(), K.RowMap());
       if (system.owned_multiplier.size() > 0)
         coupling_force =
-          transpose(system.coupling.trilinos_matrix(), K.RowMap());
+          transpose(system.coupling.by_displacement(), K.RowMap());
       auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
       RowBuilder rows(numbering, *matrix);
       int        local = 0;
@@ -196,7 +196,7 @@ namespace mortise
                      -1. / residual.inverse_diagonal_lambda()[local]);
           else
             {
-              rows.add(system.coupling.trilinos_matrix(), local, 0);
+              rows.add(system.coupling.by_displacement(), local, 0);
               if (system.has_springs())
                 rows.add(
                   system.spring_compliance.trilinos_matrix(), local, 2, -1.);

@@ -26,9 +26,9 @@ namespace mortise
   touched_displacements(const BlockSystem &system, const CouplingRows &rows)
   {
     IndexSet touched(system.owned_displacement.size());
-    for (const int column : rows.moved.column_of_value)
-      if (column >= 0)
-        touched.add_index(rows.matrix.GCID(column));
+    for (const int displacement : rows.moved.displacements)
+      if (displacement >= 0)
+        touched.add_index(displacement);
     touched.compress();
     return touched;
   }
@@ -46,8 +46,8 @@ namespace mortise
     std::vector<bool>  result(rows.moved.n_nodes, true);
     const unsigned int n = rows.moved.n_components;
     for (unsigned int v = 0; v < n * result.size(); ++v)
-      if (const int column = rows.moved.column_of_value[v];
-          column >= 0 && leads(rows.matrix.GCID(column)) == 0.)
+      if (const int displacement = rows.moved.displacements[v];
+          displacement >= 0 && leads(displacement) == 0.)
         result[v / n] = false;
     return result;
   }

@@ -36,10 +36,11 @@ namespace mortise
                                            const CouplingRows &rows)
     : n_components(rows.moved.n_components)
   {
-    if (system.frames.m() > 0 && n_components == dim)
+    if (rows.matrix.has_frames())
       {
-        frames       = &system.frames.trilinos_matrix();
-        by_component = std::make_unique<Epetra_Vector>(rows.matrix.RowMap());
+        frames = &rows.matrix.frames();
+        by_component =
+          std::make_unique<Epetra_Vector>(rows.matrix.scalar().RowMap());
       }
     make_layout(system, rows);
     make_blocks(rows, leading_nodes(system, rows));
@@ -84,12 +85,12 @@ namespace mortise
       std::make_shared<const Utilities::MPI::Partitioner>(owned,
                                                           relevant,
                                                           system.communicator);
-    values.resize(rows.moved.column_of_value.size());
-    for (const int column : rows.moved.column_of_value)
-      entry_of_value.push_back(
-        column < 0 ? -1 :
-                     static_cast<int>(layout->global_to_local(
-                       static_cast<Index>(number(rows.matrix.GCID(column))))));
+    values.resize(rows.moved.displacements.size());
+    for (const int displacement : rows.moved.displacements)
+      entry_of_value.push_back(displacement < 0 ?
+                                 -1 :
+                                 static_cast<int>(layout->global_to_local(
+                                   static_cast<Index>(number(displacement)))));
   }
 
   template <typename Number>

@@ -1,7 +1,6 @@
 // See coupling_transpose.h.
 #include <deal.II/base/mpi.h>
 
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/interface/coupling_transpose.h>
 
 #include <algorithm>
@@ -30,19 +29,12 @@ namespace mortise
 
     using SentEntries = std::map<unsigned int, std::vector<SentEntry>>;
 
-    /// The displacement of each value that multipliers move; -1: none.
-    int
-    displacement_of(const CouplingRows &B, const std::size_t v)
-    {
-      const int column = B.moved.column_of_value[v];
-      return column < 0 ? -1 : B.matrix.GCID(column);
-    }
   } // namespace
 
   CouplingTranspose::CouplingTranspose(const CouplingRows        &B,
                                        const LevelVector<double> &weights)
-    : multipliers(B.matrix.RowMap())
-    , begin(B.moved.column_of_value.size() + 1)
+    : multipliers(B.matrix.scalar().RowMap())
+    , begin(B.moved.displacements.size() + 1)
   {
     collect_own(B, weights);
     if (multipliers.Comm().NumProc() > 1)
@@ -57,42 +49,50 @@ namespace mortise
                                  const LevelVector<double> &weights)
   {
     const auto for_each_entry = [&B](const auto &visit) {
-      for (int i = 0; i < B.matrix.NumMyRows(); ++i)
-        {
-          const EpetraRow row(B.matrix, i);
-          const int       multiplier = B.matrix.GRID(i);
-          for (int k = 0; k < row.length; ++k)
-            visit(B.moved.value_of_column[row.columns[k]],
-                  Entry(multiplier, row.values[k]));
-        }
+      const unsigned int n    = B.moved.n_components;
+      const Epetra_Map  &rows = B.matrix.scalar().RowMap();
+      for (const auto &of_entity : B.rows)
+        for (const SharedRows &shared : of_entity)
+          for (unsigned int c = 0; c < n; ++c)
+            for (int i = 0; i < shared.n_rows && shared.first_row[c] >= 0; ++i)
+              {
+                const int     row = rows.GID(shared.first_row[c] + i);
+                const double *from =
+                  shared.values.data() + i * shared.nodes.size();
+                for (unsigned int k = 0; k < shared.nodes.size(); ++k)
+                  if (const auto v = n * shared.nodes[k] + c;
+                      B.moved.displacements[v] >= 0)
+                    visit(v, Entry(row, from[k]));
+              }
     };
-    for_each_entry([this](const int v, const Entry &) { ++begin[v + 1]; });
+    for_each_entry([this](const auto v, const Entry &) { ++begin[v + 1]; });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     entries.resize(begin.back());
     std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
     for_each_entry(
-      [&](const int v, const Entry &entry) { entries[next[v]++] = entry; });
-    const Epetra_Map &owned = B.matrix.DomainMap();
+      [&](const auto v, const Entry &entry) { entries[next[v]++] = entry; });
+    const auto &owned = *weights.get_partitioner();
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-      if (const int displacement = displacement_of(B, v);
-          displacement >= 0 && owned.MyGID(displacement))
+      if (const int displacement = B.moved.displacements[v];
+          displacement >= 0 && owned.in_local_range(displacement))
         for (std::size_t k = begin[v]; k < begin[v + 1]; ++k)
-          entries[k].second *= weights.local_element(owned.LID(displacement));
+          entries[k].second *= weights(displacement);
   }
 
   CouplingTranspose::Rows
   CouplingTranspose::exchange(const CouplingRows        &B,
                               const LevelVector<double> &weights) const
   {
-    const Epetra_Map &owned = B.matrix.DomainMap();
-    const MPI_Comm    comm  = communicator(owned);
-    std::vector<int>  ends =
-      Utilities::MPI::all_gather(comm, owned.NumMyElements());
+    const auto      &owned = *weights.get_partitioner();
+    const MPI_Comm   comm  = owned.get_mpi_communicator();
+    std::vector<int> ends =
+      Utilities::MPI::all_gather(comm,
+                                 static_cast<int>(owned.locally_owned_size()));
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     SentEntries to_owners;
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-      if (const int displacement = displacement_of(B, v);
-          displacement >= 0 && !owned.MyGID(displacement))
+      if (const int displacement = B.moved.displacements[v];
+          displacement >= 0 && !owned.in_local_range(displacement))
         {
           auto &list =
             to_owners[std::upper_bound(ends.begin(), ends.end(), displacement) -
@@ -107,13 +107,14 @@ namespace mortise
          Utilities::MPI::some_to_some(comm, to_owners))
       for (const SentEntry &entry : list)
         {
-          rows[entry.displacement].emplace_back(
-            entry.multiplier,
-            entry.value * weights.local_element(owned.LID(entry.displacement)));
+          rows[entry.displacement].emplace_back(entry.multiplier,
+                                                entry.value *
+                                                  weights(entry.displacement));
           asked[rank].insert(entry.displacement);
         }
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-      if (const auto row = rows.find(displacement_of(B, v)); row != rows.end())
+      if (const auto row = rows.find(B.moved.displacements[v]);
+          row != rows.end())
         row->second.insert(row->second.end(),
                            entries.begin() + begin[v],
                            entries.begin() + begin[v + 1]);
@@ -141,7 +142,7 @@ namespace mortise
     entries.reserve(n_entries);
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
       {
-        if (const auto row = rows.find(displacement_of(B, v));
+        if (const auto row = rows.find(B.moved.displacements[v]);
             row != rows.end())
           entries.insert(entries.end(), row->second.begin(), row->second.end());
         else

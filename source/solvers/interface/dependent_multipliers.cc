@@ -19,7 +19,7 @@ namespace mortise
         result[i] = std::sqrt(square[i]);
       return result;
     };
-    Epetra_CrsMatrix B(system.coupling.trilinos_matrix());
+    Epetra_CrsMatrix B = system.coupling.expanded();
     B.LeftScale(root(residual.inverse_diagonal_lambda()));
     B.RightScale(root(residual.inverse_diagonal_u()));
     Epetra_CrsMatrix C(Copy, B.RowMap(), 0);

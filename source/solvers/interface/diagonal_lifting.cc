@@ -19,8 +19,8 @@ namespace mortise
     for (const auto &leading : system.nodal->leading_displacements())
       weights.local_element(leading.index) = 0.;
     schur = weighted_square(rows, weights);
-    if (system.frames.m() > 0)
-      schur = in_frames(schur, system.frames.trilinos_matrix());
+    if (system.coupling.has_frames())
+      schur = in_frames(schur, system.coupling.frames());
     if (system.has_springs())
       add(schur, system.spring_compliance.trilinos_matrix());
     if (!system.active)
@@ -34,7 +34,7 @@ namespace mortise
   {
     factorise_active(select(schur,
                             *system.active,
-                            system.coupling.trilinos_matrix().Comm()));
+                            system.coupling.row_map().Comm()));
     return is_valid();
   }
 
@@ -64,7 +64,7 @@ namespace mortise
     };
     factorise(std::move(active),
               multiply,
-              system.coupling.trilinos_matrix().RowMap(),
+              system.coupling.row_map(),
               max_gathered);
   }
 

@@ -22,7 +22,7 @@ namespace mortise
     : system(system)
     , product(product)
     , lifting(lifting)
-    , jump(system.coupling.trilinos_matrix().RowMap())
+    , jump(system.coupling.row_map())
     , multiplier(jump)
     , carried(jump)
     , added(jump)

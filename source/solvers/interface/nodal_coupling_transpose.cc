@@ -50,7 +50,7 @@ namespace mortise
     for (unsigned int c = 0; c < dim; ++c)
       for (unsigned int i = 0; i < B.moved.n_nodes; ++i)
         if (const unsigned int v = dim * i + c;
-            !is_common[i] && B.moved.column_of_value[v] >= 0)
+            !is_common[i] && B.moved.displacements[v] >= 0)
           {
             row_of[v] = begin.size() - 1;
             add_row(rows[v]);

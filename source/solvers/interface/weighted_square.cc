@@ -19,7 +19,7 @@ namespace mortise
              const NodalCouplingTranspose &transposed,
              const NodeNumbers            &numbers)
         : transposed(transposed)
-        , entities(B.entities)
+        , entities(B.multipliers.entities)
         , rows(B.rows)
         , index(numbers.global.size())
         , mark(numbers.global.size(), -1)
@@ -284,8 +284,8 @@ namespace mortise
                   const LevelVector<double> &weights)
   {
     CouplingTranspose            transposed(coupling, weights);
-    const NodeNumbers            numbers = number_nodes(coupling.entities,
-                                             coupling.matrix.RowMap(),
+    const NodeNumbers            numbers = number_nodes(coupling.multipliers,
+                                             coupling.matrix.scalar().RowMap(),
                                              transposed.multipliers);
     const NodalCouplingTranspose by_node(std::move(transposed),
                                          coupling,

@@ -54,7 +54,7 @@ namespace mortise
       valid    = vertices->is_valid();
       if (system.owned_multiplier.size() > 0)
         {
-          const CouplingRows rows(system.coupling_by_component(), true);
+          const CouplingRows rows(system.coupling);
           product    = std::make_unique<CouplingProduct<Number>>(system, rows);
           lifting    = std::make_unique<DiagonalLifting>(system,
                                                       rows,

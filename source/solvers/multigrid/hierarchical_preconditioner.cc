@@ -75,7 +75,7 @@ namespace mortise
           valid     = lifting->is_valid();
           projector = std::make_unique<ConstraintProjector>(
             system,
-            CouplingRows(system.coupling.trilinos_matrix(), false),
+            CouplingRows(system.coupling),
             *lifting);
         }
     }

@@ -26,7 +26,7 @@ namespace mortise
     , smoother(smoother)
   {
     const auto transposed =
-      transpose(system.coupling.trilinos_matrix(),
+      transpose(system.coupling.by_displacement(),
                 system.stiffness.trilinos_matrix().RowMap());
     std::unique_ptr<Epetra_CrsMatrix> imported;
     if (smoother.importer() != nullptr)

@@ -28,7 +28,7 @@ namespace mortise
   class CouplingProduct
   {
   public:
-    /// @p rows: of system.coupling, or by component. Collective.
+    /// @p rows: of system.coupling. Collective.
     CouplingProduct(const BlockSystem &system, const CouplingRows &rows);
 
     /// The owned displacements that multipliers of any rank move.
@@ -98,7 +98,7 @@ namespace mortise
                               const Epetra_Vector &y,
                               CoupledNodes         nodes) const;
 
-    /// Epetra's R where rows are by component and multipliers are not.
+    /// Those of the matrix, if it has some.
     const Epetra_CrsMatrix                        *frames = nullptr;
     mutable std::unique_ptr<Epetra_Vector>         by_component;
     const unsigned int                                         n_components;

@@ -21,7 +21,7 @@ namespace mortise
                       const LevelVector<double> &weights);
 
     Epetra_Map               multipliers; ///< those that entries refer to
-    std::vector<std::size_t> begin;   ///< by value, as in CouplingRows::moved
+    std::vector<std::size_t> begin;       ///< by CouplingColumns::displacements
     std::vector<Entry>       entries; ///< multipliers by their index in the map
 
   private:

@@ -2,34 +2,37 @@
 // together.
 #pragma once
 
-#include <Epetra_CrsMatrix.h>
 #include <Epetra_Map.h>
-#include <mortise/solvers/epetra_tools.h>
+#include <mortise/mortar/coupling_matrix.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// Rows of B with the same columns and the nodes that they belong to.
-  struct NodeGroup
-  {
-    RowGroup     rows;
-    int          node      = 0; ///< of the first row
-    unsigned int component = 0;
-  };
-
-  /// The nodes of one entity.
+  /// The nodes of one entity of the mesh, numbered on this rank.
   struct EntityNodes
   {
-    int                    first = 0, n_nodes = 0;
-    std::vector<NodeGroup> groups;
+    int first = 0, n_nodes = 0;
+    int first_row = 0, n_rows = 0; ///< of all components
   };
 
-  /// The owned rows by entity: a component that does not follow the one
+  /// The owned rows of B_c by entity: a component that does not follow the one
   /// before begins another. What rows stand for does not matter, only that
   /// each node has one row of a component at most.
-  std::vector<EntityNodes>
-  group_by_entity(const Epetra_CrsMatrix &B);
+  struct MultiplierNodes
+  {
+    explicit MultiplierNodes(const CouplingMatrix &B);
+
+    int
+    size() const
+    {
+      return entities.empty() ? 0 :
+                                entities.back().first + entities.back().n_nodes;
+    }
+
+    std::vector<EntityNodes> entities;
+    std::vector<int>         node_of_row;
+  };
 
   /// Owned nodes, by their number on this rank, and others behind them.
   struct NodeNumbers
@@ -38,10 +41,10 @@ namespace mortise
     std::vector<int> global;
   };
 
-  /// @p rows: of B. @p columns: multipliers, those of other ranks among them.
+  /// @p rows: of B_c. @p columns: rows, those of other ranks among them.
   /// Collective.
   NodeNumbers
-  number_nodes(const std::vector<EntityNodes> &entities,
-               const Epetra_Map               &rows,
-               const Epetra_BlockMap          &columns);
+  number_nodes(const MultiplierNodes &nodes,
+               const Epetra_Map      &rows,
+               const Epetra_BlockMap &columns);
 } // namespace mortise
