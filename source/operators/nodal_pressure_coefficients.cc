@@ -4,6 +4,7 @@
 #include <mortise/operators/nodal_system.h>
 
 #include <algorithm>
+#include <map>
 
 namespace mortise
 {
@@ -12,30 +13,36 @@ namespace mortise
   namespace
   {
     /// For the pressures of the owned cells of all bodies: what
-    /// read(body, dof, node) returns, times @p matrix(degree) along each line,
-    /// to write(body, dof, node, value).
-    template <typename Matrix, typename Read, typename Write>
+    /// read(body, dof, node) returns, by @p transform, to
+    /// write(body, dof, node, value).
+    template <typename Read, typename Write>
     void
     transform_pressures(const NodalSpace &space,
-                        const Matrix     &matrix,
-                        const Read       &read,
-                        const Write      &write)
+                        void (CellOrder::*transform)(),
+                        const Read  &read,
+                        const Write &write)
     {
+      std::map<std::pair<unsigned int, unsigned int>, CellOrder>
+                                           orders; // by body and element
       std::vector<types::global_dof_index> dofs;
-      std::vector<double>                  values;
       space.for_each_cell(
         [&](const Body &body, const auto &cell, const auto &nodes) {
-          const auto         own    = body.pressure->cell(cell);
-          const unsigned int degree = own->get_fe().degree;
-          const auto         order  = cell_dof_indices(degree);
-          dofs.resize(order.size());
+          const auto own = body.pressure->cell(cell);
+          CellOrder &order =
+            orders
+              .try_emplace({body.index, own->active_fe_index()}, own->get_fe())
+              .first->second;
+          dofs.resize(order.scalar.size());
           own->get_dof_indices(dofs);
-          values.clear();
-          for (const unsigned int i : order)
-            values.push_back(read(body, dofs[i], nodes[i]));
-          transform_along_lines(matrix(degree), values);
-          for (unsigned int k = 0; k < order.size(); ++k)
-            write(body, dofs[order[k]], nodes[order[k]], values[k]);
+          for (unsigned int k = 0; k < order.scalar.size(); ++k)
+            order.values[k] =
+              read(body, dofs[order.scalar[k]], nodes[order.scalar[k]]);
+          (order.*transform)();
+          for (unsigned int k = 0; k < order.scalar.size(); ++k)
+            write(body,
+                  dofs[order.scalar[k]],
+                  nodes[order.scalar[k]],
+                  order.values[k]);
         });
     }
   } // namespace
@@ -48,7 +55,7 @@ namespace mortise
     const auto nodes = pressures->nodes();
     transform_pressures(
       nodes.space,
-      modes_to_nodes,
+      &CellOrder::transform_to_nodes,
       [&](const Body &body, const auto dof, const auto) {
         return coefficient(body.index, dof);
       },
@@ -72,7 +79,7 @@ namespace mortise
     const auto nodes = pressures->nodes();
     transform_pressures(
       nodes.space,
-      nodes_to_modes,
+      &CellOrder::transform_to_modes,
       [&](const Body &, const auto, const auto node) {
         return p_in.local_element(nodes.layout.global_to_local(node));
       },

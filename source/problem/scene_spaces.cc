@@ -101,24 +101,19 @@ namespace mortise
     {
       std::vector<const Body *> scene;
       double softest = std::numeric_limits<double>::max(), stiffest = 0.;
-      unsigned int max_degree = 1;
       for (const auto &body : spaces.bodies)
         {
           scene.push_back(body.get());
           softest    = std::min(softest, body->material.softest_modulus());
           stiffest   = std::max(stiffest, body->material.stiffest_modulus());
-          max_degree = std::max(max_degree, body->statistics().degree_max);
         }
-      const bool nodal = NodalSpace::represents(scene);
       const bool mixed = spaces.fields.pressure.numbering.size() > 0;
       spaces.choice =
         choose_solver(run.parameters.solver.method,
                       {spaces.fields.displacement.numbering.size(),
-                       max_degree,
-                       nodal,
                        mixed,
                        stiffest / softest});
-      if (!nodal || spaces.choice.method == SolverMethod::direct)
+      if (spaces.choice.method == SolverMethod::direct)
         return;
       spaces.nodal = make_nodal_spaces(scene, run.comm);
       if (mixed)

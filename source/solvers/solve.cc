@@ -14,14 +14,7 @@ namespace mortise
 {
   namespace
   {
-    /// Where K needs a matrix, a factorisation (MUMPS) is the fastest up to
-    /// about 2,500 p^2 dofs, since dense blocks suit it. Whole runs on one
-    /// core, direct against condensed: degree 2, 94,650 dofs: 14 s, 7 s; degree
-    /// 4, 30,426: 4.5 s, 6.4 s, and 94,650: 21 s, 18 s; degree 5, 56,661: 13 s,
-    /// 15 s; degree 6, 94,776: 44 s, 38 s. Its memory sets the second limit.
-    /// Without a matrix condensed wins from the smallest scenes on (720 dofs of
-    /// degree 2: 0.05 s, 0.02 s; 27,918 of degree 8: 9.8 s, 0.63 s).
-    constexpr unsigned int direct_dofs     = 2500;
+    /// What a factorisation may need of memory.
     constexpr unsigned int max_direct_dofs = 100000;
     /// A stiff body that a soft one holds: preconditioners in single precision
     /// see how it moves up to a contrast of 1e7 (tests/solvers/contrast.cc).
@@ -50,23 +43,13 @@ namespace mortise
   {
     if (asked != SolverMethod::automatic)
       return {asked, ""};
-    const SolverMethod iterative =
-      scene.mixed ? SolverMethod::saddle_point : SolverMethod::condensed;
-    const std::string form = scene.mixed ? " in mixed form" : "";
     if (scene.contrast > largest_contrast &&
         scene.n_displacements <= max_direct_dofs)
       return {SolverMethod::direct,
               "chosen since moduli differ by more than a million"};
-    if (scene.nodal)
-      return {iterative, "chosen where no matrix is needed" + form};
-    const auto limit =
-      std::min(direct_dofs * scene.max_degree * scene.max_degree,
-               max_direct_dofs);
-    if (scene.n_displacements <= limit)
-      return {SolverMethod::direct,
-              "chosen for at most " + std::to_string(limit) + " dofs"};
-    return {iterative,
-            "chosen for more than " + std::to_string(limit) + " dofs" + form};
+    if (scene.mixed)
+      return {SolverMethod::saddle_point, "chosen in mixed form"};
+    return {SolverMethod::condensed, "chosen in displacement form"};
   }
 
   std::unique_ptr<LinearSolver>

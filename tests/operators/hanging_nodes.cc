@@ -7,8 +7,8 @@
 // from these; that transfers between degrees keep functions and are transposes
 // of each other; that the matrix of vertices is the product on its level. The
 // same on every number of ranks.
-#include <mortise/body/elements/fe_legendre.h>
 #include <mortise/operators/cells/cell_kernel.h>
+#include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/levels/degree_transfer.h>
 #include <mortise/operators/levels/nodal_block_operator.h>
 #include <mortise/operators/levels/vertex_matrix.h>
@@ -38,6 +38,11 @@ namespace mortise::testing
     result.source       = "box";
     result.extent       = {0., 0., 0., 1., 2., 3.};
     result.subdivisions = {2, 2, 2};
+    if (kind == "tetrahedra")
+      {
+        result.cells = kind;
+        return result;
+      }
     result.refine_near =
       kind == "once" ? "0.5, 1, 0, 0.1, 1" : "0, 0, 0, 0.1, 2; 1, 2, 3, 0.1, 1";
     return result;
@@ -111,24 +116,19 @@ namespace mortise::testing
   /// Values of one component at the nodes of a cell, in the order of both
   /// elements.
   std::vector<double>
-  values_at_nodes(const Body               &body,
-                  const Body::CellIterator &cell,
+  values_at_nodes(const Body::CellIterator &cell,
                   const BodyVector         &u,
                   const unsigned int        c)
   {
-    const unsigned int                   p = body.degree(cell), n = p + 1;
-    const auto                           order  = cell_dof_indices(p);
-    const auto                          &matrix = modes_to_nodes(p);
+    CellOrder                            order(cell->get_fe());
     std::vector<types::global_dof_index> dofs(cell->get_fe().n_dofs_per_cell());
     cell->get_dof_indices(dofs);
-    TensorArray modes{{{n, n, n}}, {}};
-    for (const unsigned int i : order)
-      modes.values.push_back(
-        u(dofs[cell->get_fe().component_to_system_index(c, i)]));
-    const auto values = apply_product(matrix, matrix, matrix, modes).values;
-    std::vector<double> result(values.size());
-    for (unsigned int i = 0; i < values.size(); ++i)
-      result[order[i]] = values[i];
+    for (unsigned int i = 0; i < order.values.size(); ++i)
+      order.values[i] = u(dofs[order.modes[c][i]]);
+    order.transform_to_nodes();
+    std::vector<double> result(order.values.size());
+    for (unsigned int i = 0; i < order.values.size(); ++i)
+      result[order.scalar[i]] = order.values[i];
     return result;
   }
 
@@ -142,7 +142,7 @@ namespace mortise::testing
       [&](const Body &body, const auto &cell, const auto &nodes) {
         for (unsigned int c = 0; c < dim; ++c)
           {
-            const auto values = values_at_nodes(body, cell, u[body.index], c);
+            const auto values = values_at_nodes(cell, u[body.index], c);
             for (unsigned int i = 0; i < nodes.size(); ++i)
               if (level.layout->in_local_range(dim * nodes[i] + c))
                 result.local_element(level.layout->global_to_local(
@@ -331,6 +331,13 @@ main(int argc, char **argv)
   check("p in 1, 2, 3, 4, 6", {"twice"}, {{1, 2, 3, 4, 6}});
   check("p in 3, 8, 5", {"once"}, {{3, 8, 5}});
   check("p in 2, 3, 4, 5, curved", {"curved"}, {{2, 3, 4, 5}});
+  check("tetrahedra, p in 1, 2", {"tetrahedra"}, {{1, 2}});
+  check("tetrahedra, p in 2, 3", {"tetrahedra"}, {{2, 3}});
+  check("tetrahedra, p in 1, 4, 3, 6", {"tetrahedra"}, {{1, 4, 3, 6}});
+  check("tetrahedra, p in 8, 2", {"tetrahedra"}, {{8, 2}});
+  check("hexahedra and tetrahedra, p in 2, 4; 3, 1, 5",
+        {"once", "tetrahedra"},
+        {{2, 4}, {3, 1, 5}});
   check("three bodies, p in 2, 4; 3; 1, 5",
         {"once", "twice", "curved"},
         {{2, 4}, {3}, {1, 5}});

@@ -58,7 +58,7 @@ namespace
     options.method =
       choose_solver(
         solver_method_from_name(method),
-        {system.owned_displacement.size(), system.max_degree, false, false, 1.})
+        {system.owned_displacement.size(), false, 1.})
         .method;
     options.tolerance      = 1e-11;
     options.max_iterations = max_iterations;

@@ -16,8 +16,6 @@ namespace mortise
   struct SceneSize
   {
     dealii::types::global_dof_index n_displacements;
-    unsigned int                    max_degree;
-    bool                            nodal;    ///< has a NodalSpace
     bool                            mixed;    ///< has pressures
     double                          contrast; ///< largest ratio of moduli
   };

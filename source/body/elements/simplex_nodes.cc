@@ -13,9 +13,6 @@ namespace mortise
 
   namespace
   {
-    /// Vertices of a line, a face or the whole cell, as bits.
-    using VertexSet = unsigned int;
-
     constexpr VertexSet whole_cell = 15;
 
     VertexSet
@@ -31,21 +28,24 @@ namespace mortise
              1u << tetrahedron_faces[f][2];
     }
 
-    /// By function of the element: what it belongs to, in local vertices.
-    std::vector<VertexSet>
-    sets_of_functions(const unsigned int degree)
-    {
-      std::vector<VertexSet> sets;
-      for (unsigned int v = 0; v < 4; ++v)
-        sets.push_back(1u << v);
-      for (unsigned int l = 0; l < 6; ++l)
-        sets.insert(sets.end(), n_line_modes(degree), line_set(l));
-      for (unsigned int f = 0; f < 4; ++f)
-        sets.insert(sets.end(), n_face_modes(degree), face_set(f));
-      sets.insert(sets.end(), n_interior_modes(degree), whole_cell);
-      return sets;
-    }
+  } // namespace
 
+  std::vector<VertexSet>
+  sets_of_functions(const unsigned int degree)
+  {
+    std::vector<VertexSet> sets;
+    for (unsigned int v = 0; v < 4; ++v)
+      sets.push_back(1u << v);
+    for (unsigned int l = 0; l < 6; ++l)
+      sets.insert(sets.end(), n_line_modes(degree), line_set(l));
+    for (unsigned int f = 0; f < 4; ++f)
+      sets.insert(sets.end(), n_face_modes(degree), face_set(f));
+    sets.insert(sets.end(), n_interior_modes(degree), whole_cell);
+    return sets;
+  }
+
+  namespace
+  {
     struct SimplexTables
     {
       explicit SimplexTables(const unsigned int degree)

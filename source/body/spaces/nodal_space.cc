@@ -9,6 +9,7 @@
 #include <mortise/body/elements/legendre_elements.h>
 #include <mortise/body/spaces/nodal_conformity.h>
 #include <mortise/body/spaces/nodal_space.h>
+#include <mortise/body/spaces/simplex_nodal_conformity.h>
 
 #include <algorithm>
 #include <map>
@@ -62,7 +63,9 @@ namespace mortise
     };
     hp::FECollection<dim> fe;
     if (body.mesh.tetrahedra)
-      distribute_legendre_dofs(used, degree_of, 1, fe, lattice->handler);
+      distribute_simplex_nodes({used.begin(), used.end()},
+                               degree_of,
+                               lattice->handler);
     else
       distribute_dofs_by_degree(
         used,
@@ -87,9 +90,14 @@ namespace mortise
           IndexSet active;
           DoFTools::extract_locally_active_dofs(lattice.handler, active);
           AffineConstraints<double> constraints;
-          make_nodal_constraints(lattice.handler,
-                                 *lattice.degrees,
-                                 constraints);
+          if (body->mesh.tetrahedra)
+            make_simplex_nodal_constraints(lattice.handler,
+                                           *lattice.degrees,
+                                           constraints);
+          else
+            make_nodal_constraints(lattice.handler,
+                                   *lattice.degrees,
+                                   constraints);
           constraints.close();
           for (const auto &line : constraints.get_lines())
             if (active.is_element(line.index))
@@ -115,15 +123,6 @@ namespace mortise
         hanging.add_entries(node, entries);
       }
     hanging.close();
-  }
-
-  bool
-  NodalSpace::represents(const std::vector<const Body *> &bodies)
-  {
-    return std::none_of(bodies.begin(), bodies.end(), [](const Body *body) {
-      return body->mesh.tetrahedra &&
-             (body->pressure || body->fe[0].degree != body->max_degree());
-    });
   }
 
   Body::CellIterator

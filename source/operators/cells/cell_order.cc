@@ -33,18 +33,18 @@ namespace mortise
         .values;
   }
 
-  CellOrder::CellOrder(const FiniteElement<dim> &system)
-    : degree(system.degree)
-    , tetrahedra(system.reference_cell() == ReferenceCells::Tetrahedron)
+  CellOrder::CellOrder(const FiniteElement<dim> &element)
+    : degree(element.degree)
+    , tetrahedra(element.reference_cell() == ReferenceCells::Tetrahedron)
     , scalar(
         tetrahedra ?
-          ascending_dof_indices(degree, SimplexElements::base(system).order) :
+          ascending_dof_indices(degree, SimplexElements::base(element).order) :
           cell_dof_indices(degree))
     , values(scalar.size())
   {
-    for (unsigned int c = 0; c < dim; ++c)
+    for (unsigned int c = 0; c < element.n_components(); ++c)
       for (const unsigned int i : scalar)
-        modes[c].push_back(system.component_to_system_index(c, i));
+        modes[c].push_back(element.component_to_system_index(c, i));
   }
 
   void

@@ -2,6 +2,8 @@
 #include <deal.II/fe/fe_system.h>
 
 #include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/simplex_elements.h>
+#include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/cells/element_schur.h>
 #include <mortise/operators/cells/pressure_kernel.h>
@@ -31,24 +33,127 @@ namespace mortise
       return constrained;
     }
 
-    /// What the cells of one body share.
-    struct ClampedCellKernel
+    /// With rows and columns from the modes of @p element, of tetrahedra, to values at its nodes.
+    FullMatrix<double>
+    modes_at_nodes(const FE_SimplexLegendre &element)
     {
-      ClampedCellKernel(const Body &body, const unsigned int degree)
-        : system(FE_Q<dim>(degree), dim)
-        , stiffness(body, system)
-        , pressure(body, system, FE_Q<dim>(degree - 1))
-        , K(system.n_dofs_per_cell())
+      const auto  order = ascending_dof_indices(element.degree, element.order);
+      const auto &ascending = simplex_nodes_to_modes(element.degree);
+      FullMatrix<double> result(order.size());
+      for (unsigned int i = 0; i < order.size(); ++i)
+        for (unsigned int k = 0; k < order.size(); ++k)
+          result(order[i], order[k]) = ascending(i, k);
+      return result;
+    }
+
+    /// What the cells of one body with one element share: functions are those of
+    /// nodes, in the order of NodalSpace::get_nodes().
+    class ClampedCellKernel
+    {
+    public:
+      ClampedCellKernel(const Body               &body,
+                        const FiniteElement<dim> &element,
+                        const unsigned int        degree)
+        : system(make_system(element, degree))
+        , stiffness(body, *system)
+        , pressure(body, *system, *make_pressure(element, degree))
       {
-        for (const unsigned int f : GeometryInfo<dim>::face_indices())
-          faces.push_back(face_dof_indices(degree, f));
+        K.reinit(system->n_dofs_per_cell(), system->n_dofs_per_cell());
+        if (element.reference_cell() == ReferenceCells::Hexahedron)
+          for (const unsigned int f : GeometryInfo<dim>::face_indices())
+            faces.push_back(face_dof_indices(degree, f));
+        else
+          {
+            const FE_SimplexLegendre own(degree, order_of(element)),
+              of_pressure(degree - 1, order_of(element));
+            for (unsigned int f = 0; f < 4; ++f)
+              faces.push_back(trace_dof_indices(own, f));
+            to_modes          = by_component(modes_at_nodes(own));
+            pressure_to_modes = modes_at_nodes(of_pressure);
+          }
       }
 
-      FESystem<dim>                          system;
-      CellKernel                             stiffness;
-      PressureKernel                         pressure;
-      FullMatrix<double>                     K;
-      std::vector<std::vector<unsigned int>> faces; ///< nodes of each
+      void
+      compute(const Body::CellIterator &cell)
+      {
+        stiffness.compute(cell, K);
+        pressure.compute(cell);
+        G = pressure.divergence();
+        M = pressure.mass();
+        if (to_modes.m() == 0)
+          return;
+        K = product(to_modes, K, to_modes);
+        G = product(pressure_to_modes, G, to_modes);
+        M = product(pressure_to_modes, M, pressure_to_modes);
+      }
+
+      std::pair<unsigned int, unsigned int>
+      component_and_node(const unsigned int k) const
+      {
+        return system->system_to_component_index(k);
+      }
+
+      std::vector<std::vector<unsigned int>> faces;   ///< nodes of each
+      FullMatrix<double>                     K, G, M; ///< see PressureKernel
+
+    private:
+
+      static const VertexOrder &
+      order_of(const FiniteElement<dim> &element)
+      {
+        return SimplexElements::base(element).order;
+      }
+
+      static std::unique_ptr<FiniteElement<dim>>
+      make_system(const FiniteElement<dim> &element, const unsigned int degree)
+      {
+        if (element.reference_cell() == ReferenceCells::Hexahedron)
+          return std::make_unique<FESystem<dim>>(FE_Q<dim>(degree), dim);
+        return make_simplex_system(FE_SimplexLegendre(degree,
+                                                      order_of(element)),
+                                   dim);
+      }
+
+      static std::unique_ptr<FiniteElement<dim>>
+      make_pressure(const FiniteElement<dim> &element,
+                    const unsigned int        degree)
+      {
+        if (element.reference_cell() == ReferenceCells::Hexahedron)
+          return std::make_unique<FE_Q<dim>>(degree - 1);
+        return std::make_unique<FE_SimplexLegendre>(degree - 1,
+                                                    order_of(element));
+      }
+
+      /// @p scalar for the three components of the system.
+      FullMatrix<double>
+      by_component(const FullMatrix<double> &scalar) const
+      {
+        FullMatrix<double> result(dim * scalar.m());
+        for (unsigned int i = 0; i < scalar.m(); ++i)
+          for (unsigned int k = 0; k < scalar.n(); ++k)
+            for (unsigned int c = 0; c < dim; ++c)
+              result(system->component_to_system_index(c, i),
+                     system->component_to_system_index(c, k)) = scalar(i, k);
+        return result;
+      }
+
+      /// left^T A right.
+      static FullMatrix<double>
+      product(const FullMatrix<double> &left,
+              const FullMatrix<double> &A,
+              const FullMatrix<double> &right)
+      {
+        FullMatrix<double> half(A.m(), right.n()), result(left.n(), right.n());
+        A.mmult(half, right);
+        left.Tmmult(result, half);
+        return result;
+      }
+
+      const std::unique_ptr<FiniteElement<dim>> system;
+      CellKernel                                stiffness;
+      PressureKernel                            pressure;
+      /// Of tetrahedra, whose kernels are those of modes.
+      FullMatrix<double> to_modes, pressure_to_modes;
     };
 
     /// What takes the place of the mass matrix, less this.
@@ -58,13 +163,11 @@ namespace mortise
                    const Body::CellIterator        &cell,
                    const std::vector<unsigned int> &free)
     {
-      kernel.stiffness.compute(cell, kernel.K);
-      kernel.pressure.compute(cell);
-      FullMatrix<double> schur =
-        element_schur(kernel.K, kernel.pressure.divergence(), free);
+      kernel.compute(cell);
+      FullMatrix<double> schur = element_schur(kernel.K, kernel.G, free);
       schur.add(body.material.compressibility() -
                   (1. - regular_part) * body.material.pressure_norm(),
-                kernel.pressure.mass());
+                kernel.M);
       return schur;
     }
   } // namespace
@@ -77,7 +180,7 @@ namespace mortise
     std::vector<NodalSpace::Index> of_pressure;
     std::map<std::pair<unsigned int, unsigned int>,
              std::unique_ptr<ClampedCellKernel>>
-                              kernels; // by body and degree
+                              kernels; // by body and element
     std::vector<char>         is_constrained;
     std::vector<unsigned int> free;
     level.space->for_each_cell(
@@ -85,9 +188,10 @@ namespace mortise
         const unsigned int degree = level.space->degree(body, cell);
         if (!body.pressure || degree > highest_degree)
           return;
-        auto &kernel = kernels[{body.index, degree}];
+        auto &kernel = kernels[{body.index, cell->active_fe_index()}];
         if (!kernel)
-          kernel = std::make_unique<ClampedCellKernel>(body, degree);
+          kernel =
+            std::make_unique<ClampedCellKernel>(body, cell->get_fe(), degree);
         is_constrained.resize(dim * of_cell.size());
         for (unsigned int i = 0; i < of_cell.size(); ++i)
           for (unsigned int c = 0; c < dim; ++c)
@@ -106,7 +210,7 @@ namespace mortise
         free.clear();
         for (unsigned int k = 0; k < kernel->K.m(); ++k)
           {
-            const auto [c, i] = kernel->system.system_to_component_index(k);
+            const auto [c, i] = kernel->component_and_node(k);
             if (!is_constrained[dim * i + c])
               free.push_back(k);
           }

@@ -72,8 +72,10 @@ namespace mortise
           return;
         batches.compressibility = body.material.compressibility();
         batches.pressure_norm   = body.material.pressure_norm();
-        pressure_lexicographic =
-          FETools::lexicographic_to_hierarchic_numbering<dim>(degree - 1);
+        pressure_order =
+          batches.tetrahedra ?
+            ascending_dof_indices(degree - 1, order()) :
+            FETools::lexicographic_to_hierarchic_numbering<dim>(degree - 1);
       }
 
       /// What is wrong, if anything.
@@ -93,7 +95,7 @@ namespace mortise
                               (batches.n_batches - batches.n_affine) *
                                 quadrature.size() * point);
         batches.pressure_nodes.resize(batches.n_batches *
-                                      pressure_lexicographic.size() * width);
+                                      pressure_order.size() * width);
         for (unsigned int i = 0; i < cells.all.size(); ++i)
           {
             const bool         affine = i < cells.n_affine;
@@ -185,7 +187,7 @@ namespace mortise
               &batches.pressure_nodes[(std::size_t(batch) * nodes.size() + i) *
                                       width];
             to[lane] = pressures->layout.global_to_local(
-              nodes[pressure_lexicographic[i]]);
+              nodes[pressure_order[i]]);
             if (lane == 0)
               std::fill(to + 1, to + width, to[0]);
           }
@@ -235,7 +237,7 @@ namespace mortise
       std::vector<Tensor<2, dim>>        axes; ///< of the rule on tetrahedra
       const Quadrature<dim>              quadrature;
       CellGeometry                       geometry;
-      std::vector<unsigned int>          node_order, pressure_lexicographic;
+      std::vector<unsigned int>          node_order, pressure_order;
       std::vector<NodalSpace::Index>     nodes;
     };
   } // namespace
@@ -278,13 +280,14 @@ namespace mortise
             tangled = builder.build();
           groups.push_back(std::move(builder.batches));
           std::unique_ptr<Kernel> kernel;
-          if (groups.back().tetrahedra)
-            kernel = make_simplex_kernel(groups.back());
+          const CellBatches<Number> &cells = groups.back();
           if constexpr (std::is_same_v<Number, double>)
-            if (!groups.back().pressure_nodes.empty())
-              kernel = make_mixed_kernel(groups.back().degree);
+            if (!cells.pressure_nodes.empty())
+              kernel = cells.tetrahedra ? make_mixed_simplex_kernel(cells) :
+                                          make_mixed_kernel(cells.degree);
           if (!kernel)
-            kernel = make_kernel(groups.back().degree);
+            kernel = cells.tetrahedra ? make_simplex_kernel(cells) :
+                                        make_kernel(cells.degree);
           mixed.push_back(dynamic_cast<MixedKernel *>(kernel.get()));
           kernels.push_back(std::move(kernel));
         }

@@ -12,6 +12,14 @@
 
 namespace mortise
 {
+  /// Vertices of a line, a face or the whole cell, as bits.
+  using VertexSet = unsigned int;
+
+  /// By function of FE_SimplexLegendre(degree): what it belongs to, in local
+  /// vertices.
+  std::vector<VertexSet>
+  sets_of_functions(unsigned int degree);
+
   /// The points of simplex_interpolation_points() in the order of the functions
   /// of FE_SimplexLegendre(degree) with ascending vertices: as many on each
   /// line, on each face and inside as it has modes there. What is on a line or

@@ -63,11 +63,6 @@ namespace mortise
                const DegreeRule                &rule,
                MPI_Comm                         comm);
 
-    /// Whether the bodies are such that a NodalSpace stands for their spaces:
-    /// those of tetrahedra have one degree and are not in mixed form.
-    static bool
-    represents(const std::vector<const Body *> &bodies);
-
     /// Here, of cells that have degree @p displacement in body @p body.
     unsigned int
     degree(const Body &body, const unsigned int displacement) const

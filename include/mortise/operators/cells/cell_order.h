@@ -23,8 +23,8 @@ namespace mortise
   class CellOrder
   {
   public:
-    /// @p system: of three FE_Legendre or FE_SimplexLegendre.
-    explicit CellOrder(const dealii::FiniteElement<dim> &system);
+    /// @p element: FE_Legendre or FE_SimplexLegendre, or a system of three.
+    explicit CellOrder(const dealii::FiniteElement<dim> &element);
 
     /// Of the function whose coefficients values[] holds.
     void

@@ -1,4 +1,4 @@
-// A dense matrix that acts on three components of several cells at once, one
+// A dense matrix that acts on the components of several cells at once, one
 // cell per lane of a vector of the compiler. It never knows a mesh; only
 // sources of kernels include it.
 #pragma once
@@ -31,40 +31,41 @@ namespace mortise
     }
 
     /// out_c = A in_c, the components of @p in and @p out one after another.
+    template <int n_components = 3>
     void
     apply(const V *in, V *out) const
     {
       const Number *a     = entries.data();
       int           first = 0;
       for (; first + block <= n_rows; first += block, a += block * n_columns)
-        rows<block>(a, in, out + first);
+        rows<block, n_components>(a, in, out + first);
       switch (n_rows - first)
         {
           case 1:
-            return rows<1>(a, in, out + first);
+            return rows<1, n_components>(a, in, out + first);
           case 2:
-            return rows<2>(a, in, out + first);
+            return rows<2, n_components>(a, in, out + first);
           case 3:
-            return rows<3>(a, in, out + first);
+            return rows<3, n_components>(a, in, out + first);
         }
     }
 
   private:
     static constexpr int block = n_register_rows;
 
-    template <int n>
+    template <int n, int n_components>
     void
     rows(const Number *a, const V *in, V *out) const
     {
-      V sum[3][n] = {};
+      V sum[n_components][n] = {};
       for (int k = 0; k < n_columns; ++k, a += n)
-        for (int c = 0; c < 3; ++c)
+        for (int c = 0; c < n_components; ++c)
           {
             const V u = in[c * n_columns + k];
             for (int i = 0; i < n; ++i)
               sum[c][i] += a[i] * u;
           }
-      for (int c = 0; c < 3; ++c)
+      for (int c = 0; c < n_components; ++c)
         for (int i = 0; i < n; ++i)
           out[c * n_rows + i] = sum[c][i];
     }

@@ -30,7 +30,8 @@ namespace mortise
     /// are lexicographic, those of tetrahedra in the order of simplex_nodes().
     /// Lanes without a cell repeat the first and have no metric.
     dealii::AlignedVector<unsigned int> nodes;
-    /// The same of the pressures in mixed form, else empty: indices.
+    /// The same of the pressures in mixed form, of one degree less, else empty:
+    /// indices.
     dealii::AlignedVector<unsigned int> pressure_nodes;
     double compressibility = 0., pressure_norm = 0.;
     /// dxi_a/dx_e sqrt(|J|) as [batch][a][e][lane] on affine cells; after these
@@ -114,6 +115,8 @@ namespace mortise
     class MixedKernelOfSize;
     template <int degree>
     class SimplexKernel;
+    template <int degree>
+    class MixedSimplexKernel;
 
     static std::unique_ptr<Kernel>
     make_kernel(unsigned int degree);
@@ -121,6 +124,8 @@ namespace mortise
     make_mixed_kernel(unsigned int degree);
     static std::unique_ptr<Kernel>
     make_simplex_kernel(const CellBatches<Number> &cells);
+    static std::unique_ptr<Kernel>
+    make_mixed_simplex_kernel(const CellBatches<Number> &cells);
 
     std::vector<CellBatches<Number>>     groups;
     std::vector<std::unique_ptr<Kernel>> kernels; ///< by group
