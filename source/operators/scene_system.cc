@@ -1,9 +1,5 @@
-#include <deal.II/base/mpi.h>
-
 #include <mortise/operators/assembled/pressure_scatter.h>
 #include <mortise/operators/scene_system.h>
-
-#include <algorithm>
 
 namespace mortise
 {
@@ -121,82 +117,5 @@ namespace mortise
     if (system.mixed())
       load.rhs.pressure.compress(VectorOperation::add);
     return load;
-  }
-
-  namespace
-  {
-    /// Collects blocks of owned dofs, each dof once.
-    class BlockCollector
-    {
-    public:
-      BlockCollector(const IndexSet &owned)
-        : owned(owned)
-        , seen(owned.n_elements(), false)
-      {}
-
-      /// The owned ones among @p dofs that no earlier block has.
-      std::vector<types::global_dof_index>
-      take(const std::vector<types::global_dof_index> &dofs,
-           const unsigned int                          begin,
-           const unsigned int                          end)
-      {
-        std::vector<types::global_dof_index> block;
-        for (unsigned int i = begin; i < end; ++i)
-          if (owned.is_element(dofs[i]) &&
-              !seen[owned.index_within_set(dofs[i])])
-            {
-              seen[owned.index_within_set(dofs[i])] = true;
-              block.push_back(dofs[i]);
-            }
-        return block;
-      }
-
-    private:
-      const IndexSet   &owned;
-      std::vector<bool> seen;
-    };
-  } // namespace
-
-  void
-  describe_structure(const Bodies         &bodies,
-                     const FieldNumbering &numbering,
-                     BlockSystem          &system)
-  {
-    BlockCollector collector(numbering.owned());
-    for (const auto &body : bodies)
-      for (const auto &cell : body->dof_handler.active_cell_iterators())
-        if (cell->is_locally_owned())
-          {
-            const auto &fe = cell->get_fe();
-            const auto  dofs = scene_dofs(body->index, cell, numbering);
-
-            system.max_degree = std::max(system.max_degree, body->degree(cell));
-            const auto take   = [&](const unsigned int begin,
-                                  const unsigned int n) {
-              auto block = collector.take(dofs, begin, begin + n);
-              if (!block.empty())
-                system.entity_blocks.push_back(block);
-              return block;
-            };
-            for (const unsigned int v : cell->vertex_indices())
-              {
-                const auto block = take(dim * v, dim);
-                Assert(block.empty() || block.size() == dim,
-                       ExcInternalError());
-                if (block.empty())
-                  continue;
-                system.vertex_dofs.insert(system.vertex_dofs.end(),
-                                          block.begin(),
-                                          block.end());
-                system.vertex_points.push_back(cell->vertex(v));
-              }
-            for (const unsigned int l : cell->line_indices())
-              take(fe.get_first_line_index() + l * fe.n_dofs_per_line(),
-                   fe.n_dofs_per_line());
-            for (const unsigned int f : cell->face_indices())
-              take(fe.get_first_quad_index(f), fe.n_dofs_per_quad(f));
-          }
-    system.max_degree =
-      Utilities::MPI::max(system.max_degree, system.communicator);
   }
 } // namespace mortise

@@ -63,11 +63,6 @@ namespace mortise
           assemble_compliance(couplings.all(),
                               partition,
                               system.spring_compliance);
-        if (spaces.choice.method != SolverMethod::direct &&
-            spaces.nodal.empty())
-          assemble_jump_penalty(couplings.all(),
-                                partition,
-                                system.jump_penalty);
         if (spaces.has_prescribed_values())
           assemble_prescribed_columns(
             couplings.all(),
@@ -106,7 +101,6 @@ namespace mortise
                        spaces.has_prescribed_values()});
     assembled = assemble_bodies(
       spaces.bodies, kinds, fields.displacement, fields.pressure, system);
-    describe_structure(spaces.bodies, fields.displacement.numbering, system);
     stage.details(std::to_string(system.stiffness.n_nonzero_elements()) +
                   " entries");
   }
@@ -242,12 +236,6 @@ namespace mortise
     couplings.select(*system.active);
     if (system.nodal)
       system.nodal->update_penalties(couplings.all());
-    else if (system.jump_penalty.m() > 0)
-      assemble_jump_penalty(couplings.all(),
-                            {system.owned_displacement,
-                             system.owned_multiplier,
-                             run.comm},
-                            system.jump_penalty);
   }
 
   std::vector<BodySolution>

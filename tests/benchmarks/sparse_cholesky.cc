@@ -158,7 +158,7 @@ namespace
         mortise::SparseMatrix B;
         scene.assemble(B, owned);
         system.drop_constrained_columns(B);
-        // as DiagonalLifting
+        // as Lifting
         LevelVector<double> weights(system.node_diagonal());
         for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
           weights.local_element(i) = 1. / weights.local_element(i);

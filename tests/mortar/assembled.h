@@ -44,7 +44,6 @@ namespace mortise::testing
       : scene(slave, master, comm)
     {
       scene.assemble(B);
-      assemble_jump_penalty(scene.couplings, scene.partition(), J);
     }
 
     mortise::Vector
@@ -75,7 +74,7 @@ namespace mortise::testing
     }
 
     TiedScene             scene;
-    mortise::SparseMatrix B, J;
+    mortise::SparseMatrix B;
   };
 
   /// int q u over the faces of one side, @p u by its coefficients; the faces

@@ -1,10 +1,12 @@
 // Proves that multipliers which depend on others are found, exactly as many as
-// there are: none in a tie of springs, and one for each constraint that is
+// there are: none among independent constraints, and one for each that is
 // added once more, scaled or as the sum of two others.
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+
 #include <mortise/solvers/interface/dependent_multipliers.h>
 #include <verdict.h>
 
-#include "spring_system.h"
+#include "coupling_line.h"
 
 using namespace mortise;
 
@@ -21,10 +23,22 @@ namespace
   unsigned int
   count(const std::vector<Row> &replaced)
   {
-    BlockSystem system =
-      springs::Builder(springs::Options(), MPI_COMM_WORLD).build();
-    SparseMatrix given;
-    given.reinit(system.coupling.by_displacement());
+    const Epetra_CrsMatrix B = CouplingLine{12}.matrix();
+    SparseMatrix           given;
+    given.reinit(B);
+    BlockSystem system;
+    system.communicator       = MPI_COMM_WORLD;
+    system.owned_displacement = dealii::complete_index_set(given.n());
+    system.owned_multiplier   = dealii::complete_index_set(given.m());
+    dealii::DynamicSparsityPattern diagonal(given.n(), given.n());
+    for (unsigned int i = 0; i < given.n(); ++i)
+      diagonal.add(i, i);
+    system.stiffness.reinit(system.owned_displacement,
+                            diagonal,
+                            MPI_COMM_WORLD);
+    for (unsigned int i = 0; i < given.n(); ++i)
+      system.stiffness.set(i, i, 1. + i % 7);
+    system.stiffness.compress(dealii::VectorOperation::insert);
     dealii::DynamicSparsityPattern pattern(given.m(), given.n());
     const auto                     for_each = [&](const auto &visit) {
       for (unsigned int k = 0; k < given.m(); ++k)

@@ -91,13 +91,6 @@ namespace mortise
                               const CouplingPartition     &partition,
                               SparseMatrix                &coupling);
 
-  /// What preconditioners need: the jump penalty J, see BlockSystem; the
-  /// couplings were integrated with the masters' masses. Collective.
-  void
-  assemble_jump_penalty(const std::vector<Coupling> &couplings,
-                        const CouplingPartition     &partition,
-                        SparseMatrix                &jump_penalty);
-
   /// What a multiplier feels of rigid motions: that of component c over a bound
   /// of int |psi|.
   struct MultiplierMoment

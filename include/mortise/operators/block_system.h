@@ -52,8 +52,8 @@ namespace mortise
 
     /// K without a matrix, where it is to be had: displacements are then values
     /// at its nodes, indices are those of its finest level, and stiffness,
-    /// divergence, compliance, pressure_norm, jump_penalty, vertex_dofs,
-    /// vertex_points and entity_blocks are empty.
+    /// divergence, compliance and pressure_norm are empty. Iterative solvers
+    /// need it.
     std::unique_ptr<NodalSystem> nodal;
 
     /// K, symmetric, the interiors of cells eliminated; a constrained or
@@ -82,24 +82,6 @@ namespace mortise
 
     /// S, the compliance of springs: zero, or empty, where bodies are tied.
     SparseMatrix spring_compliance;
-
-    /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the
-    /// softer side: symmetric, positive semi-definite, touches interface dofs
-    /// only. K + J is regular even where K is not; it is for preconditioning
-    /// and never part of the equations.
-    SparseMatrix jump_penalty;
-
-    /// Owned displacement dofs that belong to the degree-one subspace (vertex
-    /// functions), three per vertex, x, y, z consecutive, constrained ones
-    /// included.
-    std::vector<dealii::types::global_dof_index> vertex_dofs;
-    /// The coordinates of the vertex that each three consecutive entries of
-    /// vertex_dofs belong to.
-    std::vector<dealii::Point<dim>> vertex_points;
-    /// Owned displacement dofs grouped by mesh entity (a vertex, edge or face
-    /// with its three components and all modes); a dof of a cell's interior is
-    /// in none and couples with nothing.
-    std::vector<std::vector<dealii::types::global_dof_index>> entity_blocks;
 
     /// Largest polynomial degree in the scene.
     unsigned int max_degree = 1;

@@ -1,6 +1,5 @@
 // The system of a scene from its bodies: constraints in one numbering, the
-// stiffness of all bodies, their loads, and the structure that preconditioners
-// use.
+// stiffness of all bodies and their loads.
 #pragma once
 
 #include <mortise/operators/assembled/elasticity.h>
@@ -52,10 +51,4 @@ namespace mortise
                 const std::vector<AssembledBody> &assembled,
                 const SceneFields                &fields,
                 const BlockSystem                &system);
-
-  /// Fill vertex_dofs, vertex_points, entity_blocks and max_degree of @p system.
-  void
-  describe_structure(const Bodies         &bodies,
-                     const FieldNumbering &numbering,
-                     BlockSystem          &system);
 } // namespace mortise

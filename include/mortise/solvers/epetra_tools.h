@@ -32,21 +32,6 @@ namespace mortise
     }
   };
 
-  /// One integer per owned row, also known on the columns of the matrix.
-  /// Collective.
-  inline std::vector<int>
-  on_columns(const Epetra_CrsMatrix &matrix, const std::vector<int> &owned)
-  {
-    Epetra_IntVector source(matrix.RowMap()), target(matrix.ColMap());
-    std::copy(owned.begin(), owned.end(), source.Values());
-    if (matrix.Importer() != nullptr)
-      target.Import(source, *matrix.Importer(), Insert);
-    else
-      std::copy(owned.begin(), owned.end(), target.Values());
-    return std::vector<int>(target.Values(),
-                            target.Values() + target.MyLength());
-  }
-
   /// The vector as Epetra's solvers take it.
   inline Epetra_MultiVector &
   epetra(Vector &v)
@@ -75,24 +60,4 @@ namespace mortise
   /// All owned rows in such groups.
   std::vector<RowGroup>
   group_rows(const Epetra_CrsMatrix &matrix);
-
-  /// The matrices whose sum is A = K + J; only K without an interface.
-  inline std::vector<const Epetra_CrsMatrix *>
-  summands_of_bulk(const BlockSystem &system)
-  {
-    std::vector<const Epetra_CrsMatrix *> result{
-      &system.stiffness.trilinos_matrix()};
-    if (system.owned_multiplier.size() > 0)
-      result.push_back(&system.jump_penalty.trilinos_matrix());
-    return result;
-  }
-
-  /// First owned displacement dof; 0 on a rank without any.
-  inline dealii::types::global_dof_index
-  first_displacement(const BlockSystem &system)
-  {
-    return system.owned_displacement.n_elements() > 0 ?
-             system.owned_displacement.nth_index_in_set(0) :
-             0;
-  }
 } // namespace mortise

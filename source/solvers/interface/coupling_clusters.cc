@@ -43,12 +43,11 @@ namespace mortise
       for (const auto &leading : system.nodal->leading_displacements())
         leads.local_element(leading.index) = 1.;
     leads.update_ghost_values();
-    std::vector<bool>  result(rows.moved.n_nodes, true);
-    const unsigned int n = rows.moved.n_components;
-    for (unsigned int v = 0; v < n * result.size(); ++v)
+    std::vector<bool> result(rows.moved.n_nodes, true);
+    for (unsigned int v = 0; v < dim * result.size(); ++v)
       if (const int displacement = rows.moved.displacements[v];
           displacement >= 0 && leads(displacement) == 0.)
-        result[v / n] = false;
+        result[v / dim] = false;
     return result;
   }
 

@@ -34,7 +34,6 @@ namespace mortise
   template <typename Number>
   CouplingProduct<Number>::CouplingProduct(const BlockSystem  &system,
                                            const CouplingRows &rows)
-    : n_components(rows.moved.n_components)
   {
     if (rows.matrix.has_frames())
       {
@@ -128,7 +127,7 @@ namespace mortise
             const unsigned int n_nodes = shared.nodes.size();
             for (int r = 0; r < shared.n_rows; ++r)
               {
-                for (unsigned int c = 0; c < n_components; ++c)
+                for (unsigned int c = 0; c < dim; ++c)
                   if (const int first = shared.first_row[c]; first < 0)
                     block.rows.push_back(-1);
                   else
@@ -147,7 +146,7 @@ namespace mortise
         widest = std::max(widest, width);
       }
     entries.resize(size);
-    workspace.resize(n_components * widest);
+    workspace.resize(dim * widest);
     Number *to = entries.data();
     for (unsigned int b = 0; b < blocks.size(); ++b)
       for (auto s = clusters[b].begin; s < clusters[b].end; ++s)
@@ -172,7 +171,6 @@ namespace mortise
   }
 
   template <typename Number>
-  template <unsigned int n_components>
   void
   CouplingProduct<Number>::multiply_block(const Block       &block,
                                           const Number      *block_entries,
@@ -186,33 +184,31 @@ namespace mortise
     const V *row             = reinterpret_cast<const V *>(block_entries);
     V       *gathered        = reinterpret_cast<V *>(workspace.data());
     Number  *to              = workspace.data();
-    std::fill(gathered, gathered + n_components * m, V{});
+    std::fill(gathered, gathered + dim * m, V{});
     for_each_node(block,
                   which,
                   [&](const unsigned int k, const unsigned int at) {
-                    for (unsigned int c = 0; c < n_components; ++c)
-                      to[c * m * w + at] =
-                        values[n_components * block.nodes[k] + c];
+                    for (unsigned int c = 0; c < dim; ++c)
+                      to[c * m * w + at] = values[dim * block.nodes[k] + c];
                   });
     for_each_register_block<n_register_rows>(
       block.own_node.size(), [&](const unsigned int i, const auto n_rows) {
         const V *const from = row + std::size_t(i) * m_all;
-        V              sums[n_rows][n_components];
+        V              sums[n_rows][dim];
         for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int c = 0; c < n_components; ++c)
+          for (unsigned int c = 0; c < dim; ++c)
             sums[r][c] = V{};
         for (unsigned int k = 0; k < m; ++k)
           for (unsigned int r = 0; r < n_rows; ++r)
-            for (unsigned int c = 0; c < n_components; ++c)
+            for (unsigned int c = 0; c < dim; ++c)
               sums[r][c] += from[r * m_all + k] * gathered[c * m + k];
         for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int c = 0; c < n_components; ++c)
-            if (const int j = block.rows[n_components * (i + r) + c]; j >= 0)
+          for (unsigned int c = 0; c < dim; ++c)
+            if (const int j = block.rows[dim * (i + r) + c]; j >= 0)
               {
                 const int own = block.own_node[i + r];
-                Number    sum = own < 0 ? 0 :
-                                          block.own_entry[i + r] *
-                                         values[n_components * own + c];
+                Number    sum =
+                  own < 0 ? 0 : block.own_entry[i + r] * values[dim * own + c];
                 sum += sum_of_batch(reinterpret_cast<Number *>(&sums[r][c]));
                 jump[j] = sum;
               }
@@ -220,7 +216,6 @@ namespace mortise
   }
 
   template <typename Number>
-  template <unsigned int n_components>
   void
   CouplingProduct<Number>::multiply_block_transposed(
     const Block         &block,
@@ -234,22 +229,21 @@ namespace mortise
                        m_all = block.width(CoupledNodes::all) / w;
     const V *row             = reinterpret_cast<const V *>(block_entries);
     V       *sums            = reinterpret_cast<V *>(workspace.data());
-    std::fill(sums, sums + n_components * m, V{});
+    std::fill(sums, sums + dim * m, V{});
     for_each_register_block<n_register_rows>(
       block.own_node.size(), [&](const unsigned int i, const auto n_rows) {
         const V *const from = row + std::size_t(i) * m_all;
-        Number         factor[n_rows][n_components];
+        Number         factor[n_rows][dim];
         for (unsigned int r = 0; r < n_rows; ++r)
-          for (unsigned int c = 0; c < n_components; ++c)
+          for (unsigned int c = 0; c < dim; ++c)
             {
-              const int j  = block.rows[n_components * (i + r) + c];
+              const int j  = block.rows[dim * (i + r) + c];
               factor[r][c] = j < 0 ? Number() : static_cast<Number>(y[j]);
               if (const int own = block.own_node[i + r]; own >= 0)
-                values[n_components * own + c] +=
-                  block.own_entry[i + r] * factor[r][c];
+                values[dim * own + c] += block.own_entry[i + r] * factor[r][c];
             }
         for (unsigned int k = 0; k < m; ++k)
-          for (unsigned int c = 0; c < n_components; ++c)
+          for (unsigned int c = 0; c < dim; ++c)
             {
               V sum = sums[c * m + k];
               for (unsigned int r = 0; r < n_rows; ++r)
@@ -261,9 +255,8 @@ namespace mortise
     for_each_node(block,
                   which,
                   [&](const unsigned int k, const unsigned int at) {
-                    for (unsigned int c = 0; c < n_components; ++c)
-                      values[n_components * block.nodes[k] + c] +=
-                        from[c * m * w + at];
+                    for (unsigned int c = 0; c < dim; ++c)
+                      values[dim * block.nodes[k] + c] += from[c * m * w + at];
                   });
   }
 
@@ -275,14 +268,7 @@ namespace mortise
     const Number *block_entries = entries.data();
     for (const Block &block : blocks)
       {
-        if (n_components == dim)
-          visit(block,
-                block_entries,
-                std::integral_constant<unsigned int, dim>());
-        else
-          visit(block,
-                block_entries,
-                std::integral_constant<unsigned int, 1>());
+        visit(block, block_entries);
         block_entries += block.own_node.size() * block.width(CoupledNodes::all);
       }
   }
@@ -300,8 +286,8 @@ namespace mortise
                     trace.local_element(entry_of_value[v]);
     trace.zero_out_ghost_values();
     Epetra_Vector &to = frames ? *by_component : jump;
-    for_each_block([&](const Block &block, const Number *from, const auto n) {
-      multiply_block<n()>(block, from, to, nodes);
+    for_each_block([&](const Block &block, const Number *from) {
+      multiply_block(block, from, to, nodes);
     });
     if (frames)
       frames->Multiply(false, to, jump);
@@ -317,8 +303,8 @@ namespace mortise
       frames->Multiply(true, y, *by_component);
     const Epetra_Vector &factors = frames ? *by_component : y;
     std::fill(values.begin(), values.end(), Number());
-    for_each_block([&](const Block &block, const Number *from, const auto n) {
-      multiply_block_transposed<n()>(block, from, factors, nodes);
+    for_each_block([&](const Block &block, const Number *from) {
+      multiply_block_transposed(block, from, factors, nodes);
     });
     trace = 0;
     for (unsigned int v = 0; v < values.size(); ++v)

@@ -7,8 +7,7 @@
 namespace mortise
 {
   CouplingColumns::CouplingColumns(const CouplingMatrix &B)
-    : n_components(B.n_components())
-    , node_of_column(B.scalar().NumMyCols(), -1)
+    : node_of_column(B.scalar().NumMyCols(), -1)
   {
     const Epetra_CrsMatrix &matrix = B.scalar();
     // the columns of a rank alone are those of all nodes
@@ -24,16 +23,15 @@ namespace mortise
       if (has_entries[k])
         nodes.emplace_back(matrix.GCID(k), k);
     std::sort(nodes.begin(), nodes.end());
-    const std::vector<double> ones(n_components *
-                                     matrix.DomainMap().NumMyElements(),
+    const std::vector<double> ones(dim * matrix.DomainMap().NumMyElements(),
                                    1.);
     const Epetra_MultiVector  is_free = B.on_columns(ones.data());
     for (const auto &[node, column] : nodes)
       {
         node_of_column[column] = static_cast<int>(n_nodes++);
-        for (unsigned int c = 0; c < n_components; ++c)
+        for (unsigned int c = 0; c < dim; ++c)
           displacements.push_back(is_free[c][column] != 0. ?
-                                    static_cast<int>(n_components) * node +
+                                    static_cast<int>(dim) * node +
                                       static_cast<int>(c) :
                                     -1);
       }

@@ -49,18 +49,17 @@ namespace mortise
                                  const LevelVector<double> &weights)
   {
     const auto for_each_entry = [&B](const auto &visit) {
-      const unsigned int n    = B.moved.n_components;
-      const Epetra_Map  &rows = B.matrix.scalar().RowMap();
+      const Epetra_Map &rows = B.matrix.scalar().RowMap();
       for (const auto &of_entity : B.rows)
         for (const SharedRows &shared : of_entity)
-          for (unsigned int c = 0; c < n; ++c)
+          for (unsigned int c = 0; c < dim; ++c)
             for (int i = 0; i < shared.n_rows && shared.first_row[c] >= 0; ++i)
               {
                 const int     row = rows.GID(shared.first_row[c] + i);
                 const double *from =
                   shared.values.data() + i * shared.nodes.size();
                 for (unsigned int k = 0; k < shared.nodes.size(); ++k)
-                  if (const auto v = n * shared.nodes[k] + c;
+                  if (const auto v = dim * shared.nodes[k] + c;
                       B.moved.displacements[v] >= 0)
                     visit(v, Entry(row, from[k]));
               }

@@ -1,5 +1,8 @@
 // See lifting.h.
 #include <mortise/solvers/interface/lifting.h>
+#include <mortise/solvers/interface/weighted_square.h>
+
+#include <utility>
 
 namespace mortise
 {
@@ -9,19 +12,72 @@ namespace mortise
     constexpr std::size_t always_gathered = 100000;
   } // namespace
 
-  void
-  Lifting::factorise(NodalMatrix             schur,
-                     SchwarzInverse::Product product,
-                     const Epetra_Map       &map,
-                     const std::size_t       max_gathered)
+  Lifting::Lifting(const BlockSystem            &system,
+                   const CouplingRows           &rows,
+                   const CouplingProduct<float> &product,
+                   const std::size_t             max_gathered)
+    : system(system)
+    , product(product)
+    , max_gathered(max_gathered)
+    , weights(system.nodal->node_diagonal())
   {
+    for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
+      weights.local_element(i) = 1. / weights.local_element(i);
+    for (const auto &leading : system.nodal->leading_displacements())
+      weights.local_element(leading.index) = 0.;
+    schur = weighted_square(rows, weights);
+    if (system.coupling.has_frames())
+      schur = in_frames(schur, system.coupling.frames());
+    if (system.has_springs())
+      add(schur, system.spring_compliance.trilinos_matrix());
+    if (!system.active)
+      factorise(std::move(schur));
+    else
+      update_active();
+  }
+
+  bool
+  Lifting::update_active()
+  {
+    factorise(select(schur, *system.active, system.coupling.row_map().Comm()));
+    return is_valid();
+  }
+
+  SchwarzInverse::Product
+  Lifting::product_with_schur() const
+  {
+    LevelVector<float> trace;
+    product.initialize(trace);
+    const Epetra_CrsMatrix *const springs =
+      system.has_springs() ? &system.spring_compliance.trilinos_matrix() :
+                             nullptr;
+    return [trace, springs, this](Epetra_Vector       &to,
+                                  const Epetra_Vector &from) mutable {
+      product.multiply_transposed(trace, from);
+      const auto &indices = product.indices();
+      for (unsigned int k = 0; k < indices.size(); ++k)
+        trace.local_element(k) *= weights.local_element(indices[k]);
+      product.multiply(to, trace);
+      if (springs)
+        {
+          Epetra_Vector opening(to);
+          springs->Multiply(false, from, opening);
+          to.Update(1., opening, 1.);
+        }
+      system.clear_inactive(to.Values());
+    };
+  }
+
+  void
+  Lifting::factorise(NodalMatrix active)
+  {
+    const Epetra_Map &map = system.coupling.row_map();
     schwarz.reset();
     cholesky.reset();
     mumps_x.reset();
-    uses_mumps = false;
     lone.clear();
     std::vector<std::pair<int, double>> uncoupled;
-    NodalMatrix coupled = take_coupled(schur, map.Comm(), uncoupled);
+    NodalMatrix coupled = take_coupled(active, map.Comm(), uncoupled);
     int         mine[]  = {0, static_cast<int>(coupled.entries.size())};
     for (auto &[entry, diagonal] : uncoupled)
       {
@@ -39,8 +95,8 @@ namespace mortise
       {
         schwarz = std::make_unique<SchwarzInverse>();
         valid   = schwarz->initialize(
-          std::make_shared<DistributedNodalMatrix>(std::move(schur), map),
-          std::move(product));
+          std::make_shared<DistributedNodalMatrix>(std::move(active), map),
+          product_with_schur());
         if (valid)
           return;
         schwarz.reset();
@@ -65,17 +121,19 @@ namespace mortise
         cholesky.reset();
       }
     const auto matrix = as_matrix(C.rows(), map.Comm());
-    factorise(*matrix);
+    valid         = mumps.initialize(*matrix, MatrixKind::positive_definite);
     mumps_entries = C.rows().entries;
     mumps_x       = std::make_unique<Epetra_Vector>(matrix->RowMap());
     mumps_b       = std::make_unique<Epetra_Vector>(matrix->RowMap());
   }
 
   void
-  Lifting::factorise(const Epetra_CrsMatrix &schur)
+  Lifting::vmult(Vector &dst, const Vector &src) const
   {
-    valid      = mumps.initialize(schur, MatrixKind::positive_definite);
-    uses_mumps = true;
+    const double *from = src.begin();
+    double       *to   = dst.begin();
+    for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
+      to[i] = weights.local_element(i) * from[i];
   }
 
   void
@@ -102,9 +160,7 @@ namespace mortise
       schwarz->solve(y, jump);
     else if (cholesky)
       cholesky->solve(y, jump);
-    else if (uses_mumps && !mumps_x)
-      mumps.solve(y, jump);
-    else if (uses_mumps)
+    else if (mumps_x)
       {
         for (unsigned int i = 0; i < mumps_entries.size(); ++i)
           (*mumps_b)[i] = mumps_entries[i] < 0 ? 0. : jump[mumps_entries[i]];
@@ -120,7 +176,7 @@ namespace mortise
   {
     if (schwarz)
       return "multipliers by parts";
-    if (uses_mumps)
+    if (mumps_x)
       return "multipliers by MUMPS";
     return !cholesky || cholesky->is_single() ?
              "" :

@@ -18,7 +18,7 @@ namespace mortise
     public:
       ProjectedConjugateGradients(const BlockSystem         &system,
                                   const ScaledResidual      &residual,
-                                  const BulkPreconditioner  &preconditioner,
+                                  const DegreeMultigrid  &preconditioner,
                                   const SystemVector        &rhs,
                                   const SolverOptions       &options)
         : system(system)
@@ -169,7 +169,7 @@ namespace mortise
 
       const BlockSystem         &system;
       const ScaledResidual      &residual;
-      const BulkPreconditioner  &preconditioner;
+      const DegreeMultigrid  &preconditioner;
       const ConstraintProjector *projector;
       const SolverOptions       &options;
       const SystemVector        &rhs;
@@ -192,10 +192,10 @@ namespace mortise
   bool
   CondensedSolver::set_up()
   {
-    preconditioner   = make_bulk_preconditioner(system, options);
-    const bool valid = preconditioner->initialize(system);
-    description      = preconditioner->description();
-    return valid;
+    preconditioner =
+      std::make_unique<DegreeMultigrid>(system, options.max_gathered);
+    description = preconditioner->description();
+    return preconditioner->is_valid();
   }
 
   bool

@@ -1,7 +1,6 @@
 #include <deal.II/lac/diagonal_matrix.h>
 #include <deal.II/lac/precondition.h>
 
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/krylov/pressure_preconditioner.h>
 
 #include <algorithm>
@@ -84,28 +83,20 @@ namespace mortise
   };
 
   PressurePreconditioner::PressurePreconditioner(const BlockSystem &system)
-  {
-    if (system.nodal)
-      {
-        polynomial = std::make_unique<Polynomial>(*system.nodal);
-        valid      = polynomial->valid;
-      }
-    else
-      valid = factorisation.initialize(system.pressure_norm.trilinos_matrix(),
-                                       MatrixKind::positive_definite);
-  }
+    : polynomial(std::make_unique<Polynomial>(*system.nodal))
+  {}
 
   PressurePreconditioner::~PressurePreconditioner() = default;
+
+  bool
+  PressurePreconditioner::is_valid() const
+  {
+    return polynomial->valid;
+  }
 
   void
   PressurePreconditioner::vmult(Vector &dst, const Vector &src) const
   {
-    if (!polynomial)
-      {
-        Epetra_Vector x = epetra_view(dst);
-        factorisation.solve(x, *src.trilinos_vector()(0));
-        return;
-      }
     LevelVector<double> &x = polynomial->x, &b = polynomial->b;
     std::copy_n(src.begin(), b.locally_owned_size(), b.begin());
     polynomial->chebyshev.vmult(x, b);
@@ -115,7 +106,6 @@ namespace mortise
   std::string
   PressurePreconditioner::description() const
   {
-    return polynomial ? "mass of pressures by a polynomial" :
-                        "mass of pressures factorised";
+    return "mass of pressures by a polynomial";
   }
 } // namespace mortise

@@ -2,7 +2,7 @@
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
-#include <mortise/solvers/multigrid/bulk_preconditioner.h>
+#include <mortise/solvers/multigrid/degree_multigrid.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/krylov/pressure_preconditioner.h>
 #include <mortise/solvers/krylov/saddle_point.h>
@@ -101,7 +101,7 @@ namespace mortise
       mutable BlockVector scaled;
     };
 
-    /// The block factorisation of [A^ B^T; B -S] with A^ for K + J, its Schur
+    /// The block factorisation of [A^ B^T; B -S] with A^ for K, its Schur
     /// complement replaced by C = B T B^T + S and A^{-1} B^T by T B^T: what it
     /// returns satisfies the constraint exactly. Around it the upper triangle
     /// of a block factorisation with the pressures, whose Schur complement is
@@ -114,11 +114,11 @@ namespace mortise
                           const SolverOptions  &options)
         : system(system)
         , scaling(scaling)
-        , bulk(make_bulk_preconditioner(system, options))
-        , valid(bulk->initialize(system))
+        , bulk(system, options.max_gathered)
+        , valid(bulk.is_valid())
       {
         if (valid)
-          projector = bulk->projector();
+          projector = bulk.projector();
         if (valid && system.mixed())
           {
             pressure = std::make_unique<PressurePreconditioner>(system);
@@ -146,11 +146,11 @@ namespace mortise
         z_l = 0.;
         if (projector) // r_u - B^T y with y = C^{-1} B T r_u
           remove_multipliers(t.block(u), z_l);
-        bulk->vmult(z_u, t.block(u));
+        bulk.vmult(z_u, t.block(u));
         if (system.has_springs())
           {
-            z_l += bulk->spring_multipliers();
-            t.block(l) += opening(bulk->spring_multipliers());
+            z_l += bulk.spring_multipliers();
+            t.block(l) += opening(bulk.spring_multipliers());
           }
         if (projector) // z_u - T B^T y with y = C^{-1} (B z_u - r_lambda)
           z_l += projector->project(z_u, &t.block(l));
@@ -165,7 +165,7 @@ namespace mortise
         Vector z(r.displacement), projected(z), multiplier(r.multiplier);
         if (projector)
           remove_multipliers(projected, multiplier);
-        bulk->vmult(z, projected);
+        bulk.vmult(z, projected);
         double energy = z * projected;
         if (pressure)
           {
@@ -179,13 +179,13 @@ namespace mortise
       bool
       update_active()
       {
-        return valid = bulk->update_active();
+        return valid = bulk.update_active();
       }
 
       std::string
       description() const
       {
-        return "block factorisation: " + bulk->description() +
+        return "block factorisation: " + bulk.description() +
                (pressure ? "; " + pressure->description() : "") +
                (projector ? "; interface Schur complement factorised" : "");
       }
@@ -229,7 +229,7 @@ namespace mortise
 
       const BlockSystem                      &system;
       const ScaledOperator                   &scaling;
-      std::unique_ptr<BulkPreconditioner>     bulk;
+      DegreeMultigrid                         bulk;
       const ConstraintProjector              *projector = nullptr;
       std::unique_ptr<PressurePreconditioner> pressure;
       bool                                    valid;
@@ -271,7 +271,6 @@ namespace mortise
 
     const ScaledOperator      matrix;
     BlockPreconditioner preconditioner;
-    bool                      flexible = false;
   };
 
   BlockVector
@@ -304,12 +303,9 @@ namespace mortise
       catch (const SolverControl::NoConvergence &)
         {}
     };
-    using GMRES  = SolverGMRES<BlockVector>;
+    // multigrid in single precision is linear to seven digits only
     using FGMRES = SolverFGMRES<BlockVector>;
-    if (flexible)
-      run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
-    else
-      run(GMRES(control, GMRES::AdditionalData(max_basis + 2, true)));
+    run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
     report.iterations += control.last_step();
     x.scale(matrix.weight);
     return x;
@@ -326,9 +322,7 @@ namespace mortise
   SaddlePointSolver::set_up()
   {
     parts = std::make_unique<Parts>(system, *residual, options);
-    // multigrid in single precision is linear to seven digits only
-    parts->flexible = system.nodal != nullptr;
-    description     = parts->preconditioner.description();
+    description = parts->preconditioner.description();
     return parts->preconditioner.is_valid();
   }
 

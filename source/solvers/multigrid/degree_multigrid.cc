@@ -1,7 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/operators/levels/degree_transfer.h>
-#include <mortise/solvers/interface/diagonal_lifting.h>
+#include <mortise/solvers/interface/lifting.h>
 #include <mortise/solvers/multigrid/chebyshev.h>
 #include <mortise/solvers/multigrid/degree_multigrid.h>
 #include <mortise/solvers/multigrid/lower_smoothing_bound.h>
@@ -56,7 +56,7 @@ namespace mortise
         {
           const CouplingRows rows(system.coupling);
           product    = std::make_unique<CouplingProduct<Number>>(system, rows);
-          lifting    = std::make_unique<DiagonalLifting>(system,
+          lifting    = std::make_unique<Lifting>(system,
                                                       rows,
                                                       *product,
                                                       max_gathered);
@@ -126,7 +126,7 @@ namespace mortise
     }
 
     std::unique_ptr<CouplingProduct<Number>>     product;
-    std::unique_ptr<DiagonalLifting>             lifting;
+    std::unique_ptr<Lifting>             lifting;
     std::unique_ptr<ConstraintProjector>         projector;
     std::unique_ptr<InterfaceCorrection<Number>> correction;
     std::vector<std::unique_ptr<SmoothedLevel>>  levels;
@@ -139,16 +139,16 @@ namespace mortise
     bool                                                 valid = true;
   };
 
-  DegreeMultigrid::DegreeMultigrid(const std::size_t max_gathered)
-    : max_gathered(max_gathered)
+  DegreeMultigrid::DegreeMultigrid(const BlockSystem &system,
+                                   const std::size_t  max_gathered)
+    : implementation(std::make_unique<Implementation>(system, max_gathered))
   {}
 
   DegreeMultigrid::~DegreeMultigrid() = default;
 
   bool
-  DegreeMultigrid::initialize(const BlockSystem &system)
+  DegreeMultigrid::is_valid() const
   {
-    implementation = std::make_unique<Implementation>(system, max_gathered);
     return implementation->valid;
   }
 

@@ -1,14 +1,12 @@
 // See vertex_solver.h.
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_IntVector.h>
 #include <Teuchos_ParameterList.hpp>
 #include <ml_MultiLevelPreconditioner.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/multigrid/vertex_solver.h>
 
 #include <cmath>
-#include <numeric>
 
 namespace mortise
 {
@@ -26,32 +24,11 @@ namespace mortise
   VertexSolver::~VertexSolver() = default;
 
   bool
-  VertexSolver::initialize(const VertexFunctions  &vertices,
-                           const Epetra_CrsMatrix &matrix,
-                           const bool              allow_single)
-  {
-    extract(vertices, matrix);
-    return make_inverse(vertices.points, allow_single);
-  }
-
-  bool
   VertexSolver::initialize(std::unique_ptr<Epetra_CrsMatrix> matrix,
                            const std::vector<Point<dim>>    &points,
                            const bool                        allow_single)
   {
     coarse = std::move(matrix);
-    map    = std::make_unique<Epetra_Map>(coarse->RowMap());
-    rows.resize(map->NumMyElements());
-    std::iota(rows.begin(), rows.end(), 0);
-    return make_inverse(points, allow_single);
-  }
-
-  bool
-  VertexSolver::make_inverse(const std::vector<Point<dim>> &points,
-                             const bool                     allow_single)
-  {
-    r_c = std::make_unique<Epetra_Vector>(*map);
-    x_c = std::make_unique<Epetra_Vector>(*map);
     if (coarse->NumGlobalRows() <= max_direct_size)
       {
         factorisation    = std::make_unique<CholeskyInverse<float>>();
@@ -60,7 +37,7 @@ namespace mortise
           [this](Epetra_Vector &y, const Epetra_Vector &x) {
             coarse->Multiply(false, x, y);
           },
-          *map,
+          coarse->RowMap(),
           allow_single);
         coarse.reset();
         return valid;
@@ -94,55 +71,9 @@ namespace mortise
   }
 
   void
-  VertexSolver::extract(const VertexFunctions  &vertices,
-                        const Epetra_CrsMatrix &matrix)
-  {
-    const int n = vertices.rows.size();
-    map         = std::make_unique<Epetra_Map>(-1, n, 0, matrix.Comm());
-    Epetra_IntVector number(matrix.RowMap()), column_number(matrix.ColMap());
-    number.PutValue(-1);
-    for (int i = 0; i < n; ++i)
-      {
-        rows.push_back(matrix.RowMap().LID(static_cast<int>(vertices.rows[i])));
-        number[rows.back()] = map->GID(i);
-      }
-    if (matrix.Importer() != nullptr)
-      column_number.Import(number, *matrix.Importer(), Insert);
-    else
-      std::copy(number.Values(),
-                number.Values() + number.MyLength(),
-                column_number.Values());
-
-    coarse = std::make_unique<Epetra_CrsMatrix>(Copy, *map, 81, false);
-    std::vector<int>    columns;
-    std::vector<double> values;
-    for (int i = 0; i < n; ++i)
-      {
-        int     length;
-        int    *row_columns;
-        double *row_values;
-        matrix.ExtractMyRowView(rows[i], length, row_values, row_columns);
-        columns.clear();
-        values.clear();
-        for (int k = 0; k < length; ++k)
-          if (column_number[row_columns[k]] >= 0)
-            {
-              columns.push_back(column_number[row_columns[k]]);
-              values.push_back(row_values[k]);
-            }
-        coarse->InsertGlobalValues(map->GID(i),
-                                   columns.size(),
-                                   values.data(),
-                                   columns.data());
-      }
-    coarse->FillComplete();
-    coarse->OptimizeStorage();
-  }
-
-  void
   VertexSolver::compute_rigid_modes(const std::vector<Point<dim>> &points)
   {
-    const MPI_Comm comm = communicator(*map);
+    const MPI_Comm comm = communicator(coarse->RowMap());
     Point<dim>     center;
     for (const auto &x : points)
       center += x;
@@ -155,7 +86,7 @@ namespace mortise
       radius = std::max(radius, x.distance(center));
     radius = Utilities::MPI::max(radius, comm);
 
-    const unsigned int n = rows.size();
+    const unsigned int n = coarse->NumMyRows();
     rigid_modes.assign(std::max(1U, 6 * n), 0.);
     for (unsigned int v = 0; v < n / 3; ++v)
       {
@@ -188,15 +119,10 @@ namespace mortise
   void
   VertexSolver::vmult(Epetra_Vector &x, const Epetra_Vector &r) const
   {
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      (*r_c)[i] = r[rows[i]];
     if (factorisation)
-      factorisation->solve(*x_c, *r_c);
+      factorisation->solve(x, r);
     else
-      multigrid->ApplyInverse(*r_c, *x_c);
-    x.PutScalar(0.);
-    for (unsigned int i = 0; i < rows.size(); ++i)
-      x[rows[i]] = (*x_c)[i];
+      multigrid->ApplyInverse(r, x);
   }
 
   std::string

@@ -81,17 +81,15 @@ namespace mortise
     make_layout(const BlockSystem &system, const CouplingRows &rows);
     void
     make_blocks(const CouplingRows &rows, const std::vector<bool> &leads);
-    /// visit(block, entries, number of components).
+    /// visit(block, entries).
     template <typename Visit>
     void
     for_each_block(const Visit &visit) const;
-    template <unsigned int n_components>
     void
     multiply_block(const Block   &block,
                    const Number  *entries,
                    Epetra_Vector &jump,
                    CoupledNodes   nodes) const;
-    template <unsigned int n_components>
     void
     multiply_block_transposed(const Block         &block,
                               const Number        *entries,
@@ -101,7 +99,6 @@ namespace mortise
     /// Those of the matrix, if it has some.
     const Epetra_CrsMatrix                        *frames = nullptr;
     mutable std::unique_ptr<Epetra_Vector>         by_component;
-    const unsigned int                                         n_components;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<unsigned int>                                  moved_indices;
     std::vector<Block>                                         blocks;

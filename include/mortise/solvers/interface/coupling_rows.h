@@ -15,7 +15,6 @@ namespace mortise
   {
     explicit CouplingColumns(const CouplingMatrix &B);
 
-    unsigned int n_components;
     unsigned int n_nodes = 0;
 
     /// By local column of the matrix; -1: it has no entries.
@@ -41,6 +40,7 @@ namespace mortise
   /// (SharedRows) also where a displacement of one component is prescribed.
   struct CouplingRows
   {
+    /// @p B: by node.
     explicit CouplingRows(const CouplingMatrix &B);
 
     const CouplingMatrix                &matrix;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <mortise/solvers/interface/coupling_product.h>
-#include <mortise/solvers/interface/diagonal_lifting.h>
+#include <mortise/solvers/interface/lifting.h>
 
 #include <vector>
 
@@ -20,7 +20,7 @@ namespace mortise
     /// @p product and @p lifting must stay alive. Collective.
     InterfaceCorrection(const BlockSystem             &system,
                         const CouplingProduct<Number> &product,
-                        const DiagonalLifting         &lifting);
+                        const Lifting         &lifting);
 
     /// Do displacements lead on any rank?
     bool
@@ -105,7 +105,7 @@ namespace mortise
 
     const BlockSystem             &system;
     const CouplingProduct<Number> &product;
-    const DiagonalLifting         &lifting;
+    const Lifting         &lifting;
     std::vector<Number>            weights;           ///< T, by index
     bool                           some_lead = false; ///< on some rank
     mutable Epetra_Vector          jump, multiplier;

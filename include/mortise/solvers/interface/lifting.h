@@ -1,12 +1,12 @@
 // T, a cheap approximation of the inverse stiffness for forces B^T lambda on
-// interfaces. The projector and the Schur complement B T B^T of the solvers are
-// made of it.
+// interfaces: each node by itself. The projector and the Schur complement
+// B T B^T of the solvers are made of it.
 #pragma once
 
-#include <mortise/operators/block_system.h>
 #include <mortise/solvers/factorisation/cholesky_inverse.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 #include <mortise/solvers/factorisation/schwarz_inverse.h>
+#include <mortise/solvers/interface/coupling_product.h>
 
 #include <memory>
 #include <string>
@@ -15,17 +15,25 @@
 
 namespace mortise
 {
-  /// T symmetric, positive semi-definite and positive on the range of B^T, and
-  /// C = B T B^T + S factorised, S the compliance of springs.
+  /// T = diag(K)^{-1} on the nodes of interfaces but zero for leading
+  /// displacements; one value for a node, so that multipliers of all
+  /// components see the same wherever no boundary condition tells them apart.
+  /// Iterations are the same or up to 3 in 19 fewer than with a value for each
+  /// component. C = B T B^T + S is factorised, S the compliance of springs.
   class Lifting
   {
   public:
-    /// @p system must stay alive.
-    explicit Lifting(const BlockSystem &system)
-      : system(system)
-    {}
+    /// @p system, @p product must stay alive. @p max_gathered: as in SolverOptions.
+    /// Collective.
+    Lifting(const BlockSystem            &system,
+            const CouplingRows           &rows,
+            const CouplingProduct<float> &product,
+            std::size_t                   max_gathered);
 
-    virtual ~Lifting() = default;
+    /// After other multipliers have become active. False as is_valid().
+    /// Collective.
+    bool
+    update_active();
 
     /// False when the multipliers are not independent of each other.
     bool
@@ -39,35 +47,40 @@ namespace mortise
     std::string
     description() const;
 
-    /// dst = T src. Collective.
-    virtual void
-    vmult(Vector &dst, const Vector &src) const = 0;
+    /// dst = T src.
+    void
+    vmult(Vector &dst, const Vector &src) const;
+
+    /// T by owned displacement.
+    const LevelVector<double> &
+    diagonal() const
+    {
+      return weights;
+    }
 
     /// y = C^{-1} jump, to four digits at least in the norm of C; both with the
     /// rows of B, those that are active: y is zero elsewhere. Collective.
     void
     apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const;
 
-  protected:
-    /// The rows of C, entries those of vectors on @p map; in single precision
-    /// where that is accurate enough. @p product: with C, likewise; it is kept.
-    /// @p max_gathered: the largest number of rows that all ranks may have, if
-    /// they can do without. Collective.
-    void
-    factorise(NodalMatrix             schur,
-              SchwarzInverse::Product product,
-              const Epetra_Map       &map,
-              std::size_t             max_gathered);
-
-    /// C as a matrix, in double precision. Collective.
-    void
-    factorise(const Epetra_CrsMatrix &schur);
-
-    const BlockSystem &system;
-
   private:
+    /// Factorise @p active rows and columns of C, entries those of multipliers, in single precision
+    /// where that is accurate enough. Collective.
+    void
+    factorise(NodalMatrix active);
+
+    /// to = C from.
+    SchwarzInverse::Product
+    product_with_schur() const;
+
     void
     solve(Epetra_Vector &y, const Epetra_Vector &jump) const;
+
+    const BlockSystem            &system;
+    const CouplingProduct<float> &product;
+    const std::size_t             max_gathered;
+    LevelVector<double>           weights;
+    NodalMatrix schur; ///< kept once not all multipliers are active
 
     /// (Entry, inverse of the diagonal) of multipliers that C couples with no
     /// other, unless Schwarz treats all.
@@ -78,7 +91,6 @@ namespace mortise
     MumpsFactorisation                       mumps;
     std::vector<int>               mumps_entries;    ///< as in NodalMatrix
     std::unique_ptr<Epetra_Vector> mumps_x, mumps_b; ///< by these
-    bool                           uses_mumps = false;
     bool                           valid = false;
   };
 } // namespace mortise

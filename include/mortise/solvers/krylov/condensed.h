@@ -4,7 +4,7 @@
 #pragma once
 
 #include <mortise/solvers/linear_solver.h>
-#include <mortise/solvers/multigrid/bulk_preconditioner.h>
+#include <mortise/solvers/multigrid/degree_multigrid.h>
 
 namespace mortise
 {
@@ -29,6 +29,6 @@ namespace mortise
         bool                is_zero,
         SolveReport        &report) override;
 
-    std::unique_ptr<BulkPreconditioner> preconditioner;
+    std::unique_ptr<DegreeMultigrid> preconditioner;
   };
 } // namespace mortise

@@ -3,9 +3,7 @@
 // (2014), chapter 4.
 #pragma once
 
-#include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/factorisation/mumps_factorisation.h>
 
 #include <memory>
 #include <string>
@@ -21,10 +19,7 @@ namespace mortise
 
     /// False, on every rank, when P is not positive definite.
     bool
-    is_valid() const
-    {
-      return valid;
-    }
+    is_valid() const;
 
     /// dst = P^{-1} src, symmetric and positive definite. Collective.
     void
@@ -34,9 +29,7 @@ namespace mortise
     description() const;
 
   private:
-    MumpsFactorisation factorisation; ///< where P has a matrix
-    struct Polynomial;                ///< of diag(P)^{-1} P, where it has none
+    struct Polynomial; ///< of diag(P)^{-1} P
     std::unique_ptr<Polynomial> polynomial;
-    bool                        valid;
   };
 } // namespace mortise

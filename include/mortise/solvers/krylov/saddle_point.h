@@ -6,7 +6,7 @@
 
 namespace mortise
 {
-  /// Preconditioned GMRES; the preconditioner takes a BulkPreconditioner, the
+  /// Preconditioned GMRES; the preconditioner takes a DegreeMultigrid, the
   /// Schur complement of its Lifting for the multipliers and a
   /// PressurePreconditioner. Only for systems with multipliers or pressures.
   class SaddlePointSolver : public LinearSolver

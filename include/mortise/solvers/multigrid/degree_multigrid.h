@@ -1,42 +1,57 @@
-// Multigrid in the degree for a bulk without a matrix: Chebyshev smoothers on
-// the degree and those of lower_degree(), the vertex functions by
-// VertexMultigrid. On the finest level smoothers stay among what satisfies the
-// constraint; the others see the tie by the jump penalty J of BlockSystem.
+// Multigrid in the degree: Chebyshev smoothers on the degree and those of
+// lower_degree(), the vertex functions by VertexMultigrid. On the finest level
+// smoothers stay among what satisfies the constraint; the others see the tie by
+// penalties (NodalLevel).
 #pragma once
 
-#include <mortise/solvers/multigrid/bulk_preconditioner.h>
+#include <mortise/operators/block_system.h>
+#include <mortise/solvers/interface/constraint_projector.h>
+
+#include <memory>
+#include <string>
 
 namespace mortise
 {
-  class DegreeMultigrid : public BulkPreconditioner
+  /// An approximate inverse of the elasticity block, with the springs in it,
+  /// symmetric and positive definite on what projector() leaves, hence usable
+  /// between projections in conjugate gradients and GMRES.
+  class DegreeMultigrid
   {
   public:
-    /// @p max_gathered: as in SolverOptions.
-    explicit DegreeMultigrid(std::size_t max_gathered);
-    ~DegreeMultigrid() override;
+    /// @p system, which must have nodes, must stay alive. @p max_gathered: as in
+    /// SolverOptions. Collective.
+    DegreeMultigrid(const BlockSystem &system, std::size_t max_gathered);
+    ~DegreeMultigrid();
 
+    /// False, on every rank, when the matrix turned out not to be positive
+    /// definite or the multipliers not to be independent; nothing else may be
+    /// called then.
     bool
-    initialize(const BlockSystem &system) override;
+    is_valid() const;
 
+    /// After LinearSolver::update_active(); false as is_valid(). Collective.
     bool
-    update_active() override;
+    update_active();
 
+    /// dst = approximate solution for src; dst and src are distinct.
+    /// Collective.
     void
-    vmult(Vector &dst, const Vector &src) const override;
+    vmult(Vector &dst, const Vector &src) const;
 
+    /// What springs carry for the last dst, zero for ties; with springs alone.
     const Vector &
-    spring_multipliers() const override;
+    spring_multipliers() const;
 
-    /// With the lifting by the diagonal of K.
+    /// Null without an interface.
     const ConstraintProjector *
-    projector() const override;
+    projector() const;
 
+    /// What was built, in words.
     std::string
-    description() const override;
+    description() const;
 
   private:
     struct Implementation;
-    std::size_t                     max_gathered;
     std::unique_ptr<Implementation> implementation;
   };
 } // namespace mortise
