@@ -135,7 +135,7 @@ ONE = {("mixed | displacement", "0.5 | 0.3", GMRES): "0.5 : 0.3, displacement",
 CASE = ("table", "scene", "cells", "degree", "mesh", "slave", "young", "ranks")
 TABLES = {"degree": "Over degree and nu", "mesh": "Over the mesh", "moduli": "Over Young's moduli (inner : outer) and side of the slave",
           "one": "One body incompressible, the other with nu = 0.3 in displacement form (inner : outer)",
-          "tetrahedra": "Tetrahedra, assembled", "cube": "A cube clamped on five sides, no interface"}
+          "tetrahedra": "Tetrahedra", "cube": "A cube clamped on five sides, no interface"}
 BRIEF = {"degree": "degrees", "mesh": "meshes", "moduli": "moduli", "one": "one body incompressible",
          "tetrahedra": "tetrahedra", "cube": "clamped cube"}
 SHOWN = {"moduli": ("degree", "slave", "young"), "one": ("degree", "slave"), "tetrahedra": ("degree", "mesh", "ranks")}
@@ -330,10 +330,9 @@ A body in mixed form (`Formulation`) has a pressure of its own, continuous and o
 
 with lambda_u = 1 / (1 / lambda + 1 / (mu / 2)), the bounded part of lambda that the displacement keeps, and c = 1 / (lambda -
 lambda_u), which is zero for nu = 0.5. The solver is GMRES with an upper block triangle: for displacements multigrid in
-the degree among what satisfies the tie (patches around vertices where there is a matrix), for pressures a mass matrix scaled by
-c + 1 / (2/3 mu + lambda_u), but the Schur complement of the cell where displacements are prescribed (without a matrix:
-cells of degree 4 at most with a face held in all components); by a polynomial of Chebyshev in its scaled diagonal, or
-factorised where it is assembled.
+the degree among what satisfies the tie, for pressures a mass matrix scaled by
+c + 1 / (2/3 mu + lambda_u), but the Schur complement of the cell where displacements are prescribed
+(cells of degree 4 at most with a face held in all components); by a polynomial of Chebyshev in its scaled diagonal.
 Errors are relative; "pressure" is the mean pressure -tr(sigma) / 3, whatever the form.
 """
 ERRORS = """## Errors
