@@ -227,6 +227,7 @@ namespace mortise
 
   std::vector<LocalCoupling>
   integrate_coupling(InterfaceHandler     &interface,
+                     const bool            with_master_mass,
                      const MultiplierBasis basis,
                      const bool            may_lead)
   {
@@ -250,6 +251,8 @@ namespace mortise
         }
 
       partner.mixed.reinit(n_slave, master.n_functions());
+      if (with_master_mass)
+        partner.mass.reinit(master.n_functions(), master.n_functions());
       moment.reinit(n_slave, 2 * dim);
       for (unsigned int first = 0; first < points.size(); first += max_points)
         {
@@ -269,6 +272,11 @@ namespace mortise
                 places(q, dim + c) = points.slave_x[c][first + q];
               }
           weighted.Tmmult(moment, places, true);
+          if (with_master_mass)
+            {
+              scale_rows(master_values, &points.weight[first], weighted);
+              weighted.Tmmult(partner.mass, master_values, true);
+            }
         }
       for (unsigned int i = 0; i < n_slave; ++i)
         for (unsigned int c = 0; c < dim; ++c)

@@ -66,15 +66,15 @@ namespace mortise
           std::make_unique<NodalPressure>(std::move(pressure_space), comm);
         nodes = std::make_unique<PressureNodes>(pressures->nodes());
       }
-    const IndexSet &tests = spaces.front()->owned_nodes();
     for (unsigned int number = 0; number < spaces.size(); ++number)
-      all_levels.push_back(make_nodal_level(std::move(spaces[number]),
-                                            number,
-                                            scene.numbering,
-                                            scene.constraints,
-                                            scene.couplings,
-                                            tests,
-                                            comm));
+      {
+        all_levels.push_back(make_nodal_level(std::move(spaces[number]),
+                                              number,
+                                              scene.numbering,
+                                              scene.constraints,
+                                              scene.couplings,
+                                              comm));
+      }
     stiffness = std::make_unique<LevelOperator<double>>(all_levels.front(),
                                                         false,
                                                         nodes.get());

@@ -55,6 +55,7 @@ namespace mortise
   {
     coupling.local =
       integrate_coupling(*coupling.interface,
+                         spaces.choice.method != SolverMethod::direct,
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
                          !coupling.is_spring);

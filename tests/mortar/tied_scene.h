@@ -251,7 +251,7 @@ namespace mortise::testing
       Coupling &coupling = couplings[0];
       coupling.interface = std::make_unique<InterfaceHandler>(
         "glue", side(0), side(1), InterfaceOptions(), comm);
-      coupling.local = integrate_coupling(*coupling.interface, basis);
+      coupling.local = integrate_coupling(*coupling.interface, true, basis);
       states         = partner_states(couplings)[0];
 
       std::vector<bool> blocked;

@@ -70,14 +70,13 @@ namespace mortise::testing
                                            InterfaceOptions(),
                                            MPI_COMM_WORLD);
       couplings[0].local = integrate_coupling(*couplings[0].interface,
+                                              true,
                                               MultiplierBasis::standard);
-      const IndexSet tests = spaces[0]->owned_nodes();
       level              = make_nodal_level(std::move(spaces[0]),
                                0,
                                scene.fields.displacement.numbering,
                                scene.fields.displacement.constraints,
                                couplings,
-                               tests,
                                MPI_COMM_WORLD);
       const LevelOperator<double> stiffness(level, false);
       stiffness.initialize(diagonal);

@@ -212,7 +212,7 @@ namespace mortise::testing
                                            surface(1, "zmin"),
                                            InterfaceOptions(),
                                            MPI_COMM_WORLD);
-      coupling.local = integrate_coupling(*coupling.interface, basis);
+      coupling.local = integrate_coupling(*coupling.interface, false, basis);
       std::vector<bool> blocked(bodies[0]->dof_handler.n_dofs(), false);
       if (reduced)
         for (unsigned int i = 0; i < blocked.size(); ++i)

@@ -45,6 +45,8 @@ namespace mortise
       /// let the slave follow it, rather than move both?
       bool                       leads = false;
       dealii::FullMatrix<double> mixed; ///< int N_i^slave N_j^master
+      dealii::FullMatrix<double>
+        mass; ///< int N_i^master N_j^master; empty unless asked for
       dealii::FullMatrix<double> constraint; ///< int psi_i N_j^master
     };
 
@@ -79,6 +81,7 @@ namespace mortise
   /// where that pays. Collective.
   std::vector<LocalCoupling>
   integrate_coupling(InterfaceHandler &interface,
+                     bool              with_master_mass,
                      MultiplierBasis   basis,
                      bool              may_lead = true);
 } // namespace mortise

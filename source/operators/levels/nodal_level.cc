@@ -108,19 +108,12 @@ namespace mortise
                    const FieldNumbering            &numbering,
                    const AffineConstraints<double> &constraints,
                    const std::vector<Coupling>     &couplings,
-                   const IndexSet                  &tests,
                    const MPI_Comm                   comm)
   {
     NodalLevel level;
     IndexSet   ghosts = space->relevant_nodes();
     ghosts.add_indices(
       nodes_of_interfaces(couplings, number, space->owned_nodes()));
-    for (const Coupling &coupling : couplings)
-      {
-        level.jumps.emplace_back(
-          coupling, number, tests, space->owned_nodes(), comm);
-        level.jumps.back().add_nodes(ghosts);
-      }
     level.layout = std::make_shared<const Utilities::MPI::Partitioner>(
       displacement_indices(space->owned_nodes()),
       displacement_indices(ghosts),

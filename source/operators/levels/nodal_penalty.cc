@@ -37,6 +37,34 @@ namespace mortise
       }
     };
 
+    /// Calls visit(row trace, column trace, block, factor) for the blocks of
+    /// the penalty.
+    template <typename Visit>
+    void
+    for_each_block(const Couplings &couplings, const Visit &visit)
+    {
+      for (const Coupling *const one : couplings.all)
+        for (unsigned int s = 0; s < one->local.size(); ++s)
+          if (const LocalCoupling &local = one->local[s];
+              !local.partners.empty())
+            {
+              const Coupling  &coupling = *one;
+              const FaceTrace &slave    = coupling.interface->slave().traces[s];
+              const double     gamma =
+                couplings.penalty(coupling,
+                                  s,
+                                  nodal_penalty * local.penalty * slave.degree *
+                                    slave.degree);
+              visit(slave, slave, local.mass, gamma);
+              for (const auto &partner : local.partners)
+                {
+                  const FaceTrace &master =
+                    coupling.interface->master_traces()[partner.master];
+                  visit(slave, master, partner.mixed, -gamma);
+                  visit(master, master, partner.mass, gamma);
+                }
+            }
+    }
     using Indices = std::vector<unsigned int>;
 
     void
@@ -46,28 +74,47 @@ namespace mortise
       list.erase(std::unique(list.begin(), list.end()), list.end());
     }
 
-    /// By node: with which others the tests of jumps couple it.
+    /// First components at the nodes of a face.
+    Indices
+    indices_on(const NodalLevel  &level,
+               const FaceTrace   &trace,
+               const unsigned int number)
+    {
+      Indices indices;
+      for (const auto node : trace.nodes[number].nodes)
+        indices.push_back(level.layout->global_to_local(dim * node));
+      return indices;
+    }
+
+    /// By node: with which others the interfaces couple it.
     std::vector<Indices>
-    coupled_indices(const NodalLevel                    &level,
-                    const std::vector<const WeakJump *> &jumps)
+    coupled_indices(const NodalLevel  &level,
+                    const unsigned int number,
+                    const Couplings   &couplings)
     {
       std::vector<Indices> columns(
         (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
         dim);
-      for (const WeakJump *const jump : jumps)
-        jump->for_each_test(
-          [&](const unsigned int, const std::vector<WeakJump::Entry> &entries) {
-            Indices indices;
-            for (const auto &[node, value] : entries)
-              indices.push_back(level.layout->global_to_local(dim * node));
-            for (const unsigned int row : indices)
-              {
-                auto &list = columns[row / dim];
-                list.insert(list.end(), indices.begin(), indices.end());
-                if (list.size() > 4096)
-                  make_unique(list);
-              }
-          });
+      const auto record = [&](const Indices &rows, const Indices &more) {
+        for (const unsigned int row : rows)
+          {
+            auto &list = columns[row / dim];
+            list.insert(list.end(), more.begin(), more.end());
+            if (list.size() > 4096)
+              make_unique(list);
+          }
+      };
+      for_each_block(couplings,
+                     [&](const FaceTrace &row,
+                         const FaceTrace &column,
+                         const auto &,
+                         const double) {
+                       const Indices rows = indices_on(level, row, number),
+                                     more = indices_on(level, column, number);
+                       record(rows, more);
+                       if (&row != &column)
+                         record(more, rows);
+                     });
       for (Indices &list : columns)
         make_unique(list);
       return columns;
@@ -117,35 +164,37 @@ namespace mortise
     };
 
     NodalPenalty
-    make_penalty(const NodalLevel            &level,
-                 const std::vector<Coupling> &all,
-                 const Couplings             &couplings)
+    make_penalty(const NodalLevel  &level,
+                 const unsigned int number,
+                 const Couplings   &couplings)
     {
-      std::vector<const WeakJump *> jumps;
-      for (const Coupling *const coupling : couplings.all)
-        jumps.push_back(&level.jumps[coupling - all.data()]);
       NodalPenalty   penalty;
-      PenaltyEntries entries(coupled_indices(level, jumps), penalty);
-      for (unsigned int k = 0; k < jumps.size(); ++k)
-        {
-          const Coupling &coupling = *couplings.all[k];
-          const auto      factors =
-            jumps[k]->factors(coupling, [&](const unsigned int s) {
-              const unsigned int p =
-                coupling.interface->slave().traces[s].degree;
-              return couplings.penalty(
-                coupling, s, nodal_penalty * coupling.local[s].penalty * p * p);
-            });
-          jumps[k]->for_each_test(
-            [&](const unsigned int                  test,
-                const std::vector<WeakJump::Entry> &of_test) {
-              for (const auto &[row, a] : of_test)
-                for (const auto &[column, b] : of_test)
-                  entries.add(level.layout->global_to_local(dim * row),
-                              level.layout->global_to_local(dim * column),
-                              factors[test] * a * b);
-            });
-        }
+      PenaltyEntries entries(coupled_indices(level, number, couplings),
+                             penalty);
+      for_each_block(
+        couplings,
+        [&](const FaceTrace          &row,
+            const FaceTrace          &column,
+            const FullMatrix<double> &modal,
+            const double              factor) {
+          const FaceNodes &on_rows       = row.nodes[number],
+                          &on_columns    = column.nodes[number];
+          const FullMatrix<double> nodal = resolve_hanging(
+            nodal_block(modal,
+                        {row.shape, row.degree, on_rows.degree},
+                        {column.shape, column.degree, on_columns.degree}),
+            on_rows,
+            on_columns);
+          const Indices rows = indices_on(level, row, number),
+                        more = indices_on(level, column, number);
+          for (unsigned int i = 0; i < rows.size(); ++i)
+            for (unsigned int j = 0; j < more.size(); ++j)
+              {
+                entries.add(rows[i], more[j], factor * nodal(i, j));
+                if (&row != &column)
+                  entries.add(more[j], rows[i], factor * nodal(i, j));
+              }
+        });
       return penalty;
     }
 
@@ -267,11 +316,11 @@ namespace mortise
                               coupling.directions == TiedDirections::all)
             of_kind.all.push_back(&coupling);
         if (!along_normals && !of_kind.all.empty())
-          penalties.push_back(make_penalty(level, couplings, of_kind));
+          penalties.push_back(make_penalty(level, number, of_kind));
         if (along_normals)
           for (const Couplings &part : split_by_normals(level, number, of_kind))
             {
-              penalties.push_back(make_penalty(level, couplings, part));
+              penalties.push_back(make_penalty(level, number, part));
               penalties.back().normals = nodal_normals(level, number, part);
             }
       }

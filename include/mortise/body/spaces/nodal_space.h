@@ -40,12 +40,6 @@ namespace mortise
       return !begin.empty();
     }
 
-    unsigned int
-    n_functions() const
-    {
-      return hang() ? begin.size() - 1 : nodes.size();
-    }
-
     template <class Archive>
     void
     serialize(Archive &archive, const unsigned int /*version*/)

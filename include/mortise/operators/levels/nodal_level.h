@@ -7,7 +7,6 @@
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/levels/nodal_operator.h>
 #include <mortise/operators/levels/nodal_penalty.h>
-#include <mortise/operators/levels/weak_jump.h>
 #include <mortise/operators/matrix_free/hanging_nodes.h>
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
 
@@ -19,25 +18,23 @@ namespace mortise
   struct NodalLevel
   {
     std::unique_ptr<NodalSpace> space;
-    /// Component c of node n has index 3 n + c. Ghosts: of owned cells, of
-    /// the faces that the slave faces of this rank meet, and of jumps.
+    /// Component c of node n has index 3 n + c. Ghosts: of owned cells, and of
+    /// the faces that the slave faces of this rank meet.
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     /// Owned components that are prescribed or hang, indices in vectors.
     std::vector<unsigned int> constrained;
-    std::vector<WeakJump>     jumps;     ///< by coupling
     std::vector<NodalPenalty> penalties; ///< of ties, and of what slides
   };
 
   /// Level @p number of the scene on @p space, without its penalties. @p numbering and
   /// @p constraints are those of the scene, which hold or let hang whole faces or nothing.
-  /// @p tests: the owned nodes of the finest level, kept by reference. Collective.
+  /// Collective.
   NodalLevel
   make_nodal_level(std::unique_ptr<NodalSpace>              space,
                    unsigned int                             number,
                    const FieldNumbering                    &numbering,
                    const dealii::AffineConstraints<double> &constraints,
                    const std::vector<Coupling>             &couplings,
-                   const dealii::IndexSet                  &tests,
                    MPI_Comm                                 comm);
 
   /// One for each kind of interface that there is.
