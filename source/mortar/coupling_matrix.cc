@@ -6,7 +6,7 @@
 #include <mortise/mortar/coupling_matrix.h>
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace mortise
 {

@@ -25,8 +25,6 @@ namespace mortise
     if (spaces.fields.pressure.numbering.size() > 0)
       system.owned_pressure = spaces.owned_pressure();
     system.owned_multiplier.set_size(0);
-    for (const auto &body : spaces.bodies)
-      system.max_degree = std::max(system.max_degree, body->max_degree());
     if (couplings.sides().empty())
       check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
     else

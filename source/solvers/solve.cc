@@ -7,7 +7,6 @@
 #include <mortise/solvers/krylov/saddle_point.h>
 #include <mortise/solvers/solve.h>
 
-#include <algorithm>
 #include <string>
 
 namespace mortise

@@ -8,7 +8,6 @@
 #include <mortise/base/types.h>
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace mortise
@@ -42,13 +41,6 @@ namespace mortise
     /// Drop the columns of owned displacements @p constrained.
     void
     constrain(std::vector<unsigned int> constrained);
-
-    /// 0 without interfaces.
-    bool
-    empty() const
-    {
-      return !entries;
-    }
 
     /// Displacements of a node: dim, or 1 where each is moved by itself.
     unsigned int

@@ -83,9 +83,6 @@ namespace mortise
     /// S, the compliance of springs: zero, or empty, where bodies are tied.
     SparseMatrix spring_compliance;
 
-    /// Largest polynomial degree in the scene.
-    unsigned int max_degree = 1;
-
     /// Are there bodies in mixed form?
     bool
     mixed() const
