@@ -1,7 +1,6 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
 
-#include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/interface/body_surface.h>
 
@@ -11,30 +10,6 @@ namespace mortise
 
   namespace
   {
-    SurfaceFace
-    face_geometry(const Body         &body,
-                  const BoundaryFace &at,
-                  const CellFace     &face)
-    {
-      SurfaceFace result;
-      result.shape       = face.basis->shape;
-      result.degree      = body.mapping_degree;
-      result.orientation = face.orientation;
-      result.id          = at.cell->global_active_cell_index() * 6 + at.number;
-      result.owner       = at.cell->subdomain_id();
-      const QGaussLobatto<1> nodes(result.degree + 1);
-      for (unsigned int j = 0; j <= result.degree; ++j)
-        for (unsigned int i = 0; i <= result.degree; ++i)
-          // a triangle's points beyond it follow from the others
-          result.points.push_back(
-            result.shape == FaceShape::triangle && i + j > result.degree ?
-              Point<3>() :
-              body.mapping->transform_unit_to_real_cell(
-                at.cell,
-                face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
-      return result;
-    }
-
     /// How far the cell reaches from the face, normal to it.
     double
     depth(const Body::CellIterator &cell, const CellFace &face)
@@ -99,6 +74,39 @@ namespace mortise
     }
   } // namespace
 
+  SurfaceFace
+  face_geometry(const Body &body, const BoundaryFace &at)
+  {
+    const CellFace face(at.cell, at.number);
+    SurfaceFace    result;
+    result.shape       = face.basis->shape;
+    result.degree      = body.mapping_degree;
+    result.orientation = face.orientation;
+    result.id          = at.cell->global_active_cell_index() * 6 + at.number;
+    result.owner       = at.cell->subdomain_id();
+    const QGaussLobatto<1> nodes(result.degree + 1);
+    for (unsigned int j = 0; j <= result.degree; ++j)
+      for (unsigned int i = 0; i <= result.degree; ++i)
+        // a triangle's points beyond it follow from the others
+        result.points.push_back(
+          result.shape == FaceShape::triangle && i + j > result.degree ?
+            Point<3>() :
+            body.mapping->transform_unit_to_real_cell(
+              at.cell,
+              face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
+    return result;
+  }
+
+  std::array<std::uint64_t, 4>
+  face_vertices(const BoundaryFace &at)
+  {
+    const CellFace               face(at.cell, at.number);
+    std::array<std::uint64_t, 4> result{};
+    for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
+      result[v] = at.cell->vertex_index(face.vertices[v]);
+    return result;
+  }
+
   std::array<std::vector<types::global_dof_index>, dim>
   face_dofs(const Body::CellIterator &cell, const unsigned int face_number)
   {
@@ -116,25 +124,22 @@ namespace mortise
 
   BodySurface
   extract_surface(const Body                      &body,
-                  const types::boundary_id         boundary,
+                  const std::vector<BoundaryFace> &known,
                   const FieldNumbering            &numbering,
                   const AffineConstraints<double> &constraints,
                   const NodalSpaces               &levels)
   {
     // ghost cells take part in the averaging of normals
     BodySurface                               surface;
+    surface.known = known;
     std::vector<SurfaceFace>                  faces;
     std::vector<std::array<std::uint64_t, 4>> vertices;
     std::vector<bool>                         owned;
-    for (const BoundaryFace &at : boundary_faces(body, boundary))
+    for (const BoundaryFace &at : known)
       {
         const auto &[cell, f] = at;
-        const CellFace face(cell, f);
-        faces.push_back(face_geometry(body, at, face));
-        std::array<std::uint64_t, 4> corners{};
-        for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
-          corners[v] = cell->vertex_index(face.vertices[v]);
-        vertices.push_back(corners);
+        faces.push_back(face_geometry(body, at));
+        vertices.push_back(face_vertices(at));
         owned.push_back(cell->is_locally_owned());
         if (owned.back())
           {

@@ -4,7 +4,6 @@
 
 #include <deal.II/lac/la_parallel_vector.h>
 
-#include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/multiplier_faces.h>
 
@@ -148,7 +147,6 @@ namespace mortise
 
   std::vector<MultiplierFace>
   collect_multiplier_faces(const Body                      &body,
-                           const types::boundary_id         boundary,
                            const BodySurface               &slave,
                            const std::vector<PartnerState> &partners,
                            const std::vector<bool>         &blocked_owned)
@@ -174,7 +172,7 @@ namespace mortise
                                                       unpack);
 
     std::vector<MultiplierFace> faces;
-    for (const auto &[cell, f] : boundary_faces(body, boundary))
+    for (const auto &[cell, f] : slave.known)
       {
         faces.push_back(describe(body, cell, f));
         apply_bits(bits[cell->id()][f], body, blocked, faces.back());

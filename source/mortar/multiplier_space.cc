@@ -150,7 +150,6 @@ namespace mortise
   } // namespace
 
   MultiplierSpace::MultiplierSpace(const Body                      &body,
-                                   const types::boundary_id         boundary,
                                    const BodySurface               &slave,
                                    const std::vector<PartnerState> &partners,
                                    const std::vector<bool>         &blocked,
@@ -163,7 +162,6 @@ namespace mortise
       normals = slave_normals(body, slave);
     const std::vector<MultiplierFace> faces =
       collect_multiplier_faces(body,
-                               boundary,
                                slave,
                                partners,
                                along_normals ?

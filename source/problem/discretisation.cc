@@ -190,7 +190,7 @@ namespace mortise
         prescribed_columns.vmult(load.rhs.multiplier, g);
       }
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
-      if (const auto offset = data.offset(i);
+      if (const auto offset = data.offset(couplings.sides()[i]);
           offset && load.rhs.multiplier.size() > 0)
         {
           const Coupling &coupling = couplings.all()[i];

@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/interface/smooth_patches.h>
 #include <mortise/mortar/slave_normals.h>
 #include <mortise/problem/interface_law.h>
 #include <mortise/problem/scene_couplings.h>
@@ -18,18 +19,43 @@ namespace mortise
                                  const SceneSpaces &spaces)
     : run(run)
     , spaces(spaces)
-    , interfaces(run.parameters.interfaces)
     , owned(0)
   {}
 
-  Coupling
-  SceneCouplings::make_coupling(const InterfaceParameters &given) const
+  std::vector<BoundaryFace>
+  SceneCouplings::faces_of(const InterfaceParameters &given,
+                           const SideParameters      &side) const
   {
-    const auto surface = [&](const SideParameters &side) {
-      const Body &body = *spaces.bodies[side.body];
-      return extract_surface(body,
-                             body.boundary_id(side.boundary,
-                                              "Interface " + given.name),
+    const Body &body = *spaces.bodies[side.body];
+    return boundary_faces(body,
+                          body.boundary_id(side.boundary,
+                                           "Interface " + given.name));
+  }
+
+  std::string
+  SceneCouplings::patch_name(const InterfaceParameters &given,
+                             const unsigned int         k) const
+  {
+    const auto is = [](const std::string &name) {
+      return [&](const auto &other) { return other.name == name; };
+    };
+    std::string name = given.name + "-" + std::to_string(k + 1);
+    const auto &all  = run.parameters;
+    while (std::any_of(all.bodies.begin(), all.bodies.end(), is(name)) ||
+           std::any_of(all.interfaces.begin(), all.interfaces.end(), is(name)))
+      name += "-";
+    return name;
+  }
+
+  Coupling
+  SceneCouplings::make_coupling(const InterfaceParameters       &given,
+                                const std::string               &name,
+                                const std::vector<BoundaryFace> &slave) const
+  {
+    const auto surface = [&](const SideParameters            &side,
+                             const std::vector<BoundaryFace> &faces) {
+      return extract_surface(*spaces.bodies[side.body],
+                             faces,
                              spaces.fields.displacement.numbering,
                              spaces.fields.displacement.constraints,
                              spaces.nodal);
@@ -40,12 +66,12 @@ namespace mortise
     Coupling coupling;
     coupling.is_spring  = given.law == "spring";
     coupling.directions = tied_directions(run.parameters, given);
-    coupling.interface = std::make_unique<InterfaceHandler>(given.name,
-                                                            surface(given.slave),
-                                                            surface(
-                                                              given.master),
-                                                            options,
-                                                            run.comm);
+    coupling.interface  = std::make_unique<InterfaceHandler>(
+      name,
+      surface(given.slave, slave),
+      surface(given.master, faces_of(given, given.master)),
+      options,
+      run.comm);
     return coupling;
   }
 
@@ -71,14 +97,32 @@ namespace mortise
   {
     auto          stage = run.log.stage(run.timers, "interface_search");
     std::uint64_t faces = 0;
-    for (const InterfaceParameters &given : interfaces)
+    std::string   divided;
+    for (const InterfaceParameters &given : run.parameters.interfaces)
       {
-        couplings.push_back(make_coupling(given));
-        faces +=
-          Utilities::MPI::sum(couplings.back().interface->slave().faces.size(),
-                              run.comm);
+        const auto slave = faces_of(given, given.slave);
+        const auto patches =
+          tied_directions(run.parameters, given) == TiedDirections::normal ?
+            smooth_patches(*spaces.bodies[given.slave.body], slave) :
+            std::vector<std::vector<BoundaryFace>>{slave};
+        for (unsigned int k = 0; k < patches.size(); ++k)
+          {
+            interfaces.push_back(given);
+            given_slaves.push_back(given.slave.body);
+            couplings.push_back(
+              make_coupling(given,
+                            patches.size() > 1 ? patch_name(given, k) :
+                                                 given.name,
+                            patches[k]));
+            faces += Utilities::MPI::sum(
+              couplings.back().interface->slave().faces.size(), run.comm);
+          }
+        if (patches.size() > 1)
+          divided += ", " + given.name + " in " +
+                     std::to_string(patches.size()) +
+                     " smooth patches of the slave";
       }
-    stage.details(std::to_string(faces) + " slave faces");
+    stage.details(std::to_string(faces) + " slave faces" + divided);
   }
 
   void
@@ -86,6 +130,7 @@ namespace mortise
   {
     const InterfaceReport     &report = couplings[i].interface->report();
     const InterfaceParameters &given  = interfaces[i];
+    const std::string         &name   = couplings[i].interface->name();
     if (report.pairs == 0)
       throw InputError(
         "Interface " + given.name + ": the surfaces " +
@@ -96,18 +141,39 @@ namespace mortise
         RunLog::number(given.search_distance) +
         " face sizes. Check positions, names and Search distance");
     if (report.failed_pairs > 0)
-      run.log.warning("interface " + given.name + ": the projection of " +
+      run.log.warning("interface " + name + ": the projection of " +
                       std::to_string(report.failed_pairs) +
                       " pairs of faces did not converge");
     if (report.covered_area < 0.999 * report.slave_area)
       {
         std::ostringstream text;
-        text << "interface " << given.name << ": only "
+        text << "interface " << name << ": only "
              << RunLog::number(100. * report.covered_area / report.slave_area)
              << " % of the slave surface has a partner; worst is the face at "
              << report.worst_face_centre << " ("
              << RunLog::number(100. * report.worst_face_error) << " % off)";
         run.log.warning(text.str());
+      }
+  }
+
+  void
+  SceneCouplings::drop_patches_apart()
+  {
+    for (unsigned int i = couplings.size(); i-- > 0;)
+      {
+        const auto same_interface = [&](const InterfaceParameters &other) {
+          return other.name == interfaces[i].name;
+        };
+        if (couplings[i].interface->report().pairs > 0 ||
+            std::count_if(interfaces.begin(),
+                          interfaces.end(),
+                          same_interface) == 1)
+          continue;
+        run.log.warning("interface " + couplings[i].interface->name() +
+                        ": the surfaces do not meet; nothing is tied");
+        couplings.erase(couplings.begin() + i);
+        interfaces.erase(interfaces.begin() + i);
+        given_slaves.erase(given_slaves.begin() + i);
       }
   }
 
@@ -119,8 +185,10 @@ namespace mortise
     double      clipping = 0.;
     std::string balance;
     for (unsigned int i = 0; i < couplings.size(); ++i)
+      integrate(interfaces[i], couplings[i]);
+    drop_patches_apart();
+    for (unsigned int i = 0; i < couplings.size(); ++i)
       {
-        integrate(interfaces[i], couplings[i]);
         const InterfaceReport &report = couplings[i].interface->report();
         clipping += report.clipping_seconds;
         if (const unsigned int n_ranks =

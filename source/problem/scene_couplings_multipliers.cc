@@ -32,7 +32,7 @@ namespace mortise
   SceneCouplings::check_constants(const unsigned int               i,
                                   const std::vector<PartnerState> &states) const
   {
-    const std::string name    = interfaces[i].name;
+    const std::string name    = couplings[i].interface->name();
     const auto       &rows    = couplings[i].multipliers->rows();
     unsigned int      n_fixed = 0, n_covered = 0;
     const bool slides = couplings[i].directions == TiedDirections::normal;
@@ -69,9 +69,10 @@ namespace mortise
           text << "Interface " << name << ": bodies slide across an edge of "
                << spaces.bodies[interfaces[i].slave.body]->name << ": "
                << interfaces[i].slave.boundary << " at " << *place
-               << ", where the surface has no normal. Make what lies on either "
-                  "side of it boundaries, and interfaces, of their own, or "
-                  "refine a mesh that is too coarse for a round surface";
+               << ", where the surface has no normal: the edge ends within a smooth "
+                  "patch. Make what lies on either side of it boundaries, and "
+                  "interfaces, of their own, or refine a mesh that is too "
+                  "coarse for a round surface";
           lost = text.str();
         }
     throw_if_any(lost, run.comm);
@@ -101,7 +102,6 @@ namespace mortise
         Coupling             &coupling = couplings[i];
         coupling.multipliers           = std::make_unique<MultiplierSpace>(
           body,
-          body.boundary_id(slave.boundary, ""),
           coupling.interface->slave(),
           states[i],
           blocked_dofs(slave.body, shared.taken()),
@@ -135,7 +135,7 @@ namespace mortise
       {
         const InterfaceReport &report = couplings[i].interface->report();
         ties.push_back(
-          {interfaces[i].name,
+          {couplings[i].interface->name(),
            interfaces[i].slave.body,
            interfaces[i].master.body,
            multiplier_moments(couplings[i], owned, run.comm),
@@ -171,11 +171,12 @@ namespace mortise
         InterfaceParameters &given = interfaces[i];
         const auto &master = run.parameters.bodies[given.master.body].boundaries;
         const auto  side   = master.find(given.master.boundary);
-        if (tried[i] || (side != master.end() && side->second.displacement))
+        if (tried[i] || is_patch(i) || (side != master.end() && side->second.displacement))
           continue;
         tried[i] = true;
         std::swap(given.slave, given.master);
-        Coupling other = make_coupling(given);
+        Coupling other =
+          make_coupling(given, given.name, faces_of(given, given.slave));
         integrate(given, other);
         std::swap(couplings[i], other);
         number_multipliers();
@@ -229,7 +230,8 @@ namespace mortise
     std::string names;
     for (unsigned int i = 0; i < counts.size(); ++i)
       if (counts[i] > 0)
-        names += (names.empty() ? "" : ", ") + interfaces[i].name + " (" +
+        names += (names.empty() ? "" : ", ") + couplings[i].interface->name() +
+                 " (" +
                  std::to_string(counts[i]) + ")";
     return names;
   }

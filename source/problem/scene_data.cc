@@ -346,10 +346,9 @@ namespace mortise
   }
 
   std::function<double(const Point<dim> &)>
-  SceneData::offset(const unsigned int i) const
+  SceneData::offset(const InterfaceParameters &given) const
   {
-    const InterfaceParameters &given = parameters.interfaces[i];
-    const std::string          where =
+    const std::string where =
       parameters.where("Interface " + given.name + "/Offset");
     const Expression expression(given.offset, where, time);
     if (expression.is_constant() && !expression.depends_on_time() &&

@@ -45,7 +45,7 @@ namespace mortise
       std::vector<TiedBodies> tied;
       for (unsigned int i = 0; i < interfaces.all().size(); ++i)
         tied.push_back({interfaces.sides()[i].slave.body,
-                        run.parameters.interfaces[i].slave.body});
+                        interfaces.given_slave(i)});
       result.multiplier_l2 = multiplier_error(
         bodies, interfaces.all(), tied, fields.tractions, exact);
       return result;

@@ -68,13 +68,15 @@ def report(benchmark):
                      [(f"{p}, {n}", dict(p=p, n=n)) for p, cells in ((1, (8, 16, 24)), (2, (4, 8, 16)), (4, (2, 4, 8))) for n in cells])
     yield from table(benchmark, "Over ranks, `sphere`, `slide`:", "p, ranks",
                      [(f"{p}, {ranks}", dict(p=p, n=CELLS[p], ranks=ranks)) for p in (1, 3) for ranks in (1, 2, 3)])
-    yield from table(benchmark, "Over the modulus of the slave, that of the master being 1, `sphere`, `slide`:", "p, modulus",
-                     [(f"{p}, {contrast}", dict(p=p, n=CELLS[p], contrast=contrast))
-                      for p in (2, 4) for contrast in ("1e-6", "1e-3", "1e3", "1e6")])
+    for scene in ("sphere", "blocks"):
+        yield from table(benchmark, f"Over the modulus of the slave, that of the master being 1, `{scene}`, `slide`:", "p, modulus",
+                         [(f"{p}, {contrast}", dict(scene=scene, p=p, n=CELLS[p], contrast=contrast))
+                          for p in (2, 4) for contrast in ("1e-6", "1e-3", "1e3", "1e6")])
     yield from table(benchmark, "Ten cells of the slave in a line for one of the master, `slide`:", "p, scene",
                      [(f"{p}, {scene}", dict(p=p, n=10, fine=10, scene=scene)) for p in (2, 4) for scene in ("sphere", "blocks")])
-    yield from table(benchmark, "Incompressible, mixed form, `sphere`:", "law, p",
-                     [(f"{law}, {p}", dict(p=p, n=CELLS[p], nu=0.5, law=law)) for law in ("tie", "slide") for p in (2, 4)])
+    for scene in ("sphere", "blocks"):
+        yield from table(benchmark, f"Incompressible, mixed form, `{scene}`:", "law, p",
+                         [(f"{law}, {p}", dict(scene=scene, p=p, n=CELLS[p], nu=0.5, law=law)) for law in ("tie", "slide") for p in (2, 4)])
     title = ("Another set, in seconds: all anew (`update()`), or only what is active (`update_active()`), coarse levels as they were for the "
              "set\nbefore; from the disc of 0.3 to that of 0.32, `sphere`:")
     print(title)

@@ -245,7 +245,11 @@ namespace mortise::testing
     {
       const auto side = [&](const unsigned int b) {
         return extract_surface(
-          *bodies[b], surface(b), field.numbering, field.constraints, spaces);
+          *bodies[b],
+          boundary_faces(*bodies[b], surface(b)),
+          field.numbering,
+          field.constraints,
+          spaces);
       };
       couplings.emplace_back();
       Coupling &coupling = couplings[0];
@@ -260,7 +264,7 @@ namespace mortise::testing
                           !bodies[0]->conformity.is_constrained(dof));
       const BodySurface &slave = coupling.interface->slave();
       coupling.multipliers     = std::make_unique<MultiplierSpace>(
-        *bodies[0], surface(0), slave, states, blocked);
+        *bodies[0], slave, states, blocked);
       const auto counts =
         dealii::Utilities::MPI::all_gather(comm,
                                            coupling.multipliers->n_owned());

@@ -57,7 +57,9 @@ namespace mortise::testing
       const auto  side   = [&](const unsigned int b) {
         return extract_surface(
           *pointers[b],
-          pointers[b]->boundary_id(b == 0 ? "zmax" : "zmin", ""),
+          boundary_faces(*pointers[b],
+                         pointers[b]->boundary_id(b == 0 ? "zmax" : "zmin",
+                                                  "")),
           scene.fields.displacement.numbering,
           scene.fields.displacement.constraints,
           spaces);

@@ -60,7 +60,8 @@ namespace mortise::testing
       const auto           all = scene_constraints(numbering, constraints);
       const auto surface = [&](const unsigned int b, const std::string &name) {
         return extract_surface(*bodies[b],
-                               bodies[b]->boundary_id(name, ""),
+                               boundary_faces(*bodies[b],
+                                              bodies[b]->boundary_id(name, "")),
                                numbering,
                                all);
       };

@@ -200,7 +200,7 @@ namespace mortise::testing
       const auto scene   = scene_constraints(numbering, open);
       const auto surface = [&](const unsigned int b, const std::string &name) {
         return extract_surface(*bodies[b],
-                               bodies[b]->boundary_id(name, "inf-sup"),
+                               boundary_faces(*bodies[b], bodies[b]->boundary_id(name, "inf-sup")),
                                numbering,
                                scene);
       };
@@ -220,7 +220,6 @@ namespace mortise::testing
                        !bodies[0]->conformity.is_constrained(i);
       coupling.multipliers =
         std::make_unique<MultiplierSpace>(*bodies[0],
-                                          bodies[0]->boundary_id("zmax", ""),
                                           coupling.interface->slave(),
                                           partner_states(couplings)[0],
                                           blocked);

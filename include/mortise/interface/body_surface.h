@@ -6,6 +6,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <mortise/body/body.h>
+#include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/trace_basis.h>
 #include <mortise/body/spaces/nodal_space.h>
 #include <mortise/body/spaces/numbering.h>
@@ -56,7 +57,8 @@ namespace mortise
     }
   };
 
-  /// Faces of one boundary that belong to cells this rank owns, in one order.
+  /// Faces of one boundary, or of a part of it, that belong to cells this rank
+  /// owns, in one order.
   struct BodySurface
   {
     std::vector<SurfaceFace>
@@ -64,15 +66,24 @@ namespace mortise
     std::vector<FaceTrace>          traces;
     std::vector<Body::CellIterator> cells;
     std::vector<unsigned int>       face_numbers;
+    std::vector<BoundaryFace>       known; ///< of ghost cells, too
   };
 
-  /// Extract the owned faces with boundary id @p boundary. The geometry is that of the body's mapping,
-  /// exactly; vertex normals are averaged over all faces of this boundary
-  /// around the vertex.
+  /// The face's geometry, that of the body's mapping, exactly; not finalized.
+  SurfaceFace
+  face_geometry(const Body &body, const BoundaryFace &face);
+
+  /// Numbers of the face's vertices in the mesh, as average_vertex_normals()
+  /// takes them.
+  std::array<std::uint64_t, 4>
+  face_vertices(const BoundaryFace &face);
+
+  /// The surface that consists of @p faces, which include those of ghost cells.
+  /// Vertex normals are averaged over all faces among them around the vertex.
   /// @p constraints are those of the scene; @p levels fill the traces' nodes.
   BodySurface
   extract_surface(const Body                              &body,
-                  dealii::types::boundary_id               boundary,
+                  const std::vector<BoundaryFace>         &faces,
                   const FieldNumbering                    &numbering,
                   const dealii::AffineConstraints<double> &constraints,
                   const NodalSpaces                       &levels = {});

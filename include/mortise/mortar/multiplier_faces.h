@@ -49,11 +49,10 @@ namespace mortise
     bool blocked_vertex[dim][4] = {};
   };
 
-  /// The faces with id @p boundary of owned and ghost cells. Parameters as for MultiplierSpace.
+  /// The faces of @p slave, those of ghost cells included. Parameters as for MultiplierSpace.
   /// Collective.
   std::vector<MultiplierFace>
   collect_multiplier_faces(const Body                      &body,
-                           dealii::types::boundary_id       boundary,
                            const BodySurface               &slave,
                            const std::vector<PartnerState> &partners,
                            const std::vector<bool>         &blocked);

@@ -94,7 +94,6 @@ namespace mortise
     /// belongs to an
     /// earlier interface. @p partners: by face of @p slave. Collective.
     MultiplierSpace(const Body                      &body,
-                    dealii::types::boundary_id       boundary,
                     const BodySurface               &slave,
                     const std::vector<PartnerState> &partners,
                     const std::vector<bool>         &blocked,

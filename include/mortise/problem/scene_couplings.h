@@ -27,11 +27,21 @@ namespace mortise
     void
     choose_multipliers();
 
-    /// By interface, with the sides as they are solved.
+    /// By interface, with the sides as they are solved. Where bodies slide and
+    /// the slave's boundary has edges, each of its smooth patches is an
+    /// interface.
     const std::vector<InterfaceParameters> &
     sides() const
     {
       return interfaces;
+    }
+
+    /// The slave of interface @p i by the parameters; sides() may have it as
+    /// master.
+    unsigned int
+    given_slave(const unsigned int i) const
+    {
+      return given_slaves[i];
     }
 
     const std::vector<Coupling> &
@@ -90,8 +100,25 @@ namespace mortise
   private:
     void
     find_pairs();
+    /// @p name: of the interface, or of a patch; @p slave: its faces.
     Coupling
-    make_coupling(const InterfaceParameters &given) const;
+    make_coupling(const InterfaceParameters       &given,
+                  const std::string               &name,
+                  const std::vector<BoundaryFace> &slave) const;
+    std::vector<BoundaryFace>
+    faces_of(const InterfaceParameters &given, const SideParameters &side) const;
+    /// That of patch @p k; no body and no interface has it.
+    std::string
+    patch_name(const InterfaceParameters &given, unsigned int k) const;
+    bool
+    is_patch(const unsigned int i) const
+    {
+      return couplings[i].interface->name() != interfaces[i].name;
+    }
+    /// Patches that meet nothing are no interfaces, where others of the same
+    /// boundary do.
+    void
+    drop_patches_apart();
     void
     integrate(const InterfaceParameters &given, Coupling &coupling) const;
     /// Throws or warns where the surfaces of interface @p i do not meet.
@@ -114,6 +141,7 @@ namespace mortise
     const RunContext                &run;
     const SceneSpaces               &spaces;
     std::vector<InterfaceParameters> interfaces;
+    std::vector<unsigned int>        given_slaves;
     std::vector<Coupling>            couplings;
     dealii::IndexSet                 owned;
   };

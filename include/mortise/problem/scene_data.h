@@ -40,9 +40,9 @@ namespace mortise
     Loads
     loads(const Body &body) const;
 
-    /// The gap that interface @p i leaves between the bodies; null where it is zero at all times.
+    /// The gap that @p interface leaves between the bodies; null where it is zero at all times.
     std::function<double(const dealii::Point<dim> &)>
-    offset(unsigned int i) const;
+    offset(const InterfaceParameters &interface) const;
 
     /// Prescribed displacements of @p body; a condition without a value is zero at all times.
     std::vector<DirichletCondition>

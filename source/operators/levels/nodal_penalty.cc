@@ -218,8 +218,7 @@ namespace mortise
     /// Parts of @p couplings in which no node belongs to two: around an edge of a
     /// body each interface has a normal of its own.
     std::vector<Couplings>
-    split_by_normals(const NodalLevel  &level,
-                     const unsigned int number,
+    split_by_normals(const unsigned int number,
                      const Couplings   &couplings)
     {
       std::vector<Couplings>                         parts;
@@ -318,7 +317,7 @@ namespace mortise
         if (!along_normals && !of_kind.all.empty())
           penalties.push_back(make_penalty(level, number, of_kind));
         if (along_normals)
-          for (const Couplings &part : split_by_normals(level, number, of_kind))
+          for (const Couplings &part : split_by_normals(number, of_kind))
             {
               penalties.push_back(make_penalty(level, number, part));
               penalties.back().normals = nodal_normals(level, number, part);

@@ -1,0 +1,17 @@
+// Coarser levels of vertices where no coarser mesh is known: some of them stay,
+// the others follow from those nearby.
+#pragma once
+
+#include <mortise/body/spaces/vertex_coarsening.h>
+#include <mortise/operators/levels/vertex_matrix.h>
+
+namespace mortise
+{
+  /// The vertices of @p fine that stay are a maximal set of which no two are
+  /// coupled in one body, corners, edges and faces of bodies first; the others'
+  /// values are weighted means of the nearest that stay, exact for linear
+  /// functions, so that rigid motions are in the coarse space. Selected are
+  /// the same on any number of ranks. Collective.
+  VertexCoarsening
+  select_vertices(const VertexMatrix &fine);
+} // namespace mortise

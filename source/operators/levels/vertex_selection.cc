@@ -1,0 +1,322 @@
+// See vertex_selection.h.
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/physics/transformations.h>
+
+#include <mortise/operators/levels/vertex_selection.h>
+#include <mortise/operators/levels/vertex_transfer.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Index = VertexCoarsening::Index;
+
+    /// In [0, 1), by the place, whoever owns it.
+    double
+    draw(const Tensor<1, dim> &place)
+    {
+      std::uint64_t number = 0;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          std::uint64_t bits;
+          const double  value = place[c];
+          std::memcpy(&bits, &value, sizeof(bits));
+          number = (number ^ bits) * 0x9E3779B97F4A7C15U;
+          number ^= number >> 29;
+        }
+      return static_cast<double>(number >> 11) / static_cast<double>(1ULL << 53);
+    }
+
+    class Selection
+    {
+    public:
+      Selection(const VertexMatrix &fine)
+        : blocks(fine.blocks)
+        , layout(*fine.blocks.layout)
+        , n_owned(fine.blocks.size())
+        , place(fine.blocks.layout)
+        , body(fine.blocks.layout)
+      {
+        for (unsigned int i = 0; i < n_owned; ++i)
+          {
+            for (unsigned int c = 0; c < dim; ++c)
+              place.local_element(dim * i + c) = fine.points[i][c];
+            body.local_element(dim * i) = fine.bodies[i];
+          }
+        place.update_ghost_values();
+        body.update_ghost_values();
+      }
+
+      VertexCoarsening
+      run()
+      {
+        select();
+        find_near();
+        VertexCoarsening result = number_kept();
+        interpolate(result);
+        return result;
+      }
+
+    private:
+      Tensor<1, dim>
+      at(const LevelVector<double> &of, const unsigned int node) const
+      {
+        Tensor<1, dim> x;
+        for (unsigned int c = 0; c < dim; ++c)
+          x[c] = of.local_element(dim * node + c);
+        return x;
+      }
+
+      /// Local nodes of the same body that an owned one is coupled with.
+      template <typename Visit>
+      void
+      for_each_neighbour(const unsigned int i, const Visit &visit) const
+      {
+        for (std::size_t k = blocks.begin[i]; k < blocks.begin[i + 1]; ++k)
+          if (const unsigned int j = blocks.columns[k];
+              j != i && body.local_element(dim * j) == body.local_element(dim * i))
+            visit(j);
+      }
+
+      /// 0 inside a body, 1 on its faces, 2 on edges, 3 in corners, about.
+      int
+      sharpness(const unsigned int i) const
+      {
+        Tensor<1, dim> sum;
+        double         length = 0.;
+        for_each_neighbour(i, [&](const unsigned int j) {
+          const auto d = at(place, j) - at(place, i);
+          sum += d;
+          length += d.norm();
+        });
+        const double lean = length > 0. ? sum.norm() / length : 1.;
+        return lean > 0.7 ? 3 : lean > 0.5 ? 2 : lean > 0.25 ? 1 : 0;
+      }
+
+      /// The first in its neighbourhood stays, its neighbours go, until all are
+      /// one or the other.
+      void
+      select()
+      {
+        LevelVector<double> rank_of(blocks.layout);
+        state.reinit(blocks.layout);
+        for (unsigned int i = 0; i < n_owned; ++i)
+          rank_of.local_element(dim * i) = sharpness(i) + draw(at(place, i));
+        rank_of.update_ghost_values();
+        for (bool open = true; open;)
+          {
+            state.update_ghost_values();
+            std::vector<unsigned int> first;
+            for (unsigned int i = 0; i < n_owned; ++i)
+              if (state.local_element(dim * i) == undecided)
+                {
+                  bool is_first = true;
+                  for_each_neighbour(i, [&](const unsigned int j) {
+                    is_first = is_first &&
+                               (state.local_element(dim * j) != undecided ||
+                                rank_of.local_element(dim * j) <
+                                  rank_of.local_element(dim * i));
+                  });
+                  if (is_first)
+                    first.push_back(i);
+                }
+            for (const unsigned int i : first)
+              state.local_element(dim * i) = stays;
+            state.zero_out_ghost_values();
+            state.update_ghost_values();
+            int n_open = 0;
+            for (unsigned int i = 0; i < n_owned; ++i)
+              if (state.local_element(dim * i) == undecided)
+                {
+                  for_each_neighbour(i, [&](const unsigned int j) {
+                    if (state.local_element(dim * j) == stays)
+                      state.local_element(dim * i) = goes;
+                  });
+                  n_open += state.local_element(dim * i) == undecided;
+                }
+            state.zero_out_ghost_values();
+            open = Utilities::MPI::sum(n_open, layout.get_mpi_communicator()) > 0;
+          }
+        state.update_ghost_values();
+      }
+
+      /// By local node: those that stay next to it, numbers of the fine level.
+      void
+      find_near()
+      {
+        VertexCoarsening own;
+        for (unsigned int i = 0; i < n_owned; ++i)
+          {
+            own.begin.push_back(own.nodes.size());
+            const auto add = [&](const unsigned int j) {
+              if (state.local_element(dim * j) == stays)
+                own.nodes.push_back(layout.local_to_global(dim * j) / dim);
+            };
+            add(i);
+            for_each_neighbour(i, add);
+          }
+        own.begin.push_back(own.nodes.size());
+        own.weights.resize(own.nodes.size());
+        near = interpolation_rows(layout, own);
+        near_begin = {0};
+        for (const unsigned int length : near.lengths)
+          near_begin.push_back(near_begin.back() + length);
+      }
+
+      VertexCoarsening
+      number_kept()
+      {
+        VertexCoarsening result;
+        for (unsigned int i = 0; i < n_owned; ++i)
+          if (state.local_element(dim * i) == stays)
+            result.kept.push_back(i);
+        const MPI_Comm comm = layout.get_mpi_communicator();
+        const Index    mine = result.kept.size();
+        Index          first = 0;
+        MPI_Exscan(&mine, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
+        if (Utilities::MPI::this_mpi_process(comm) == 0)
+          first = 0; // is left undefined there
+        result.owned = IndexSet(Utilities::MPI::sum(mine, comm));
+        result.owned.add_range(first, first + mine);
+        return result;
+      }
+
+      void
+      interpolate(VertexCoarsening &result) const
+      {
+        // what is near to neighbours, with its place and number
+        IndexSet           needed(layout.size());
+        std::vector<Index> nodes = near.nodes;
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        for (const Index node : nodes)
+          if (!layout.in_local_range(dim * node))
+            needed.add_range(dim * node, dim * node + dim);
+        const MPI_Comm comm = layout.get_mpi_communicator();
+        LevelVector<double> places(layout.locally_owned_range(), needed, comm),
+          numbers(layout.locally_owned_range(), needed, comm);
+        for (unsigned int i = 0; i < dim * n_owned; ++i)
+          places.local_element(i) = place.local_element(i);
+        for (unsigned int k = 0; k < result.kept.size(); ++k)
+          numbers.local_element(dim * result.kept[k]) =
+            result.owned.nth_index_in_set(k);
+        places.update_ghost_values();
+        numbers.update_ghost_values();
+
+        std::vector<Index> candidates;
+        for (unsigned int i = 0; i < n_owned; ++i)
+          {
+            result.begin.push_back(result.nodes.size());
+            if (state.local_element(dim * i) == stays)
+              {
+                result.nodes.push_back(static_cast<Index>(numbers.local_element(dim * i)));
+                result.weights.push_back(1.);
+                continue;
+              }
+            candidates.clear();
+            const auto add = [&](const unsigned int j) {
+              candidates.insert(candidates.end(),
+                                near.nodes.begin() + near_begin[j],
+                                near.nodes.begin() + near_begin[j + 1]);
+            };
+            add(i);
+            for_each_neighbour(i, add);
+            std::sort(candidates.begin(), candidates.end());
+            candidates.erase(std::unique(candidates.begin(), candidates.end()),
+                             candidates.end());
+            add_row(at(place, i), candidates, places, numbers, result);
+          }
+        result.begin.push_back(result.nodes.size());
+      }
+
+      void
+      add_row(const Tensor<1, dim>      &x,
+              const std::vector<Index>  &candidates,
+              const LevelVector<double> &places,
+              const LevelVector<double> &numbers,
+              VertexCoarsening          &result) const
+      {
+        struct Candidate
+        {
+          double         square;
+          Tensor<1, dim> offset;
+          Index          number;
+        };
+        std::vector<Candidate> all;
+        for (const Index node : candidates)
+          {
+            Candidate c;
+            for (unsigned int d = 0; d < dim; ++d)
+              c.offset[d] = places(dim * node + d) - x[d];
+            c.square = c.offset.norm_square();
+            c.number = static_cast<Index>(numbers(dim * node));
+            all.push_back(c);
+          }
+        const unsigned int n = std::min<std::size_t>(all.size(), max_nearest);
+        std::partial_sort(all.begin(),
+                          all.begin() + n,
+                          all.end(),
+                          [](const Candidate &a, const Candidate &b) {
+                            return a.square < b.square;
+                          });
+        all.resize(n);
+        // means with the weights omega, then what makes them exact for linear
+        // functions where the places are no plane
+        std::vector<double> omega;
+        double              sum = 0.;
+        Tensor<1, dim>      mean;
+        for (const Candidate &c : all)
+          {
+            omega.push_back(std::pow(all[0].square / c.square, 2));
+            sum += omega.back();
+            mean += omega.back() * c.offset;
+          }
+        mean /= sum;
+        SymmetricTensor<2, dim> covariance;
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            omega[k] /= sum;
+            const auto d = all[k].offset - mean;
+            covariance += omega[k] * symmetrize(outer_product(d, d));
+          }
+        Tensor<1, dim> slope;
+        const auto     pairs = eigenvectors(covariance);
+        for (const auto &[value, vector] : pairs)
+          if (value > least_spread * pairs[0].first)
+            slope -= (mean * vector / value) * vector;
+        for (unsigned int k = 0; k < n; ++k)
+          {
+            result.nodes.push_back(all[k].number);
+            result.weights.push_back(
+              omega[k] * (1. + slope * (all[k].offset - mean)));
+          }
+      }
+
+      static constexpr double       undecided = 0., stays = 1., goes = 2.;
+      static constexpr unsigned int max_nearest  = 6;
+      static constexpr double       least_spread = 1e-2;
+
+      const NodalBlockMatrix            &blocks;
+      const Utilities::MPI::Partitioner &layout;
+      const unsigned int                 n_owned;
+      LevelVector<double>                place, body, state;
+      InterpolationRows                  near;
+      std::vector<unsigned int>          near_begin;
+    };
+  } // namespace
+
+  VertexCoarsening
+  select_vertices(const VertexMatrix &fine)
+  {
+    return Selection(fine).run();
+  }
+} // namespace mortise
