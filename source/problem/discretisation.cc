@@ -25,7 +25,7 @@ namespace mortise
     if (spaces.fields.pressure.numbering.size() > 0)
       system.owned_pressure = spaces.owned_pressure();
     system.owned_multiplier.set_size(0);
-    if (couplings.sides().empty())
+    if (run.parameters.interfaces.empty())
       check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
     else
       couple();

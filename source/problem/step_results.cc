@@ -25,8 +25,7 @@ namespace mortise
   namespace
   {
     ErrorSummary
-    errors_of(const RunContext     &run,
-              const Discretisation &discretisation,
+    errors_of(const Discretisation &discretisation,
               const ExactSolution  &exact,
               const StepFields     &fields)
     {
@@ -75,7 +74,7 @@ namespace mortise
         summary.interfaces[i].moment_residual = errors.moment;
       }
     if (const auto &exact = solved.data.exact())
-      summary.errors = errors_of(run, discretisation, *exact, fields);
+      summary.errors = errors_of(discretisation, *exact, fields);
     for (const PointQuantity &quantity : run.parameters.output.points)
       {
         const auto value =

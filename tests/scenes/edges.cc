@@ -127,7 +127,7 @@ namespace
       tied("part, plate", "part: seat", "plate: zmax") +
         body("part", "corner_hex.geo", one, "Displacement = 0, 0, -0.1") +
         "subsection Body plate\n  subsection Mesh\n    set Source = box\n"
-        "    set Extent = -1, -1, -1, 2, 2, 0\n  end\n"
+        "    set Extent = -1, -1, -1, 2, 2, 0\n    set Subdivisions = 3, 3, 1\n  end\n"
         "  subsection Material\n    set Young modulus = 10\n  end\n"
         "  subsection Boundary zmin\n    set Displacement = 0, 0, 0\n  end\nend\n"
         "subsection Interface glue\n  set Law = slide\nend\n",

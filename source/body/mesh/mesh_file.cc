@@ -100,6 +100,7 @@ namespace mortise
       check_size(mesh, fail);
       check_volumes(mesh, fail);
       check_coinciding_nodes(mesh, fail);
+      sort_cells(mesh);
       return mesh;
     }
 

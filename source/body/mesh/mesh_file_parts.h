@@ -46,6 +46,11 @@ namespace mortise
   void
   check_volumes(CoarseMesh &mesh, const FileError &fail);
 
+  /// Put the cells in the order of a curve that fills space: what is near in
+  /// memory is then near in space. Files have them in the order in which they were meshed.
+  void
+  sort_cells(CoarseMesh &mesh);
+
   /// Refuse nodes at one place, unless named boundaries say that they are the
   /// two sides of a surface: of two volumes, or of two names.
   void

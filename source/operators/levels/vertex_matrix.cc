@@ -214,7 +214,7 @@ namespace mortise
     add_cells(const NodalLevel        &level,
               const Functions         &functions,
               NodalBlockMatrixBuilder &builder,
-              std::vector<Point<dim>> &points)
+              VertexMatrix            &result)
     {
       std::map<unsigned int, std::unique_ptr<CellKernel>> kernels; // by body
       FullMatrix<double>                                  local, half, resolved;
@@ -245,7 +245,11 @@ namespace mortise
             }
         for (const unsigned int v : cell->vertex_indices())
           if (owned.is_element(vertices[v]))
-            points[owned.index_within_set(vertices[v])] = cell->vertex(v);
+            {
+              const auto i     = owned.index_within_set(vertices[v]);
+              result.points[i] = cell->vertex(v);
+              result.bodies[i] = body.index;
+            }
       });
     }
 
@@ -311,6 +315,18 @@ namespace mortise
     }
   } // namespace
 
+  void
+  VertexMatrix::keep(const std::vector<unsigned int> &kept)
+  {
+    for (unsigned int i = 0; i < kept.size(); ++i) // in ascending order
+      {
+        points[i] = points[kept[i]];
+        bodies[i] = bodies[kept[i]];
+      }
+    points.resize(kept.size());
+    bodies.resize(kept.size());
+  }
+
   VertexMatrix
   assemble_vertex_matrix(const NodalLevel       &level,
                          const VertexCoarsening *coarsening)
@@ -321,18 +337,20 @@ namespace mortise
     NodalBlockMatrixBuilder builder(owned,
                                     level.layout->get_mpi_communicator());
     couple_all(level, functions, owned, builder);
-    std::vector<Point<dim>> points(level.space->owned_nodes().n_elements());
-    add_cells(level, functions, builder, points);
+    VertexMatrix result;
+    result.points.resize(level.space->owned_nodes().n_elements());
+    result.bodies.resize(result.points.size());
+    add_cells(level, functions, builder, result);
     add_penalties(level, functions, builder);
     IndexSet needed(owned.size());
-    if (coarsening == nullptr)
-      return {builder.finish(needed), points};
-    needed.add_indices(coarsening->nodes.begin(), coarsening->nodes.end());
-    VertexMatrix result;
+    if (coarsening != nullptr)
+      needed.add_indices(coarsening->nodes.begin(), coarsening->nodes.end());
     result.blocks = builder.finish(needed);
-    constrain(level.constrained, *coarsening, result.blocks);
-    for (const unsigned int vertex : coarsening->kept)
-      result.points.push_back(points[vertex]);
+    if (coarsening != nullptr)
+      {
+        constrain(level.constrained, *coarsening, result.blocks);
+        result.keep(coarsening->kept);
+      }
     return result;
   }
 } // namespace mortise

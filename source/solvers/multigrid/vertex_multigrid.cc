@@ -1,11 +1,12 @@
 // See vertex_multigrid.h.
 #include <mortise/operators/levels/nodal_block_operator.h>
 #include <mortise/operators/levels/vertex_matrix.h>
+#include <mortise/operators/levels/vertex_selection.h>
 #include <mortise/operators/levels/vertex_transfer.h>
+#include <mortise/solvers/factorisation/cholesky_inverse.h>
 #include <mortise/solvers/multigrid/chebyshev.h>
 #include <mortise/solvers/multigrid/lower_smoothing_bound.h>
 #include <mortise/solvers/multigrid/vertex_multigrid.h>
-#include <mortise/solvers/multigrid/vertex_solver.h>
 
 #include <algorithm>
 
@@ -21,10 +22,13 @@ namespace mortise
     /// 2, one core: the same at 2,000; 0.34 instead of 0.25 s at 5,800).
     constexpr unsigned int max_factorised = 1500;
 
-    /// A mesh that is coarsened.
-    struct RefinedLevel
+    /// The same where no coarser mesh is known: fewer vertices do less there.
+    constexpr unsigned int max_selected_from = 4000;
+
+    /// A level that is coarsened.
+    struct SmoothedVertices
     {
-      RefinedLevel(NodalBlockMatrix        blocks,
+      SmoothedVertices(NodalBlockMatrix        blocks,
                    const double            smallest,
                    const VertexCoarsening &coarsening,
                    const NodalBlockMatrix &coarse)
@@ -67,29 +71,36 @@ namespace mortise
       if (skip_finest)
         to_first = std::make_unique<VertexTransfer<Number>>(*next++, blocks);
       const double smallest = lower_smoothing_bound(*level.space, false);
-      for (;
-           next != coarsenings.end() && blocks.layout->size() > max_factorised;
-           ++next)
+      while (blocks.layout->size() > (next != coarsenings.end() ?
+                                        max_factorised :
+                                        max_selected_from))
         {
-          NodalBlockMatrix coarse = coarsen(blocks, *next);
-          levels.push_back(std::make_unique<RefinedLevel>(
-            std::move(blocks), smallest, *next, coarse));
+          const VertexCoarsening coarsening =
+            next != coarsenings.end() ? *next++ : select_vertices(matrix);
+          if (coarsening.owned.size() * dim == blocks.layout->size())
+            break; // small bodies only
+          NodalBlockMatrix coarse = coarsen(blocks, coarsening);
+          levels.push_back(std::make_unique<SmoothedVertices>(
+            std::move(blocks), smallest, coarsening, coarse));
           valid  = valid && levels.back()->smoother.is_valid();
           blocks = std::move(coarse);
-          std::vector<Point<dim>> points;
-          for (const unsigned int node : next->kept)
-            points.push_back(matrix.points[node]);
-          matrix.points = std::move(points);
+          matrix.keep(coarsening.kept);
         }
       coarse_x.reinit(blocks.layout);
       coarse_b.reinit(blocks.layout);
       constrained = constrained_components(blocks);
-      auto epetra = as_epetra(blocks);
-      blocks      = NodalBlockMatrix();
-      vertex_x    = std::make_unique<Epetra_Vector>(epetra->RowMap());
-      vertex_r    = std::make_unique<Epetra_Vector>(epetra->RowMap());
-      valid =
-        solver.initialize(std::move(epetra), matrix.points, true) && valid;
+      const auto rows = as_epetra(blocks);
+      blocks          = NodalBlockMatrix();
+      vertex_x        = std::make_unique<Epetra_Vector>(rows->RowMap());
+      vertex_r        = std::make_unique<Epetra_Vector>(rows->RowMap());
+      valid           = coarsest.initialize(
+                rows_as_nodes(*rows),
+                [&rows](Epetra_Vector &y, const Epetra_Vector &x) {
+                  rows->Multiply(false, x, y);
+                },
+                rows->RowMap(),
+                true) &&
+              valid;
     }
 
     /// The solution for what b() of level @p l holds, approximately, to x().
@@ -101,7 +112,7 @@ namespace mortise
           std::copy_n(coarse_b.begin(),
                       coarse_b.locally_owned_size(),
                       vertex_r->Values());
-          solver.vmult(*vertex_x, *vertex_r);
+          coarsest.solve(*vertex_x, *vertex_r);
           std::copy_n(vertex_x->Values(),
                       coarse_x.locally_owned_size(),
                       coarse_x.begin());
@@ -109,7 +120,7 @@ namespace mortise
             coarse_x.local_element(index) = 0;
           return;
         }
-      RefinedLevel &level = *levels[l];
+      SmoothedVertices &level = *levels[l];
       level.smoother.smooth(level.x, level.b, true);
       level.matrix.vmult(level.r, level.x);
       level.r.sadd(-1, 1, level.b);
@@ -144,12 +155,12 @@ namespace mortise
     }
 
     const NodalLevel                          &level;
-    std::vector<std::unique_ptr<RefinedLevel>> levels;
+    std::vector<std::unique_ptr<SmoothedVertices>> levels;
     LevelVector<Number>                        coarse_x, coarse_b;
     std::vector<unsigned int> constrained; ///< on the coarsest level
     /// Where the caller smooths the finest mesh.
     std::unique_ptr<VertexTransfer<Number>> to_first;
-    VertexSolver                            solver;
+    CholeskyInverse<float>                  coarsest;
     std::unique_ptr<Epetra_Vector>          vertex_x, vertex_r;
     bool                                    valid = true;
   };
@@ -195,7 +206,7 @@ namespace mortise
       implementation->levels.size() + (implementation->to_first ? 1 : 0);
     return "vertices " +
            (n == 0 ? "" :
-                     "on " + std::to_string(n + 1) + " meshes, the coarsest ") +
-           implementation->solver.description();
+                     "on " + std::to_string(n + 1) + " levels, the coarsest ") +
+           "factorised";
   }
 } // namespace mortise

@@ -14,6 +14,11 @@ namespace mortise
   {
     NodalBlockMatrix                blocks; ///< K + J on degree one
     std::vector<dealii::Point<dim>> points; ///< of owned nodes
+    std::vector<unsigned int>       bodies; ///< of owned nodes
+
+    /// Points and bodies of the nodes @p kept alone.
+    void
+    keep(const std::vector<unsigned int> &kept);
   };
 
   /// @p level: of degree one in all bodies. With @p coarsening the matrix is

@@ -1,6 +1,6 @@
-// The level of vertices: multigrid on the meshes that were refined, a
-// VertexSolver on the coarsest of them, which is the only one where nothing was
-// refined. It knows nothing of higher degrees.
+// The level of vertices: multigrid on the meshes that were refined, below them
+// on ever fewer of the vertices (select_vertices), the coarsest level
+// factorised. It knows nothing of higher degrees.
 #pragma once
 
 #include <mortise/operators/levels/nodal_level.h>
