@@ -121,7 +121,7 @@ While it is factorised, the whole matrix is on every rank that takes part. This 
 - for C at `Solver/Multipliers on all ranks` (30000 rows): above, each rank factorises what its own multipliers and their
   neighbours have among each other, and corrects (`SchwarzInverse`); only where this fails (a stiff slave that is finer than its
   master) is C gathered again, up to 100000 rows; beyond it is MUMPS', distributed;
-- for vertices at 20000 rows (1500 where the mesh can be coarsened): above, algebraic multigrid.
+- for vertices at 1500 rows, or where it takes 3e5 multiplications per row, if no coarser mesh is known: above, multigrid.
 """
 
 

@@ -325,9 +325,7 @@ namespace mortise
       static constexpr double undecided = 0., stays = 1., goes = 2.;
       /// Bodies of fewer nodes keep them: what is left must still turn.
       static constexpr unsigned int least_size = 20;
-      /// That a value follows from. Tied boxes of gmsh's tetrahedra, p = 1: 4
-      /// take 19 iterations, 5 take 13, 6 take 12, 8 take 11; coarse rows have
-      /// 44, 54, 62 and 75 nodes.
+      /// That a value follows from: doc/tuning.md.
       static constexpr unsigned int max_nearest = 6;
       /// Of the squares of distances along a direction over the largest: below
       /// it the nearest are a plane or a line.

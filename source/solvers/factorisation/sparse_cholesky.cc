@@ -13,6 +13,16 @@ namespace mortise
 {
   using namespace dealii;
 
+  double
+  factorisation_work(const NodalMatrix &rows, const MPI_Comm comm)
+  {
+    const GatheredNodalMatrix all(rows, comm);
+    double                    sum = 0.;
+    for (const Supernode &supernode : EliminationTree(all).supernodes)
+      sum += supernode.width * std::pow(supernode.height(), 2);
+    return sum;
+  }
+
   template <typename Number, typename Work>
   bool
   SparseCholesky<Number, Work>::initialize(const NodalMatrix &rows,

@@ -22,8 +22,30 @@ namespace mortise
     /// 2, one core: the same at 2,000; 0.34 instead of 0.25 s at 5,800).
     constexpr unsigned int max_factorised = 1500;
 
-    /// The same where no coarser mesh is known: fewer vertices do less there.
-    constexpr unsigned int max_selected_from = 4000;
+    /// Where no coarser mesh is known: what takes fewer multiplications per dof,
+    /// as thin bodies do (doc/tuning.md), up to so many dofs that all ranks can
+    /// have the graph.
+    constexpr double       max_work     = 3e5;
+    constexpr unsigned int max_gathered = 300000;
+
+    bool
+    is_cheap(const NodalBlockMatrix &blocks)
+    {
+      if (blocks.layout->size() > max_gathered)
+        return false;
+      NodalMatrix graph;
+      for (unsigned int i = 0; i < blocks.size(); ++i)
+        graph.lengths.push_back(blocks.begin[i + 1] - blocks.begin[i]);
+      for (const unsigned int node : blocks.columns)
+        graph.columns.push_back(blocks.layout->local_to_global(dim * node) /
+                                dim);
+      graph.variants.assign(blocks.size(), 1);
+      graph.values.assign(blocks.columns.size(), 1.);
+      return std::pow(dim, 3) *
+               factorisation_work(graph,
+                                  blocks.layout->get_mpi_communicator()) <
+             max_work * blocks.layout->size();
+    }
 
     /// A level that is coarsened.
     struct SmoothedVertices
@@ -71,9 +93,8 @@ namespace mortise
       if (skip_finest)
         to_first = std::make_unique<VertexTransfer<Number>>(*next++, blocks);
       const double smallest = lower_smoothing_bound(*level.space, false);
-      while (blocks.layout->size() > (next != coarsenings.end() ?
-                                        max_factorised :
-                                        max_selected_from))
+      while (blocks.layout->size() > max_factorised &&
+             (next != coarsenings.end() || !is_cheap(blocks)))
         {
           const VertexCoarsening coarsening =
             next != coarsenings.end() ? *next++ : select_vertices(matrix);

@@ -16,6 +16,10 @@
 
 namespace mortise
 {
+  /// Multiplications that a factorisation of @p rows takes, one component. Collective.
+  double
+  factorisation_work(const NodalMatrix &rows, MPI_Comm comm);
+
   /// Computed in the precision of @p Work, kept and applied in @p Number.
   template <typename Number, typename Work = double>
   class SparseCholesky
