@@ -8,6 +8,7 @@
 
 #include <mortise/operators/levels/nodal_block_operator.h>
 #include <mortise/operators/levels/vertex_matrix.h>
+#include <mortise/operators/levels/vertex_selection.h>
 #include <mortise/operators/levels/vertex_transfer.h>
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_system.h>
@@ -163,6 +164,54 @@ namespace mortise::testing
             0.);
   }
 
+  /// Of vertices that are selected where no coarser mesh is known.
+  void
+  check_selection(const std::string &name, const NodalScene &scene)
+  {
+    const VertexMatrix matrix = assemble_vertex_matrix(scene.levels().back());
+    const VertexCoarsening       coarsening = select_vertices(matrix);
+    const VertexTransfer<double> transfer(coarsening,
+                                          coarsen(matrix.blocks, coarsening));
+    LevelVector<double>          fine(matrix.blocks.layout),
+      coarse(coarsen(matrix.blocks, coarsening).layout);
+    const auto linear = [](const Point<dim> &x, const unsigned int c) {
+      return c + 1. + 2. * x[c] - 3. * x[(c + 1) % dim];
+    };
+    for (unsigned int i = 0; i < coarsening.kept.size(); ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        coarse.local_element(dim * i + c) =
+          linear(matrix.points[coarsening.kept[i]], c);
+    transfer.prolongate_add(fine, coarse);
+    unsigned int n_off      = 0;
+    double       difference = 0.;
+    for (unsigned int i = 0; i < matrix.points.size(); ++i)
+      {
+        bool   off = false;
+        double sum = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          off = off || std::fabs(fine.local_element(dim * i + c) -
+                                 linear(matrix.points[i], c)) > 1e-9;
+        n_off += off;
+        for (unsigned int e = coarsening.begin[i]; e < coarsening.begin[i + 1];
+             ++e)
+          sum += coarsening.weights[e];
+        difference = std::max(difference, std::fabs(sum - 1.));
+      }
+    verdict(name + ", selected: constants",
+            Utilities::MPI::max(difference, MPI_COMM_WORLD),
+            1e-12);
+    const auto n   = coarsening.owned.size(),
+               all = matrix.blocks.layout->size() / dim;
+    // some in edges have those that stay on one side only
+    verdict(name + ", selected: linear functions at 98 of 100",
+            Utilities::MPI::sum(n_off, MPI_COMM_WORLD) / double(all),
+            0.02);
+    verdict(name + ", selected on any number of ranks: " + std::to_string(n) +
+              " of " + std::to_string(all),
+            double(n) / double(all),
+            0.5);
+  }
+
   void
   check_multigrid(const std::string &name, const NodalScene &scene)
   {
@@ -170,7 +219,7 @@ namespace mortise::testing
     const NodalBlockOperator<double> A(assemble_vertex_matrix(level).blocks);
     const VertexMultigrid            multigrid(level, true);
     verdict(name + ", not by one factorisation",
-            multigrid.description().find("meshes") == std::string::npos,
+            multigrid.description().find("levels") == std::string::npos,
             0.);
     LevelVector<double> error, r;
     make_pseudo_random(A, error);
@@ -202,6 +251,7 @@ namespace mortise::testing
   {
     const NodalScene scene = make_scene(kinds);
     check_steps(name, scene, exact, n_corners);
+    check_selection(name, scene);
     check_multigrid(name, scene);
   }
 } // namespace mortise::testing

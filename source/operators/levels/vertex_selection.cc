@@ -34,6 +34,49 @@ namespace mortise
              static_cast<double>(1ULL << 53);
     }
 
+    /// Weights of the first @p n of @p offsets, ascending by length, whose sum is one:
+    /// the less the farther, and such that the mean of offsets is zero. False
+    /// where that is not possible since they are a plane or a line, about.
+    bool
+    interpolate_linear(const std::vector<Tensor<1, dim>> &offsets,
+                       const unsigned int                 n,
+                       std::vector<double>               &weights)
+    {
+      /// Of the squares of distances along a direction, over the largest.
+      constexpr double least_spread = 1e-2, exact = 1e-8;
+
+      const double   nearest = offsets[0].norm_square();
+      double         sum     = 0.;
+      Tensor<1, dim> mean;
+      weights.clear();
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          weights.push_back(std::pow(nearest / offsets[k].norm_square(), 2));
+          sum += weights[k];
+          mean += weights[k] * offsets[k];
+        }
+      mean /= sum;
+      SymmetricTensor<2, dim> covariance;
+      for (unsigned int k = 0; k < n; ++k)
+        {
+          weights[k] /= sum;
+          const auto d = offsets[k] - mean;
+          covariance += weights[k] * symmetrize(outer_product(d, d));
+        }
+      Tensor<1, dim> slope, left = mean;
+      const auto     directions = eigenvectors(covariance);
+      for (const auto &[spread, direction] : directions)
+        if (spread > least_spread * directions[0].first)
+          {
+            const double along = mean * direction;
+            slope -= along / spread * direction;
+            left -= along * direction;
+          }
+      for (unsigned int k = 0; k < n; ++k)
+        weights[k] *= 1. + slope * (offsets[k] - mean);
+      return left.norm_square() < exact * exact * nearest;
+    }
+
     class Selection
     {
     public:
@@ -266,59 +309,32 @@ namespace mortise
               const LevelVector<double> &numbers,
               VertexCoarsening          &result) const
       {
-        struct Candidate
-        {
-          double         square;
-          Tensor<1, dim> offset;
-          Index          number;
-        };
-        std::vector<Candidate> all;
+        std::vector<std::pair<double, Index>> by_distance;
+        std::vector<Tensor<1, dim>>           offsets;
         for (const Index node : candidates)
           {
-            Candidate c;
-            for (unsigned int d = 0; d < dim; ++d)
-              c.offset[d] = places(dim * node + d) - x[d];
-            c.square = c.offset.norm_square();
-            c.number = static_cast<Index>(numbers(dim * node));
-            all.push_back(c);
+            Tensor<1, dim> offset;
+            for (unsigned int c = 0; c < dim; ++c)
+              offset[c] = places(dim * node + c) - x[c];
+            by_distance.emplace_back(offset.norm_square(), node);
           }
-        const unsigned int n = std::min<std::size_t>(all.size(), max_nearest);
-        std::partial_sort(all.begin(),
-                          all.begin() + n,
-                          all.end(),
-                          [](const Candidate &a, const Candidate &b) {
-                            return a.square < b.square;
-                          });
-        all.resize(n);
-        // means with the weights omega, then what makes them exact for linear
-        // functions where the places are no plane
-        std::vector<double> omega;
-        double              sum = 0.;
-        Tensor<1, dim>      mean;
-        for (const Candidate &c : all)
+        std::sort(by_distance.begin(), by_distance.end());
+        for (const auto &[square, node] : by_distance)
           {
-            omega.push_back(std::pow(all[0].square / c.square, 2));
-            sum += omega.back();
-            mean += omega.back() * c.offset;
+            offsets.emplace_back();
+            for (unsigned int c = 0; c < dim; ++c)
+              offsets.back()[c] = places(dim * node + c) - x[c];
           }
-        mean /= sum;
-        SymmetricTensor<2, dim> covariance;
+        // the nearest may lie in a plane beside x
+        std::size_t n = std::min<std::size_t>(offsets.size(), n_nearest);
+        std::vector<double> weights;
+        while (!interpolate_linear(offsets, n, weights) && n < offsets.size())
+          ++n;
         for (unsigned int k = 0; k < n; ++k)
           {
-            omega[k] /= sum;
-            const auto d = all[k].offset - mean;
-            covariance += omega[k] * symmetrize(outer_product(d, d));
-          }
-        Tensor<1, dim> slope;
-        const auto     pairs = eigenvectors(covariance);
-        for (const auto &[value, vector] : pairs)
-          if (value > least_spread * pairs[0].first)
-            slope -= (mean * vector / value) * vector;
-        for (unsigned int k = 0; k < n; ++k)
-          {
-            result.nodes.push_back(all[k].number);
-            result.weights.push_back(omega[k] *
-                                     (1. + slope * (all[k].offset - mean)));
+            result.nodes.push_back(
+              static_cast<Index>(numbers(dim * by_distance[k].second)));
+            result.weights.push_back(weights[k]);
           }
       }
 
@@ -326,10 +342,7 @@ namespace mortise
       /// Bodies of fewer nodes keep them: what is left must still turn.
       static constexpr unsigned int least_size = 20;
       /// That a value follows from: doc/tuning.md.
-      static constexpr unsigned int max_nearest = 6;
-      /// Of the squares of distances along a direction over the largest: below
-      /// it the nearest are a plane or a line.
-      static constexpr double least_spread = 1e-2;
+      static constexpr unsigned int n_nearest = 6;
 
       const NodalBlockMatrix            &blocks;
       const Utilities::MPI::Partitioner &layout;
