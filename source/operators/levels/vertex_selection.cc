@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
+#include <limits>
 
 namespace mortise
 {
@@ -17,17 +18,17 @@ namespace mortise
   {
     using Index = VertexCoarsening::Index;
 
-    /// In [0, 1), by the place, whoever owns it.
+    /// In [0, 1), by the place over @p size, whoever owns it and whatever
+    /// rounding left.
     double
-    draw(const Tensor<1, dim> &place)
+    draw(const Tensor<1, dim> &place, const double size)
     {
       std::uint64_t number = 0;
       for (unsigned int c = 0; c < dim; ++c)
         {
-          std::uint64_t bits;
-          const double  value = place[c];
-          std::memcpy(&bits, &value, sizeof(bits));
-          number = (number ^ bits) * 0x9E3779B97F4A7C15U;
+          const auto place_on_grid =
+            static_cast<std::uint64_t>(std::llround(place[c] / size * 1e7));
+          number = (number ^ place_on_grid) * 0x9E3779B97F4A7C15U;
           number ^= number >> 29;
         }
       return static_cast<double>(number >> 11) /
@@ -129,6 +130,42 @@ namespace mortise
             visit(j);
       }
 
+      /// In the order in which nodes get to stay, does @p i come before @p j?
+      bool
+      is_before(const LevelVector<double> &rank_of,
+                const unsigned int         i,
+                const unsigned int         j) const
+      {
+        const double of_i = rank_of.local_element(dim * i),
+                     of_j = rank_of.local_element(dim * j);
+        return of_i > of_j ||
+               (of_i == of_j && layout.local_to_global(dim * i) <
+                                  layout.local_to_global(dim * j));
+      }
+
+      /// The lowest coordinates, and the largest extent along an axis.
+      std::pair<Point<dim>, double>
+      bounds() const
+      {
+        std::vector<double> extremes(2 * dim,
+                                     -std::numeric_limits<double>::max());
+        for (unsigned int k = 0; k < dim * n_owned; ++k)
+          {
+            const double x          = place.local_element(k);
+            extremes[k % dim]       = std::max(extremes[k % dim], -x);
+            extremes[dim + k % dim] = std::max(extremes[dim + k % dim], x);
+          }
+        Utilities::MPI::max(extremes, layout.get_mpi_communicator(), extremes);
+        std::pair<Point<dim>, double> result;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            result.first[c] = -extremes[c];
+            result.second =
+              std::max(result.second, extremes[c] + extremes[dim + c]);
+          }
+        return result;
+      }
+
       /// Nodes of each body, of all ranks.
       std::vector<unsigned int>
       body_sizes() const
@@ -167,9 +204,11 @@ namespace mortise
         LevelVector<double> rank_of(blocks.layout);
         state.reinit(blocks.layout);
         const std::vector<unsigned int> sizes = body_sizes();
+        const auto [lowest, size]             = bounds();
         for (unsigned int i = 0; i < n_owned; ++i)
           {
-            rank_of.local_element(dim * i) = sharpness(i) + draw(at(place, i));
+            rank_of.local_element(dim * i) =
+              sharpness(i) + draw(at(place, i) - lowest, size);
             if (sizes[body.local_element(dim * i)] < least_size)
               state.local_element(dim * i) = stays;
           }
@@ -185,8 +224,7 @@ namespace mortise
                   for_each_neighbour(i, [&](const unsigned int j) {
                     is_first =
                       is_first && (state.local_element(dim * j) != undecided ||
-                                   rank_of.local_element(dim * j) <
-                                     rank_of.local_element(dim * i));
+                                   is_before(rank_of, i, j));
                   });
                   if (is_first)
                     first.push_back(i);
