@@ -44,7 +44,8 @@ def write_scene(directory, height, lower, upper, held):
     for name, bottom, size in (("lower", 0, lower), ("upper", height, upper)):
         with open(os.path.join(directory, name + ".geo"), "w") as file:
             file.write(GEOMETRY.format(bottom=bottom, height=height, size=size))
-        subprocess.run(["gmsh", "-3", "-format", "msh41", name + ".geo"], cwd=directory, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(["gmsh", "-3", "-format", "msh41", name + ".geo"], cwd=directory, check=True, stdout=subprocess.DEVNULL,
+                       stderr=subprocess.DEVNULL)
     with open(os.path.join(directory, "scene.prm"), "w") as file:
         file.write("set Bodies = lower, upper\nset Interfaces = glue\n" +
                    BODY.format(name="lower", boundary=held, condition="Displacement = 0, 0, 0") +
@@ -98,6 +99,7 @@ def main():
     programs = [os.path.abspath(program) for program in (given.mortise, given.beside) if program]
     with open("/proc/cpuinfo") as file:
         model, flags = (next(line.split(":")[1].strip() for line in file if line.startswith(word)) for word in ("model name", "flags"))
+    width = ("with" if "avx512f" in flags else "without") + " AVX-512"
     head = "| scene | cells | p | dofs | ranks | iterations | setup | solve | whole run | MiB per million dofs |"
     note = ""
     if given.beside:
@@ -105,7 +107,7 @@ def main():
         note = f" `--beside`: {given.with_name}, in turn."
     lines = [f"# Meshes from files\n\nRegenerate: `tests/benchmarks/files.py build/mortise` (with `--beside PROGRAM` another program runs in turn).\n"
              f"Two boxes, and two plates a fiftieth as high as wide, each meshed by gmsh with edges of its own, tetrahedra of straight edges, not "
-             f"refined; seconds,\nmedians of {given.repeats}, on {model} with{"" if "avx512f" in flags else "out"} AVX-512; tolerance 1e-8.{note}\n",
+             f"refined; seconds,\nmedians of {given.repeats}, on {model} {width}; tolerance 1e-8.{note}\n",
              head, "|" + "---|" * (head.count("|") - 1), *rows(programs, given.repeats)]
     with open(os.path.join(TOP, "doc", "files.md"), "w") as page:
         print(*lines, sep="\n", file=page)
