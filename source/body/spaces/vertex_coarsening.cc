@@ -172,19 +172,14 @@ namespace mortise
               result.kept.push_back(i);
               coarse_nodes.push_back(node);
             }
-        const Index mine  = coarse_nodes.size();
-        Index       first = 0;
-        MPI_Exscan(&mine, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
-        if (Utilities::MPI::this_mpi_process(comm) == 0)
-          first = 0; // is left undefined there
-        result.owned = IndexSet(Utilities::MPI::sum(mine, comm));
-        result.owned.add_range(first, first + mine);
+        result.owned = next_range(coarse_nodes.size(), comm);
         // on the coarser mesh, of nodes of the finest one
         LinearAlgebra::distributed::Vector<double> number(owned,
                                                           nodes_of_others(),
                                                           comm);
         for (unsigned int k = 0; k < coarse_nodes.size(); ++k)
-          number.local_element(coarse_nodes[k]) = first + k;
+          number.local_element(coarse_nodes[k]) =
+            result.owned.nth_index_in_set(k);
         number.update_ghost_values();
 
         const auto add = [&](const Index node, const double weight) {
@@ -217,6 +212,18 @@ namespace mortise
       std::vector<unsigned int> fine_nodes; ///< owned ones of the finer mesh
     };
   } // namespace
+
+  IndexSet
+  next_range(const types::global_dof_index n_owned, const MPI_Comm comm)
+  {
+    Index first = 0;
+    MPI_Exscan(&n_owned, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
+    if (Utilities::MPI::this_mpi_process(comm) == 0)
+      first = 0; // is left undefined there
+    IndexSet range(Utilities::MPI::sum(n_owned, comm));
+    range.add_range(first, first + n_owned);
+    return range;
+  }
 
   std::vector<VertexCoarsening>
   make_vertex_coarsenings(const NodalSpace &vertices, const MPI_Comm comm)

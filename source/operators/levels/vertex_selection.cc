@@ -280,14 +280,8 @@ namespace mortise
         for (unsigned int i = 0; i < n_owned; ++i)
           if (state.local_element(dim * i) == stays)
             result.kept.push_back(i);
-        const MPI_Comm comm  = layout.get_mpi_communicator();
-        const Index    mine  = result.kept.size();
-        Index          first = 0;
-        MPI_Exscan(&mine, &first, 1, DEAL_II_DOF_INDEX_MPI_TYPE, MPI_SUM, comm);
-        if (Utilities::MPI::this_mpi_process(comm) == 0)
-          first = 0; // is left undefined there
-        result.owned = IndexSet(Utilities::MPI::sum(mine, comm));
-        result.owned.add_range(first, first + mine);
+        result.owned =
+          next_range(result.kept.size(), layout.get_mpi_communicator());
         return result;
       }
 

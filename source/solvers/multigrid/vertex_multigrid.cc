@@ -26,7 +26,7 @@ namespace mortise
     /// as thin bodies do (doc/tuning.md), up to so many dofs that all ranks can
     /// have the graph.
     constexpr double       max_work     = 3e5;
-    constexpr unsigned int max_gathered = 300000;
+    constexpr unsigned int max_gathered = 100000;
 
     bool
     is_cheap(const NodalBlockMatrix &blocks)

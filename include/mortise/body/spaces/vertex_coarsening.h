@@ -31,6 +31,11 @@ namespace mortise
     std::vector<double>       weights;
   };
 
+  /// The range of this rank where each has @p n_owned, behind those of the ranks
+  /// before. Collective.
+  dealii::IndexSet
+  next_range(dealii::types::global_dof_index n_owned, MPI_Comm comm);
+
   /// Takes back, body by body, the finest cells of all, then the finest of what
   /// is left, down to the coarse meshes; none where nothing was refined.
   /// The numbering of the first fine mesh is that of @p vertices, of degree one
