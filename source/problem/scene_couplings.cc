@@ -22,6 +22,18 @@ namespace mortise
     , owned(0)
   {}
 
+  unsigned int
+  SceneCouplings::given_slave(const unsigned int i) const
+  {
+    const auto &given = run.parameters.interfaces;
+    return std::find_if(given.begin(),
+                        given.end(),
+                        [&](const InterfaceParameters &interface) {
+                          return interface.name == interfaces[i].name;
+                        })
+      ->slave.body;
+  }
+
   std::vector<BoundaryFace>
   SceneCouplings::faces_of(const InterfaceParameters &given,
                            const SideParameters      &side) const
@@ -108,7 +120,6 @@ namespace mortise
         for (unsigned int k = 0; k < patches.size(); ++k)
           {
             interfaces.push_back(given);
-            given_slaves.push_back(given.slave.body);
             couplings.push_back(
               make_coupling(given,
                             patches.size() > 1 ? patch_name(given, k) :
@@ -173,7 +184,6 @@ namespace mortise
                         ": the surfaces do not meet; nothing is tied");
         couplings.erase(couplings.begin() + i);
         interfaces.erase(interfaces.begin() + i);
-        given_slaves.erase(given_slaves.begin() + i);
       }
   }
 

@@ -39,10 +39,7 @@ namespace mortise
     /// The slave of interface @p i by the parameters; sides() may have it as
     /// master.
     unsigned int
-    given_slave(const unsigned int i) const
-    {
-      return given_slaves[i];
-    }
+    given_slave(unsigned int i) const;
 
     const std::vector<Coupling> &
     all() const
@@ -141,7 +138,6 @@ namespace mortise
     const RunContext                &run;
     const SceneSpaces               &spaces;
     std::vector<InterfaceParameters> interfaces;
-    std::vector<unsigned int>        given_slaves;
     std::vector<Coupling>            couplings;
     dealii::IndexSet                 owned;
   };

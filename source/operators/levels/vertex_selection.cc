@@ -110,11 +110,11 @@ namespace mortise
 
     private:
       Tensor<1, dim>
-      at(const LevelVector<double> &of, const unsigned int node) const
+      at(const unsigned int node) const
       {
         Tensor<1, dim> x;
         for (unsigned int c = 0; c < dim; ++c)
-          x[c] = of.local_element(dim * node + c);
+          x[c] = place.local_element(dim * node + c);
         return x;
       }
 
@@ -188,7 +188,7 @@ namespace mortise
         Tensor<1, dim> sum;
         double         length = 0.;
         for_each_neighbour(i, [&](const unsigned int j) {
-          const auto d = at(place, j) - at(place, i);
+          const auto d = at(j) - at(i);
           sum += d;
           length += d.norm();
         });
@@ -208,7 +208,7 @@ namespace mortise
         for (unsigned int i = 0; i < n_owned; ++i)
           {
             rank_of.local_element(dim * i) =
-              sharpness(i) + draw(at(place, i) - lowest, size);
+              sharpness(i) + draw(at(i) - lowest, size);
             if (sizes[body.local_element(dim * i)] < least_size)
               state.local_element(dim * i) = stays;
           }
@@ -329,7 +329,7 @@ namespace mortise
             std::sort(candidates.begin(), candidates.end());
             candidates.erase(std::unique(candidates.begin(), candidates.end()),
                              candidates.end());
-            add_row(at(place, i), candidates, places, numbers, result);
+            add_row(at(i), candidates, places, numbers, result);
           }
         result.begin.push_back(result.nodes.size());
       }
@@ -341,22 +341,22 @@ namespace mortise
               const LevelVector<double> &numbers,
               VertexCoarsening          &result) const
       {
-        std::vector<std::pair<double, Index>> by_distance;
-        std::vector<Tensor<1, dim>>           offsets;
+        std::vector<std::pair<Tensor<1, dim>, Index>> nearest;
         for (const Index node : candidates)
           {
-            Tensor<1, dim> offset;
+            nearest.emplace_back(-x, node);
             for (unsigned int c = 0; c < dim; ++c)
-              offset[c] = places(dim * node + c) - x[c];
-            by_distance.emplace_back(offset.norm_square(), node);
+              nearest.back().first[c] += places(dim * node + c);
           }
-        std::sort(by_distance.begin(), by_distance.end());
-        for (const auto &[square, node] : by_distance)
-          {
-            offsets.emplace_back();
-            for (unsigned int c = 0; c < dim; ++c)
-              offsets.back()[c] = places(dim * node + c) - x[c];
-          }
+        std::sort(nearest.begin(),
+                  nearest.end(),
+                  [](const auto &a, const auto &b) {
+                    return std::make_pair(a.first.norm_square(), a.second) <
+                           std::make_pair(b.first.norm_square(), b.second);
+                  });
+        std::vector<Tensor<1, dim>> offsets;
+        for (const auto &[offset, node] : nearest)
+          offsets.push_back(offset);
         // the nearest may lie in a plane beside x
         std::size_t n = std::min<std::size_t>(offsets.size(), n_nearest);
         std::vector<double> weights;
@@ -365,7 +365,7 @@ namespace mortise
         for (unsigned int k = 0; k < n; ++k)
           {
             result.nodes.push_back(
-              static_cast<Index>(numbers(dim * by_distance[k].second)));
+              static_cast<Index>(numbers(dim * nearest[k].second)));
             result.weights.push_back(weights[k]);
           }
       }

@@ -10,8 +10,9 @@ namespace mortise
   /// The vertices of @p fine that stay are a maximal set of which no two are
   /// coupled in one body, corners, edges and faces of bodies first; the others'
   /// values are weighted means of the nearest that stay, exact for linear
-  /// functions, so that rigid motions are in the coarse space. Selected are
-  /// the same on any number of ranks. Collective.
+  /// functions, hence for rigid motions, unless those around a vertex lie in a
+  /// plane beside it, as some do in edges. Selected are the same on any number
+  /// of ranks. Collective.
   VertexCoarsening
   select_vertices(const VertexMatrix &fine);
 } // namespace mortise
