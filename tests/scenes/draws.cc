@@ -134,19 +134,19 @@ main(int argc, char *argv[])
   const auto share = [&](const unsigned int n) {
     return n_ranks == 1 ? n : (n + 14) / 15;
   };
-  check("2x2x2 cubes", share(20), 1, {"condensed"}, false);
-  check("2x2x2 cubes", share(20), 101, {"saddle point"}, false);
-  check("2x2x2 cubes", share(20), 201, {"direct"}, false);
-  check("3x3x3 cubes", share(10), 1, {"condensed"}, false);
-  check("3x3x3 cubes", share(8), 101, {"saddle point"}, false);
-  check("3x3x3 cubes", share(8), 201, {"direct"}, false);
-  check("many bricks", share(10), 1, {"auto"}, false);
-  check("bricks", share(20), 301, {"direct", "auto"}, false);
-  check("towers", share(20), 301, {"direct", "auto"}, false);
+  check("2x2x2 cubes", share(12), 1, {"condensed"}, false);
+  check("2x2x2 cubes", share(12), 101, {"saddle point"}, false);
+  check("2x2x2 cubes", share(12), 201, {"direct"}, false);
+  check("3x3x3 cubes", share(6), 1, {"condensed"}, false);
+  check("3x3x3 cubes", share(5), 101, {"saddle point"}, false);
+  check("3x3x3 cubes", share(5), 201, {"direct"}, false);
+  check("many bricks", share(6), 1, {"auto"}, false);
+  check("bricks", share(12), 301, {"direct", "auto"}, false);
+  check("towers", share(12), 301, {"direct", "auto"}, false);
   for (const std::string family : {"2x2x2 cubes", "bricks", "towers"})
     {
-      check(family, share(10), 401, {"auto"}, false, "tie", "dual");
-      check(family, share(10), 401, {"saddle point"}, false, "slide");
-      check(family, share(10), 401, {"condensed"}, false, "spring");
+      check(family, share(6), 401, {"auto"}, false, "tie", "dual");
+      check(family, share(6), 401, {"saddle point"}, false, "slide");
+      check(family, share(6), 401, {"condensed"}, false, "spring");
     }
 }
