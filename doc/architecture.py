@@ -16,7 +16,7 @@ HOLDS = {
     "body": "meshes, elements, spaces, conformity",
     "interface": "surfaces, search, projection, clipping",
     "mortar": "multipliers, D and M",
-    "operators": "stiffness with and without a matrix, loads",
+    "operators": "stiffness without a matrix, its levels, loads",
     "solvers": "linear solvers, preconditioners, Newton",
     "output": "errors, fields, summary, checkpoints",
     "problem": "parameters, discretisation, steps, run",

@@ -1,4 +1,3 @@
-#include <Epetra_CrsMatrix.h>
 #include <mortise/operators/block_system.h>
 
 #include <algorithm>
@@ -26,10 +25,7 @@ namespace mortise
   void
   BlockSystem::apply_stiffness(Vector &dst, const Vector &src) const
   {
-    if (nodal)
-      nodal->apply_stiffness(dst, src);
-    else
-      stiffness.vmult(dst, src);
+    nodal->apply_stiffness(dst, src);
   }
 
   double
@@ -46,26 +42,14 @@ namespace mortise
                            const Vector &u,
                            const Vector &p) const
   {
-    if (nodal)
-      nodal->apply_mixed(dst_u, dst_p, u, p);
-    else
-      {
-        stiffness.vmult(dst_u, u);
-        divergence.Tvmult_add(dst_u, p);
-        compliance.vmult(dst_p, p);
-        dst_p *= -1.;
-        divergence.vmult_add(dst_p, u);
-      }
+    nodal->apply_mixed(dst_u, dst_p, u, p);
     free_pressures.project_residual(dst_p);
   }
 
   void
   BlockSystem::add_pressure_force(Vector &dst, const Vector &p) const
   {
-    if (nodal)
-      nodal->add_pressure_force(dst, p);
-    else
-      divergence.Tvmult_add(dst, p);
+    nodal->add_pressure_force(dst, p);
   }
 
   void
@@ -104,20 +88,6 @@ namespace mortise
   void
   BlockSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
   {
-    if (nodal)
-      nodal->apply_pressure_norm(dst, p);
-    else
-      pressure_norm.vmult(dst, p);
-  }
-
-  void
-  BlockSystem::copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const
-  {
-    if (nodal)
-      std::copy_n(nodal->pressure_norm_diagonal().begin(),
-                  diagonal.MyLength(),
-                  diagonal.Values());
-    else
-      pressure_norm.trilinos_matrix().ExtractDiagonalCopy(diagonal);
+    nodal->apply_pressure_norm(dst, p);
   }
 } // namespace mortise

@@ -58,6 +58,7 @@ namespace mortise
                            std::unique_ptr<NodalSpace> pressure_space,
                            const Scene                &scene,
                            const MPI_Comm              comm)
+    : preconditioned(scene.preconditioned)
   {
     std::unique_ptr<PressureNodes> nodes;
     if (pressure_space)
@@ -81,7 +82,7 @@ namespace mortise
     stiffness->initialize(in);
     stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
-    if (!scene.couplings.empty())
+    if (preconditioned && !scene.couplings.empty())
       {
         update_penalties(scene.couplings);
         leading = find_leading_displacements(all_levels.front(),
@@ -101,6 +102,8 @@ namespace mortise
   void
   NodalSystem::update_penalties(const std::vector<Coupling> &couplings)
   {
+    if (!preconditioned)
+      return;
     // the finest level respects the constraint itself; the matrix of vertices
     // is made of the last
     for (unsigned int number = 0; number < all_levels.size(); ++number)

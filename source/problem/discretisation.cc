@@ -1,9 +1,9 @@
 #include <mortise/base/error.h>
 #include <mortise/mortar/slave_normals.h>
-#include <mortise/operators/constant_pressure.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/rigid_motions.h>
 #include <mortise/solvers/interface/dependent_multipliers.h>
+#include <mortise/solvers/scaled_residual.h>
 
 #include <algorithm>
 #include <numeric>
@@ -29,7 +29,7 @@ namespace mortise
       check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
     else
       couple();
-    assemble(data);
+    create_bulk();
     if (system.mixed())
       find_free_pressures();
   }
@@ -46,17 +46,10 @@ namespace mortise
         const CouplingPartition partition{system.owned_displacement,
                                           system.owned_multiplier,
                                           run.comm};
-        if (spaces.nodal.empty())
-          {
-            SparseMatrix B;
-            assemble_constraint(couplings.all(), partition, B);
-            system.coupling = CouplingMatrix(std::move(B));
-          }
-        else
-          system.coupling =
-            assemble_by_node(couplings.all(),
-                             partition,
-                             couplings.slide() || couplings.have_springs());
+        system.coupling =
+          assemble_by_node(couplings.all(),
+                           partition,
+                           couplings.slide() || couplings.have_springs());
         if (couplings.have_springs())
           assemble_compliance(couplings.all(),
                               partition,
@@ -76,31 +69,22 @@ namespace mortise
   }
 
   void
-  Discretisation::assemble(const SceneData &data)
+  Discretisation::create_bulk()
   {
-    auto              stage  = run.log.stage(run.timers, "bulk");
-    const SceneFields &fields = spaces.fields;
-    if (!spaces.nodal.empty())
-      {
-        system.nodal = std::make_unique<NodalSystem>(
-          std::move(spaces.nodal),
-          std::move(spaces.nodal_pressures),
-          NodalSystem::Scene{fields.displacement.numbering,
-                             fields.displacement.constraints,
-                             couplings.all()},
-          run.comm);
-        system.coupling.constrain(system.nodal->levels().front().constrained);
-        stage.details("without a matrix");
-        return;
-      }
-    std::vector<LoadKinds> kinds;
-    for (const auto &body : spaces.bodies)
-      kinds.push_back({static_cast<bool>(data.loads(*body).body_force),
-                       spaces.has_prescribed_values()});
-    assembled = assemble_bodies(
-      spaces.bodies, kinds, fields.displacement, fields.pressure, system);
-    stage.details(std::to_string(system.stiffness.n_nonzero_elements()) +
-                  " entries");
+    auto              stage        = run.log.stage(run.timers, "bulk");
+    const SceneField &displacement = spaces.fields.displacement;
+    system.nodal                   = std::make_unique<NodalSystem>(
+      std::move(spaces.nodal),
+      std::move(spaces.nodal_pressures),
+      NodalSystem::Scene{displacement.numbering,
+                         displacement.constraints,
+                         couplings.all(),
+                         spaces.choice.method != SolverMethod::direct},
+      run.comm);
+    system.coupling.constrain(system.nodal->levels().front().constrained);
+    const auto n_levels = system.nodal->levels().size();
+    stage.details(std::to_string(n_levels) +
+                  (n_levels == 1 ? " level" : " levels"));
   }
 
   namespace
@@ -147,8 +131,8 @@ namespace mortise
         std::string         names;
         for (const unsigned int b : group)
           {
-            ones.push_back(
-              constant_pressure(*bodies[b], spaces.fields.pressure, system));
+            ones.emplace_back(system.owned_pressure, run.comm);
+            system.nodal->set_constant_pressure(*bodies[b], ones.back());
             all += ones.back();
             names += (names.empty() ? "" : ", ") + bodies[b]->name;
           }
@@ -157,10 +141,12 @@ namespace mortise
           continue;
         Vector integrals(system.owned_pressure, run.comm);
         for (unsigned int i = 0; i < group.size(); ++i)
-          integrals += pressure_integrals(*bodies[group[i]],
-                                          spaces.fields.pressure,
-                                          system,
-                                          ones[i]);
+          {
+            Vector of_body(integrals);
+            system.nodal->apply_pressure_mass(of_body, ones[i]);
+            integrals.add(1. / bodies[group[i]]->material.pressure_norm(),
+                          of_body);
+          }
         system.free_pressures.add(all, integrals);
         free_pressures.push_back({enclosure, names});
       }
@@ -173,12 +159,10 @@ namespace mortise
     std::vector<Loads> loads;
     for (const auto &body : spaces.bodies)
       loads.push_back(data.loads(*body));
-    SceneLoad load = assemble_load(loads,
-                                   prescribed_values(spaces, data),
-                                   spaces.bodies,
-                                   assembled,
-                                   spaces.fields,
-                                   system);
+    SceneLoad load{system.zero_vector(), prescribed_values(spaces, data)};
+    system.nodal->assemble_load(loads,
+                                spaces.fields.displacement.numbering,
+                                load);
     if (prescribed_columns.m() > 0)
       {
         const auto &numbering = spaces.fields.displacement.numbering;
@@ -232,8 +216,7 @@ namespace mortise
   Discretisation::show_active()
   {
     couplings.select(*system.active);
-    if (system.nodal)
-      system.nodal->update_penalties(couplings.all());
+    system.nodal->update_penalties(couplings.all());
   }
 
   std::vector<BodySolution>
@@ -241,15 +224,14 @@ namespace mortise
                             const SystemVector &solution) const
   {
     return body_solutions(
-      spaces.bodies, assembled, spaces.fields, system, load, solution);
+      spaces.bodies, spaces.fields, system, load, solution);
   }
 
   SystemVector
   Discretisation::system_vector(const Checkpoint &checkpoint,
                                 const SceneLoad  &load) const
   {
-    SystemVector x = mortise::system_vector(spaces.bodies,
-                                            spaces.fields,
+    SystemVector x = mortise::system_vector(spaces.fields,
                                             system,
                                             load.prescribed,
                                             checkpoint.solutions);
@@ -267,7 +249,13 @@ namespace mortise
   {
     if (couplings.all().size() < 2)
       return; // those of one interface are independent by their rules
-    const auto dependent = find_dependent_multipliers(system);
+    if (system.owned_multiplier.size() == 0)
+      return;
+    const ScaledResidual residual(system);
+    const auto           dependent =
+      find_dependent_multipliers(system.coupling,
+                                 residual.inverse_diagonal_u(),
+                                 residual.inverse_diagonal_lambda());
     if (!dependent.empty())
       throw InputError(
         "Interfaces tie the same displacements more than once, so that tractions "

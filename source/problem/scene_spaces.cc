@@ -15,15 +15,13 @@ namespace mortise
   IndexSet
   SceneSpaces::owned_displacement() const
   {
-    return nodal.empty() ? fields.displacement.numbering.owned() :
-                           displacement_indices(nodal.front()->owned_nodes());
+    return displacement_indices(nodal.front()->owned_nodes());
   }
 
   IndexSet
   SceneSpaces::owned_pressure() const
   {
-    return nodal_pressures ? nodal_pressures->owned_nodes() :
-                             fields.pressure.numbering.owned();
+    return nodal_pressures->owned_nodes();
   }
 
   bool
@@ -95,7 +93,7 @@ namespace mortise
       return constraints;
     }
 
-    /// The method, and the nodal spaces if it works without a matrix.
+    /// The method, and the nodal spaces that it needs.
     void
     choose_method(const RunContext &run, SceneSpaces &spaces)
     {
@@ -113,9 +111,9 @@ namespace mortise
                       {spaces.fields.displacement.numbering.size(),
                        mixed,
                        stiffest / softest});
-      if (spaces.choice.method == SolverMethod::direct)
-        return;
       spaces.nodal = make_nodal_spaces(scene, run.comm);
+      if (spaces.choice.method == SolverMethod::direct)
+        spaces.nodal.resize(1);
       if (mixed)
         spaces.nodal_pressures = make_nodal_pressures(scene, run.comm);
     }

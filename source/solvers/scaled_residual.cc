@@ -39,21 +39,15 @@ namespace mortise
     const SystemVector zero = system.zero_vector();
     weight_u                = std::make_unique<Epetra_Vector>(
       zero.displacement.trilinos_partitioner());
-    if (system.nodal)
-      std::copy_n(system.nodal->diagonal().begin(),
-                  weight_u->MyLength(),
-                  weight_u->Values());
-    else
-      system.stiffness.trilinos_matrix().ExtractDiagonalCopy(*weight_u);
     for (int i = 0; i < weight_u->MyLength(); ++i)
-      (*weight_u)[i] = inverse((*weight_u)[i]);
+      (*weight_u)[i] = inverse(system.nodal->diagonal().local_element(i));
     if (system.mixed())
       {
         weight_p = std::make_unique<Epetra_Vector>(
           zero.pressure.trilinos_partitioner());
-        system.copy_pressure_norm_diagonal(*weight_p);
+        const auto &diagonal = system.nodal->pressure_norm_diagonal();
         for (int i = 0; i < weight_p->MyLength(); ++i)
-          (*weight_p)[i] = inverse((*weight_p)[i]);
+          (*weight_p)[i] = inverse(diagonal.local_element(i));
       }
     if (interface_present)
       {

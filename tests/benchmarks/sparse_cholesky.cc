@@ -155,19 +155,19 @@ namespace
       }
     else
       {
-        mortise::SparseMatrix B;
-        scene.assemble(B, owned);
-        system.drop_constrained_columns(B);
+        CouplingMatrix B =
+          assemble_by_node(scene.couplings,
+                           {owned, scene.owned_multiplier, scene.comm},
+                           false);
+        B.constrain(system.levels().front().constrained);
         // as Lifting
         LevelVector<double> weights(system.node_diagonal());
         for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
           weights.local_element(i) = 1. / weights.local_element(i);
         for (const auto &leading : system.leading_displacements())
           weights.local_element(leading.index) = 0.;
-        problem.rows =
-          weighted_square(CouplingRows(B.trilinos_matrix(), true), weights);
-        problem.map =
-          std::make_unique<Epetra_Map>(B.trilinos_matrix().RowMap());
+        problem.rows = weighted_square(CouplingRows(B), weights);
+        problem.map  = std::make_unique<Epetra_Map>(B.row_map());
       }
     problem.matrix = as_matrix(problem.rows, Epetra_MpiComm(scene.comm));
     problem.product =

@@ -97,19 +97,22 @@ namespace mortise::testing
     for (const auto i : scene.fields.displacement.numbering.owned())
       u(i) = random_number(seed, i);
     u.compress(VectorOperation::insert);
+    const SceneField &field = scene.fields.displacement;
+    field.constraints.distribute(u);
+    mortise::Vector all(field.numbering.owned(),
+                        field.constraints.get_local_lines(),
+                        MPI_COMM_WORLD);
+    all = u;
     std::vector<BodyVector> result;
-    SceneLoad load;
-    load.interiors.resize(scene.bodies.size());
-    for (const BodySolution &own :
-         body_solutions(scene.bodies,
-                        std::vector<AssembledBody>(scene.bodies.size()),
-                        scene.fields,
-                        BlockSystem(),
-                        load,
-                        {u, {}, {}}))
-      result.push_back(own.displacement);
-    for (BodyVector &body : result) // copies have no ghost values
-      body.update_ghost_values();
+    for (const auto &body : scene.bodies)
+      {
+        result.emplace_back(body->dof_handler.locally_owned_dofs(),
+                            body->relevant_dofs,
+                            MPI_COMM_WORLD);
+        for (const auto dof : result.back().locally_owned_elements())
+          result.back()(dof) = all(field.numbering(body->index, dof));
+        result.back().update_ghost_values();
+      }
     return result;
   }
 

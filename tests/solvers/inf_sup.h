@@ -1,5 +1,5 @@
 // Inf-sup constants as eigenvalues, for meshes so small that dense matrices
-// serve: of pressures against displacements, by the scene's own assembly. No
+// serve: of pressures against displacements, cell by cell. No
 // preconditioner of the program is used. It never judges a number.
 #pragma once
 
@@ -9,6 +9,8 @@
 #include <Teuchos_LAPACK.hpp>
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/elements/legendre_elements.h>
+#include <mortise/operators/cells/cell_kernel.h>
+#include <mortise/operators/cells/pressure_kernel.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
@@ -71,28 +73,31 @@ namespace mortise::testing
     return result;
   }
 
-  /// The rows and columns @p taken of @p A. One rank.
+  /// @p rows and @p columns of @p A. One rank.
   inline SparseMatrix
-  submatrix(const SparseMatrix &A, const Indices &taken)
+  submatrix(const SparseMatrix &A, const Indices &rows, const Indices &columns)
   {
-    const Places place = places(A.m(), taken);
+    const Places place = places(A.n(), columns);
     const auto   visit = [&](const auto &entry) {
-      for (unsigned int i = 0; i < taken.size(); ++i)
+      for (unsigned int i = 0; i < rows.size(); ++i)
         {
-          const EpetraRow row(A.trilinos_matrix(), taken[i]);
+          const EpetraRow row(A.trilinos_matrix(), rows[i]);
           for (int k = 0; k < row.length; ++k)
             if (const int j = place[A.trilinos_matrix().GCID(row.columns[k])];
                 j >= 0)
               entry(i, j, row.values[k]);
         }
     };
-    dealii::DynamicSparsityPattern sparsity(taken.size(), taken.size());
+    dealii::DynamicSparsityPattern sparsity(rows.size(), columns.size());
     visit([&](const unsigned int i, const unsigned int j, const double) {
       sparsity.add(i, j);
     });
     SparseMatrix result;
-    const auto   all = dealii::complete_index_set(taken.size());
-    result.reinit(all, all, sparsity, MPI_COMM_WORLD, true);
+    result.reinit(dealii::complete_index_set(rows.size()),
+                  dealii::complete_index_set(columns.size()),
+                  sparsity,
+                  MPI_COMM_WORLD,
+                  true);
     visit([&](const unsigned int i, const unsigned int j, const double value) {
       result.set(i, j, value);
     });
@@ -216,6 +221,82 @@ namespace mortise::testing
     body.pressure = std::make_unique<PressureSpace>(higher);
   }
 
+  struct MixedMatrices
+  {
+    SparseMatrix stiffness, divergence, mass;
+  };
+
+  /// K, G and M of one body in hierarchical functions. One rank.
+  inline MixedMatrices
+  assemble_mixed(const Body &body, const SceneField &u, const SceneField &p)
+  {
+    const dealii::types::global_dof_index n_u = u.numbering.size(),
+                                          n_p = p.numbering.size();
+    dealii::FullMatrix<double>            K;
+    dealii::DynamicSparsityPattern        all(n_u + n_p, n_u + n_p);
+    // both fields with one set of constraints, pressures last
+    dealii::AffineConstraints<double> constraints;
+    for (const auto &[field, first] :
+         {std::make_pair(&u, dealii::types::global_dof_index(0)),
+          std::make_pair(&p, n_u)})
+      for (const auto &line : field->constraints.get_lines())
+        {
+          constraints.add_line(first + line.index);
+          for (const auto &[dof, weight] : line.entries)
+            constraints.add_entry(first + line.index, first + dof, weight);
+        }
+    constraints.close();
+    std::vector<dealii::types::global_dof_index> dofs, of_pressure;
+    const auto indices = [&](const Body::CellIterator &cell) {
+      const auto own = body.pressure->cell(cell);
+      dofs.resize(cell->get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      of_pressure.resize(own->get_fe().n_dofs_per_cell());
+      own->get_dof_indices(of_pressure);
+      for (const auto dof : of_pressure)
+        dofs.push_back(n_u + dof);
+    };
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      {
+        indices(cell);
+        constraints.add_entries_local_to_global(dofs, all, false);
+      }
+    SparseMatrix mixed;
+    mixed.reinit(all);
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      {
+        CellKernel     stiffness(body, cell->get_fe());
+        PressureKernel pressure(body,
+                                cell->get_fe(),
+                                body.pressure->cell(cell)->get_fe());
+        K.reinit(cell->get_fe().n_dofs_per_cell(),
+                 cell->get_fe().n_dofs_per_cell());
+        stiffness.compute(cell, K);
+        pressure.compute(cell);
+        indices(cell);
+        dealii::FullMatrix<double> local(dofs.size());
+        local.fill(K);
+        const unsigned int n = K.m();
+        for (unsigned int k = n; k < dofs.size(); ++k)
+          {
+            for (unsigned int i = 0; i < n; ++i)
+              local(k, i) = pressure.divergence()(k - n, i);
+            for (unsigned int l = n; l < dofs.size(); ++l)
+              local(k, l) = pressure.mass()(k - n, l - n);
+          }
+        constraints.distribute_local_to_global(local, dofs, mixed);
+      }
+    mixed.compress(dealii::VectorOperation::add);
+    Indices rows_u(n_u), rows_p(n_p);
+    std::iota(rows_u.begin(), rows_u.end(), 0);
+    std::iota(rows_p.begin(), rows_p.end(), n_u);
+    MixedMatrices result;
+    result.stiffness.copy_from(submatrix(mixed, rows_u, rows_u));
+    result.divergence.copy_from(submatrix(mixed, rows_p, rows_u));
+    result.mass.copy_from(submatrix(mixed, rows_p, rows_p));
+    return result;
+  }
+
   /// What the eigenvalues of (G K^{-1} G^T, M) say.
   struct PressureInfSup
   {
@@ -248,11 +329,7 @@ namespace mortise::testing
       return constraints;
     }());
     const SceneField p = pressure_field(bodies, MPI_COMM_WORLD);
-    BlockSystem      system;
-    system.communicator       = MPI_COMM_WORLD;
-    system.owned_displacement = u.numbering.owned();
-    system.owned_pressure     = p.numbering.owned();
-    assemble_bodies(bodies, {LoadKinds()}, u, p, system);
+    const auto       system = assemble_mixed(body, u, p);
 
     Indices free;
     for (unsigned int i = 0; i < p.numbering.size(); ++i)
@@ -260,15 +337,12 @@ namespace mortise::testing
         free.push_back(i);
     Indices all(u.numbering.size());
     std::iota(all.begin(), all.end(), 0);
-    // interiors of cells are eliminated: what they see of the pressure is in C
-    DenseMatrix S = schur_complement(system.stiffness,
-                                     system.divergence,
-                                     free,
-                                     places(u.numbering.size(), all));
-    add_dense(system.compliance, free, S);
+    const DenseMatrix S = schur_complement(system.stiffness,
+                                           system.divergence,
+                                           free,
+                                           places(u.numbering.size(), all));
     DenseMatrix M(free.size(), free.size());
-    add_dense(system.pressure_norm, free, M);
-    M /= body.material.pressure_norm();
+    add_dense(system.mass, free, M);
 
     const auto     values = generalized_eigenvalues(S, M);
     PressureInfSup result;

@@ -66,12 +66,6 @@ namespace mortise::testing
           }
       matrix.reinit(n, n);
       table.Tmmult(matrix, table);
-      const unsigned int n_b = fe.base_element(0).get_first_hex_index();
-      if (n_b == n)
-        return;
-      CondensedInteriors interiors;
-      if (!interiors.eliminate(matrix, n_b))
-        throw std::runtime_error("the interior is not positive definite");
     }
 
     const Body                &body;
@@ -79,8 +73,8 @@ namespace mortise::testing
     dealii::FullMatrix<double> matrix;
   };
 
-  /// The inner product of H1 in component @p c of a body, the interiors of its
-  /// cells eliminated; other dofs and constrained ones couple with nothing.
+  /// The inner product of H1 in component @p c of a body; other dofs and
+  /// constrained ones couple with nothing.
   inline SparseMatrix
   h1_product(const Body                              &body,
              const dealii::AffineConstraints<double> &constraints,
@@ -92,12 +86,11 @@ namespace mortise::testing
     const auto for_each_cell = [&](const auto &visit) {
       for (const auto &cell : body.dof_handler.active_cell_iterators())
         {
-          const auto        &fe  = cell->get_fe();
-          const unsigned int n_b = fe.base_element(0).get_first_hex_index();
+          const auto &fe = cell->get_fe();
           all.resize(fe.n_dofs_per_cell());
           cell->get_dof_indices(all);
           dofs.clear();
-          for (unsigned int i = 0; i < n_b; ++i)
+          for (unsigned int i = 0; i < fe.base_element(0).n_dofs_per_cell(); ++i)
             dofs.push_back(all[fe.component_to_system_index(c, i)]);
           visit(cell);
         }
@@ -115,14 +108,8 @@ namespace mortise::testing
              MPI_COMM_WORLD,
              true);
     ScalarKernel       kernel(body);
-    FullMatrix<double> matrix;
     for_each_cell([&](const auto &cell) {
-      const auto &whole = kernel.compute(cell);
-      matrix.reinit(dofs.size(), dofs.size());
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        for (unsigned int j = 0; j < dofs.size(); ++j)
-          matrix(i, j) = whole(i, j);
-      constraints.distribute_local_to_global(matrix, dofs, A);
+      constraints.distribute_local_to_global(kernel.compute(cell), dofs, A);
     });
     A.compress(VectorOperation::add);
     return A;
@@ -187,7 +174,7 @@ namespace mortise::testing
       Places columns(constraint.n(), -1);
       for (unsigned int i = 0; i < taken.size(); ++i)
         columns[numbering(b, taken[i])] = i;
-      return schur_complement(submatrix(A, taken),
+      return schur_complement(submatrix(A, taken, taken),
                               constraint,
                               multipliers(c),
                               columns);

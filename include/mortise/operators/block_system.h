@@ -12,7 +12,6 @@
 
 #include <deal.II/base/index_set.h>
 
-#include <Epetra_Vector.h>
 #include <mortise/base/types.h>
 #include <mortise/mortar/coupling_matrix.h>
 #include <mortise/operators/free_pressures.h>
@@ -50,30 +49,18 @@ namespace mortise
     dealii::IndexSet owned_pressure; ///< empty (of size 0) without mixed bodies
     dealii::IndexSet owned_multiplier;
 
-    /// K without a matrix, where it is to be had: displacements are then values
-    /// at its nodes, indices are those of its finest level, and stiffness,
-    /// divergence, compliance and pressure_norm are empty. Iterative solvers
-    /// need it.
-    std::unique_ptr<NodalSystem> nodal;
-
-    /// K, symmetric, the interiors of cells eliminated; a constrained or
-    /// eliminated degree of freedom (Dirichlet, hanging node, interior of a
-    /// cell) has a row and a column that are zero but for a positive diagonal.
-    /// Singular when a body is constrained only by its interfaces.
-    SparseMatrix stiffness;
-
-    /// G = -int q div u and C = int c p q, c the compressibility; constrained
-    /// rows and columns are zero, but for a positive diagonal of C.
-    SparseMatrix divergence, compliance;
+    /// K, G = -int q div u, C = int c p q with the compressibility c, and
     /// P = int p q (c + 1 / (2/3 mu + lambda_u)), which C + G K^{-1} G^T is
     /// spectrally equivalent to, whatever c is; in cells some of whose
-    /// displacements are prescribed, what element_schur() has instead.
-    SparseMatrix pressure_norm;
+    /// displacements are prescribed, what element_schur() has instead. Indices
+    /// of displacements and pressures are those of its finest level.
+    std::unique_ptr<NodalSystem> nodal;
+
     /// Constants that the equations leave free: solutions have none of them.
     FreePressures free_pressures;
 
     /// B: rows are multipliers, columns displacements; columns of constrained
-    /// dofs are zero. Empty when the scene has no interface. By node where nodal is there.
+    /// dofs are zero. Empty when the scene has no interface.
     CouplingMatrix coupling;
 
     /// By owned multiplier: does its constraint hold? The others are zero.
@@ -135,10 +122,6 @@ namespace mortise
     /// dst = P p. Collective.
     void
     apply_pressure_norm(Vector &dst, const Vector &p) const;
-
-    /// diag(P) on the owned pressures.
-    void
-    copy_pressure_norm_diagonal(Epetra_Vector &diagonal) const;
 
     /// Zero, on the owned ranges. Collective.
     SystemVector

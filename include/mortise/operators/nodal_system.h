@@ -6,7 +6,6 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <Epetra_Vector.h>
-#include <mortise/operators/assembled/elasticity.h>
 #include <mortise/operators/levels/clamped_cell_pressures.h>
 #include <mortise/operators/levels/leading_displacements.h>
 #include <mortise/operators/prescribed_values.h>
@@ -16,6 +15,7 @@
 
 namespace mortise
 {
+  struct Loads;
   struct SceneLoad;
 
   class NodalSystem
@@ -27,6 +27,7 @@ namespace mortise
       const FieldNumbering                    &numbering;
       const dealii::AffineConstraints<double> &constraints; ///< of the scene
       const std::vector<Coupling>             &couplings;
+      bool preconditioned = true; ///< by the levels, which see the ties then
     };
 
     /// The traces of the couplings have the nodes of @p spaces; @p pressures
@@ -102,6 +103,20 @@ namespace mortise
       return mean;
     }
 
+    /// The products of this rank's cells on the finest level.
+    const MatrixFreeElasticity<double> &
+    elasticity() const
+    {
+      return stiffness->elasticity();
+    }
+
+    /// Null without bodies in mixed form.
+    const NodalPressure *
+    pressure() const
+    {
+      return pressures.get();
+    }
+
     const std::vector<LeadingDisplacement> &
     leading_displacements() const
     {
@@ -158,6 +173,7 @@ namespace mortise
     void
     apply_mixed_free() const;
 
+    const bool                             preconditioned;
     std::vector<NodalLevel>                all_levels;
     std::unique_ptr<LevelOperator<double>> stiffness;
     LevelVector<double>                    stiffness_diagonal;

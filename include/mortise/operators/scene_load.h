@@ -4,32 +4,36 @@
 
 #include <deal.II/lac/vector.h>
 
-#include <mortise/operators/assembled/elasticity.h>
+#include <mortise/body/boundary_conditions.h>
 #include <mortise/operators/block_system.h>
 #include <mortise/operators/prescribed_values.h>
-#include <mortise/operators/scene_field.h>
 
+#include <functional>
 #include <vector>
 
 namespace mortise
 {
+  /// Loads on one body.
+  struct Loads
+  {
+    /// Force per volume; empty: none.
+    std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
+                                   body_force;
+    std::vector<TractionCondition> tractions;
+  };
+
   struct SceneLoad
   {
     SystemVector     rhs; ///< (f, h, g)
     PrescribedValues prescribed;
-    /// K_ii^{-1} f_i of the interiors that were eliminated, by body and cell;
-    /// empty where nothing acts.
-    std::vector<std::vector<std::vector<double>>> interiors;
   };
 
-  /// Add int b.v + int t.v of @p body and the work of the prescribed displacements in @p load to
-  /// its right hand side, and set its interiors of the body; @p assembled by assemble_elasticity()
-  /// with the same fields. The caller compresses. @p pressure: null without mixed bodies.
+  /// Calls @p visit with the owned cells that may have loads and int b.v + int
+  /// t.v in the cell's numbering.
   void
-  add_assembled_load(const Body          &body,
-                     const Loads         &loads,
-                     const AssembledBody &assembled,
-                     const SceneField    &displacement,
-                     const SceneField    *pressure,
-                     SceneLoad           &load);
+  for_each_loaded_cell(
+    const Body                                                &body,
+    const Loads                                               &loads,
+    const std::function<void(const Body::CellIterator &,
+                             const dealii::Vector<double> &)> &visit);
 } // namespace mortise

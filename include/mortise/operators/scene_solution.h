@@ -19,22 +19,18 @@ namespace mortise
     BodyVector pressure; ///< in mixed form, else empty
   };
 
-  /// The solution by body: constraints distributed, what is prescribed added,
-  /// interiors of cells
-  /// recovered. @p assembled: by body, empty where @p system has nodes. Collective.
+  /// The solution by body: constraints distributed, what is prescribed added. Collective.
   std::vector<BodySolution>
-  body_solutions(const Bodies                     &bodies,
-                 const std::vector<AssembledBody> &assembled,
-                 const SceneFields                &fields,
-                 const BlockSystem                &system,
-                 const SceneLoad                  &load,
-                 const SystemVector               &solution);
+  body_solutions(const Bodies       &bodies,
+                 const SceneFields  &fields,
+                 const BlockSystem  &system,
+                 const SceneLoad    &load,
+                 const SystemVector &solution);
 
   /// What undoes body_solutions(), for displacements and pressures: @p solutions less what is
   /// @p prescribed in them, as unknowns of @p system; multipliers are zero. Collective.
   SystemVector
-  system_vector(const Bodies                    &bodies,
-                const SceneFields               &fields,
+  system_vector(const SceneFields               &fields,
                 const BlockSystem               &system,
                 const PrescribedValues          &prescribed,
                 const std::vector<BodySolution> &solutions);

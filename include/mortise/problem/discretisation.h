@@ -88,7 +88,7 @@ namespace mortise
     void
     couple();
     void
-    assemble(const SceneData &data);
+    create_bulk();
     void
     find_free_pressures();
 
@@ -97,7 +97,6 @@ namespace mortise
     SceneCouplings             couplings;
     BlockSystem                system;
     SparseMatrix               prescribed_columns; ///< of B, if there are any
-    std::vector<AssembledBody> assembled; ///< by body, where K has a matrix
     std::vector<FreePressure>  free_pressures;
     std::vector<InterfaceSummary> interface_summaries;
   };

@@ -24,14 +24,14 @@ namespace mortise
     std::vector<dealii::AffineConstraints<double>> constraints;
     SceneFields                                    fields;
     SolverChoice choice{SolverMethod::automatic, ""};
-    NodalSpaces  nodal; ///< for a bulk without a matrix, which takes them
+    NodalSpaces  nodal; ///< for the bulk, which takes them
     std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
 
     /// May a displacement other than zero be prescribed?
     bool
     has_prescribed_values() const;
 
-    /// Indices of the unknowns, nodal ones where there are.
+    /// Indices of the unknowns: values at nodes.
     dealii::IndexSet
     owned_displacement() const;
     dealii::IndexSet

@@ -1,14 +1,11 @@
 // See direct.h.
-#include <deal.II/base/mpi.h>
-
-#include <Epetra_Map.h>
 #include <Epetra_Vector.h>
 #include <mortise/solvers/factorisation/direct.h>
-#include <mortise/solvers/epetra_tools.h>
+#include <mortise/solvers/factorisation/monolithic_matrix.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace mortise
@@ -17,61 +14,6 @@ namespace mortise
 
   namespace
   {
-    using Index = types::global_dof_index;
-
-    constexpr unsigned int n_fields = 3;
-
-    /// One numbering of (u, p, lambda), rank by rank: what a rank owns of u,
-    /// then of p, then of lambda.
-    class MonolithicNumbering
-    {
-    public:
-      explicit MonolithicNumbering(const BlockSystem &system)
-        : owned{&system.owned_displacement,
-                &system.owned_pressure,
-                &system.owned_multiplier}
-      {
-        std::vector<Index> counts[n_fields];
-        for (unsigned int field = 0; field < n_fields; ++field)
-          {
-            counts[field] =
-              Utilities::MPI::all_gather(system.communicator,
-                                         owned[field]->n_elements());
-            start[field].push_back(0);
-            for (const Index n : counts[field])
-              start[field].push_back(start[field].back() + n);
-          }
-        Index next = 0;
-        for (unsigned int r = 0; r < counts[0].size(); ++r)
-          for (unsigned int field = 0; field < n_fields; ++field)
-            {
-              shift[field].push_back(next - start[field][r]);
-              next += counts[field][r];
-            }
-        n = next;
-      }
-
-      Index
-      operator()(const unsigned int field, const Index i) const
-      {
-        const auto &all = start[field];
-        return i + shift[field][std::upper_bound(all.begin(), all.end(), i) -
-                                all.begin() - 1];
-      }
-
-      Index
-      size() const
-      {
-        return n;
-      }
-
-      const IndexSet *owned[n_fields]; ///< by field
-
-    private:
-      std::vector<Index> start[n_fields], shift[n_fields]; ///< by rank
-      Index              n = 0;
-    };
-
     /// Square roots of the inverse diagonals of the residual's norm, in the
     /// monolithic numbering: they make the matrix free of units, so that
     /// pivoting compares like with like.
@@ -90,123 +32,6 @@ namespace mortise
         add(residual.inverse_diagonal_p());
       if (system.owned_multiplier.size() > 0)
         add(residual.inverse_diagonal_lambda());
-    }
-
-    /// Gathers the rows of one matrix from blocks.
-    class RowBuilder
-    {
-    public:
-      RowBuilder(const MonolithicNumbering &numbering, Epetra_CrsMatrix &matrix)
-        : numbering(numbering)
-        , matrix(matrix)
-      {}
-
-      /// Row @p local of @p part, whose columns are of @p field.
-      void
-      add(const Epetra_CrsMatrix &part,
-          const int               local,
-          const unsigned int      field,
-          const double            factor = 1.)
-      {
-        const EpetraRow row(part, local);
-        for (int e = 0; e < row.length; ++e)
-          add(numbering(field, part.ColMap().GID(row.columns[e])),
-              factor * row.values[e]);
-      }
-
-      void
-      add(const Index column, const double value)
-      {
-        columns.push_back(static_cast<int>(column));
-        values.push_back(value);
-      }
-
-      void
-      insert(const Index row)
-      {
-        matrix.InsertGlobalValues(static_cast<int>(row),
-                                  static_cast<int>(columns.size()),
-                                  values.data(),
-                                  columns.data());
-        columns.clear();
-        values.clear();
-      }
-
-    private:
-      const MonolithicNumbering &numbering;
-      Epetra_CrsMatrix          &matrix;
-      std::vector<int>           columns;
-      std::vector<double>        values;
-    };
-
-    /// [K G^T B^T; G -C 0; B 0 -S], not scaled.
-    std::unique_ptr<Epetra_CrsMatrix>
-    monolithic_matrix(const BlockSystem         &system,
-                      const ScaledResidual      &residual,
-                      const MonolithicNumbering &numbering)
-    {
-      const auto      &K = system.stiffness.trilinos_matrix();
-      std::vector<int> my_rows;
-      for (unsigned int field = 0; field < n_fields; ++field)
-        for (const auto i : *numbering.owned[field])
-          my_rows.push_back(numbering(field, i));
-      const Epetra_Map map(static_cast<int>(numbering.size()),
-                           static_cast<int>(my_rows.size()),
-                           my_rows.data(),
-                           0,
-                           K.Comm());
-
-      std::unique_ptr<Epetra_CrsMatrix> pressure_force, coupling_force;
-      if (system.mixed())
-        pressure_force =
-          transpose(system.divergence.trilinos_matrix(), K.RowMap());
-      if (system.owned_multiplier.size() > 0)
-        coupling_force =
-          transpose(system.coupling.by_displacement(), K.RowMap());
-      auto matrix = std::make_unique<Epetra_CrsMatrix>(Copy, map, 0, false);
-      RowBuilder rows(numbering, *matrix);
-      int        local = 0;
-      for (const auto i : system.owned_displacement)
-        {
-          rows.add(K, local, 0);
-          if (pressure_force)
-            rows.add(*pressure_force, local, 1);
-          if (coupling_force)
-            rows.add(*coupling_force, local, 2);
-          ++local;
-          rows.insert(numbering(0, i));
-        }
-      local = 0;
-      for (const auto k : system.owned_pressure)
-        {
-          rows.add(system.divergence.trilinos_matrix(), local, 0);
-          rows.add(system.compliance.trilinos_matrix(), local, 1, -1.);
-          for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
-            if (system.free_pressures.pinned(g) == local)
-              rows.add(numbering(1, k),
-                       -1. / residual.inverse_diagonal_p()[local]);
-          ++local;
-          rows.insert(numbering(1, k));
-        }
-      local = 0;
-      for (const auto k : system.owned_multiplier)
-        {
-          if (system.active && !(*system.active)[local])
-            rows.add(numbering(2, k),
-                     -1. / residual.inverse_diagonal_lambda()[local]);
-          else
-            {
-              rows.add(system.coupling.by_displacement(), local, 0);
-              if (system.has_springs())
-                rows.add(
-                  system.spring_compliance.trilinos_matrix(), local, 2, -1.);
-              rows.add(numbering(2, k), 0.);
-            }
-          ++local;
-          rows.insert(numbering(2, k));
-        }
-      matrix->FillComplete();
-      return matrix;
     }
 
     /// Calls visit(monolithic value, value) for all values of this rank.

@@ -1,27 +1,25 @@
 #include <EpetraExt_MatrixMatrix.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 #include <mortise/solvers/interface/dependent_multipliers.h>
-#include <mortise/solvers/scaled_residual.h>
 
 #include <cmath>
 
 namespace mortise
 {
   std::vector<dealii::types::global_dof_index>
-  find_dependent_multipliers(const BlockSystem &system)
+  find_dependent_multipliers(const CouplingMatrix &coupling,
+                             const Epetra_Vector  &inverse_diagonal,
+                             const Epetra_Vector  &scale)
   {
-    if (system.owned_multiplier.size() == 0)
-      return {};
-    const ScaledResidual residual(system);
-    const auto           root = [](const Epetra_Vector &square) {
+    const auto root = [](const Epetra_Vector &square) {
       Epetra_Vector result(square);
       for (int i = 0; i < result.MyLength(); ++i)
         result[i] = std::sqrt(square[i]);
       return result;
     };
-    Epetra_CrsMatrix B = system.coupling.expanded();
-    B.LeftScale(root(residual.inverse_diagonal_lambda()));
-    B.RightScale(root(residual.inverse_diagonal_u()));
+    Epetra_CrsMatrix B = coupling.expanded();
+    B.LeftScale(root(scale));
+    B.RightScale(root(inverse_diagonal));
     Epetra_CrsMatrix C(Copy, B.RowMap(), 0);
     EpetraExt::MatrixMatrix::Multiply(B, false, B, true, C);
     MumpsFactorisation factorisation;

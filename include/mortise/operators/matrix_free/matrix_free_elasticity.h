@@ -6,8 +6,11 @@
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/partitioner.h>
 
+#include <deal.II/lac/full_matrix.h>
+
 #include <mortise/body/spaces/nodal_space.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -98,6 +101,25 @@ namespace mortise
     void
     add_pressure_norm_diagonal(Number *dst) const;
 
+    /// Of one cell, without regard to what is constrained or hangs.
+    struct CellMatrix
+    {
+      /// Where the displacements stand in vectors, and the pressures.
+      std::vector<unsigned int> displacements, pressures;
+      /// [K G^T; G -C], displacements first.
+      dealii::FullMatrix<double> matrix;
+    };
+
+    /// Calls @p visit with the matrix of each owned cell, made of products with
+    /// unit vectors.
+    void
+    for_each_cell_matrix(
+      const std::function<void(const CellMatrix &)> &visit) const;
+
+    /// The same with empty matrices, which takes no time.
+    void
+    for_each_cell(const std::function<void(const CellMatrix &)> &visit) const;
+
     /// By body and, in each, by the degree of the displacement on the finest
     /// level: the same cells in the same order on all levels.
     const std::vector<CellBatches<Number>> &
@@ -117,6 +139,14 @@ namespace mortise
     class SimplexKernel;
     template <int degree>
     class MixedSimplexKernel;
+
+    /// As for_each_cell(), lane by lane of a batch; where @p matrices is not
+    /// null, with those.
+    void
+    visit_batch(const CellBatches<Number>                     &cells,
+                unsigned int                                   batch,
+                const std::vector<dealii::FullMatrix<double>> *matrices,
+                const std::function<void(const CellMatrix &)> &visit) const;
 
     static std::unique_ptr<Kernel>
     make_kernel(unsigned int degree);

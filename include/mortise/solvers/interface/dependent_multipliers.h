@@ -2,15 +2,19 @@
 // system has no single solution. It never drops one.
 #pragma once
 
-#include <mortise/operators/block_system.h>
+#include <Epetra_Vector.h>
+#include <mortise/mortar/coupling_matrix.h>
 
 #include <vector>
 
 namespace mortise
 {
   /// Global indices of so many multipliers that the rest is independent:
-  /// those whose pivots vanish when C = B diag(K)^{-1} B^T is factorised, all
-  /// diagonal entries scaled to one. The same on all ranks. Collective.
+  /// those whose pivots vanish when C = B diag(K)^{-1} B^T is factorised, its rows
+  /// and columns scaled by the roots of @p scale. @p inverse_diagonal: of K. The same on all
+  /// ranks. Collective.
   std::vector<dealii::types::global_dof_index>
-  find_dependent_multipliers(const BlockSystem &system);
+  find_dependent_multipliers(const CouplingMatrix &coupling,
+                             const Epetra_Vector  &inverse_diagonal,
+                             const Epetra_Vector  &scale);
 } // namespace mortise

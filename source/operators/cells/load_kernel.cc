@@ -2,9 +2,8 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/simplex_quadrature.h>
-#include <mortise/operators/assembled/load_kernel.h>
+#include <mortise/operators/cells/load_kernel.h>
 #include <mortise/operators/cells/lobatto_table.h>
-
 
 namespace mortise
 {

@@ -6,8 +6,8 @@
 
 #include <deal.II/lac/vector.h>
 
-#include <mortise/operators/assembled/elasticity.h>
 #include <mortise/operators/cells/face_values.h>
+#include <mortise/operators/scene_load.h>
 
 #include <array>
 #include <memory>

@@ -1,0 +1,60 @@
+// The saddle-point system of a scene as one matrix, in one numbering.
+#pragma once
+
+#include <Epetra_CrsMatrix.h>
+#include <mortise/solvers/scaled_residual.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// One numbering of (u, p, lambda), rank by rank: what a rank owns of u, then of
+  /// p, then of lambda.
+  class MonolithicNumbering
+  {
+  public:
+    using Index = dealii::types::global_dof_index;
+
+    enum Field
+    {
+      displacement,
+      pressure,
+      multiplier
+    };
+    static constexpr unsigned int n_fields = 3;
+
+    /// Collective.
+    explicit MonolithicNumbering(const BlockSystem &system);
+
+    Index
+    operator()(Field field, Index i) const;
+
+    Index
+    size() const
+    {
+      return n;
+    }
+
+    /// Of this rank.
+    const dealii::IndexSet &
+    owned() const
+    {
+      return owned_indices;
+    }
+
+  private:
+    std::vector<Index> start[n_fields], shift[n_fields]; ///< by rank
+    Index              n = 0;
+    dealii::IndexSet   owned_indices;
+  };
+
+  /// [K G^T B^T; G -C 0; B 0 -S]. Rows and columns of what is prescribed or
+  /// hangs, and of multipliers that are not active, have their diagonal alone; the
+  /// diagonal of a pressure that stands for a free constant has the norm of
+  /// @p residual added. Collective.
+  std::unique_ptr<Epetra_CrsMatrix>
+  monolithic_matrix(const BlockSystem         &system,
+                    const ScaledResidual      &residual,
+                    const MonolithicNumbering &numbering);
+} // namespace mortise

@@ -1,0 +1,126 @@
+// Proves that the matrix of the direct solver is the operator that residuals are
+// computed with, on every number of ranks: hexahedra and tetrahedra, hanging
+// nodes, several degrees, mixed form, ties, what slides, springs, and a part of
+// the multipliers.
+#include <mortise/solvers/factorisation/monolithic_matrix.h>
+
+#include <cmath>
+
+#include "scenes/active_sets.h"
+#include "scenes/scene.h"
+
+using namespace mortise;
+using namespace mortise::testing;
+
+namespace
+{
+  /// Numbers that do not depend on the ranks, zero where the matrix has its
+  /// diagonal alone.
+  SystemVector
+  unknowns(const BlockSystem &system)
+  {
+    SystemVector x   = system.zero_vector();
+    const auto   set = [](mortise::Vector &v, const double shift) {
+      for (const auto i : v.locally_owned_elements())
+        v(i) = std::sin(12.9898 * i + shift);
+      v.compress(dealii::VectorOperation::insert);
+    };
+    set(x.displacement, 1.);
+    const NodalLevel &level = system.nodal->levels().front();
+    for (const unsigned int index : level.constrained)
+      x.displacement.begin()[index] = 0.;
+    if (system.mixed())
+      {
+        set(x.pressure, 2.);
+        const auto nodes = system.nodal->pressure()->nodes();
+        for (const auto &line : nodes.space.hanging_nodes().get_lines())
+          if (nodes.layout.in_local_range(line.index))
+            x.pressure.begin()[nodes.layout.global_to_local(line.index)] = 0.;
+      }
+    if (x.multiplier.size() > 0)
+      {
+        set(x.multiplier, 3.);
+        system.clear_inactive(x.multiplier.begin());
+      }
+    return x;
+  }
+
+  void
+  check(const std::string &name,
+        const std::string &text,
+        const Settings    &settings,
+        const bool         half = false)
+  {
+    EquationsOfScene equations(text,
+                               settings + Settings{"Solver/Method=direct"},
+                               MPI_COMM_WORLD);
+    const BlockSystem &system = equations.discretisation.linear_system();
+    if (half)
+      {
+        std::vector<bool> active;
+        for (const auto i : system.owned_multiplier)
+          active.push_back(i % 2 == 0);
+        equations.discretisation.select(active);
+      }
+    const ScaledResidual residual(system);
+    const auto           matrix =
+      monolithic_matrix(system, residual, MonolithicNumbering(system));
+    const SystemVector x = unknowns(system);
+    SystemVector       r = system.zero_vector();
+    residual.compute(system.zero_vector(), x, r);
+
+    Epetra_Vector v(matrix->RowMap()), product(v);
+    int           next = 0;
+    for (const auto *part : {&x.displacement, &x.pressure, &x.multiplier})
+      for (unsigned int i = 0; i < part->locally_owned_size(); ++i)
+        v[next++] = part->begin()[i];
+    matrix->Multiply(false, v, product);
+    double error = 0., largest = 0.;
+    next = 0;
+    for (const auto *part : {&r.displacement, &r.pressure, &r.multiplier})
+      for (unsigned int i = 0; i < part->locally_owned_size(); ++i, ++next)
+        {
+          error   = std::max(error, std::abs(product[next] + part->begin()[i]));
+          largest = std::max(largest, std::abs(product[next]));
+        }
+    largest = dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
+    mortise::testing::verdict(name + ", 1e-13", error / largest, 1e-13);
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const auto both = [](const std::string &setting) {
+    return Settings{"Body inner/" + setting, "Body outer/" + setting};
+  };
+  const Settings meshes  = {"Body inner/Mesh/Subdivisions=2, 1",
+                            "Body outer/Mesh/Subdivisions=3, 1"},
+                 refined = {"Body outer/Mesh/Refine near=2, 0, 0, 0.8, 1"},
+                 shapes  = both("Mesh/Cells=tetrahedra");
+  const std::string sphere = two_layers(true);
+  for (const unsigned int p : {1, 2, 4})
+    {
+      const Settings degree = meshes + both("Degree=" + std::to_string(p));
+      const std::string name = ", p = " + std::to_string(p);
+      check("hexahedra" + name, sphere, degree);
+      check("hanging nodes" + name, sphere, degree + refined);
+      check("tetrahedra" + name, sphere, degree + shapes);
+      if (p == 1)
+        continue;
+      const Settings mixed = degree + both("Formulation=mixed") +
+                             both("Material/Poisson ratio=0.5");
+      check("mixed form, hanging nodes" + name, sphere, mixed + refined);
+      check("mixed form, tetrahedra" + name, sphere, mixed + shapes);
+    }
+  const Settings p_2 = meshes + both("Degree=2");
+  check("slide", sphere, p_2 + Settings{"Interface glue/Law=slide"});
+  check("slide, a half", sphere, p_2 + Settings{"Interface glue/Law=slide"}, true);
+  check("tie, a half", sphere, p_2, true);
+  check("spring",
+        sphere,
+        p_2 + Settings{"Interface glue/Law=spring",
+                       "Interface glue/Normal stiffness=20",
+                       "Interface glue/Tangential stiffness=5"});
+}
