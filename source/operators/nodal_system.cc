@@ -93,7 +93,8 @@ namespace mortise
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})
       pressures->initialize(*vector);
-    clamped_cell_pressures = ClampedCellPressures(all_levels.front(), *pressures);
+    clamped_cell_pressures =
+      ClampedCellPressures(all_levels.front(), stiffness->elasticity());
     stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
     clamped_cell_pressures.add_diagonal(norm_diagonal.begin());
     pressures->gather_diagonal(norm_diagonal);

@@ -132,8 +132,7 @@ def scene_rows(mortise):
         summary = run_mortise(mortise, scene)[0]
         step, times = summary["steps"][-1], summary["timings_s"]
         ran = [f"{times[s]:.3f}" if s in times else "-" for s in STAGES]
-        yield [scene, f"{step['dofs']['total']:,}", *ran, "-" if "multigrid in the degree" in step["solver"]["preconditioner"] else "yes",
-               "yes" if "errors" in step else "-"]
+        yield [scene, f"{step['dofs']['total']:,}", *ran, "yes" if "errors" in step else "-"]
 
 
 def texts(case, key, form):
@@ -187,10 +186,9 @@ Regenerate: `ninja -C build mortise benchmark_plain && tests/benchmarks/plain.py
 ## Stages of the scenes
 
 Seconds of each stage of `timings_s` in `summary.json`, every scene as it is in `prm/`, one rank, one run; "-": the
-stage did not run and is absent there. Matrix: the stiffness was assembled; errors: there is an exact solution to
-compare with, as part of postprocess.
+stage did not run and is absent there. Errors: there is an exact solution to compare with, as part of postprocess.
 """
-    yield from table(("scene", "dofs", *(s.replace("_", " ") for s in STAGES), "matrix", "errors"), scenes)
+    yield from table(("scene", "dofs", *(s.replace("_", " ") for s in STAGES), "errors"), scenes)
     if not cases:
         return
     yield f"""## No interface: beside a plain program

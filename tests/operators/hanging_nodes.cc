@@ -111,8 +111,9 @@ namespace mortise::testing
                             MPI_COMM_WORLD);
         for (const auto dof : result.back().locally_owned_elements())
           result.back()(dof) = all(field.numbering(body->index, dof));
-        result.back().update_ghost_values();
       }
+    for (BodyVector &body : result) // copies have no ghost values
+      body.update_ghost_values();
     return result;
   }
 

@@ -11,7 +11,6 @@
 #include <mortise/body/elements/simplex_elements.h>
 #include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/cells/cell_order.h>
-#include <mortise/operators/cells/pressure_kernel.h>
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_system.h>
 
@@ -19,6 +18,7 @@
 #include <map>
 
 #include "../scenes/scene.h"
+#include "pressure_kernel.h"
 
 namespace mortise::testing
 {

@@ -10,7 +10,6 @@
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/elements/legendre_elements.h>
 #include <mortise/operators/cells/cell_kernel.h>
-#include <mortise/operators/cells/pressure_kernel.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
@@ -21,6 +20,8 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "../operators/pressure_kernel.h"
 
 namespace mortise::testing
 {

@@ -8,6 +8,7 @@
 #include <Epetra_Vector.h>
 #include <mortise/operators/levels/clamped_cell_pressures.h>
 #include <mortise/operators/levels/leading_displacements.h>
+#include <mortise/operators/levels/nodal_pressure.h>
 #include <mortise/operators/prescribed_values.h>
 
 #include <memory>

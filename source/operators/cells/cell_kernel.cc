@@ -47,17 +47,6 @@ namespace mortise
     return table;
   }
 
-  std::vector<double>
-  element_values(const FiniteElement<dim> &element,
-                 const Quadrature<dim>    &quadrature)
-  {
-    std::vector<double> table;
-    for (const Point<dim> &point : quadrature.get_points())
-      for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
-        table.push_back(element.shape_value(i, point));
-    return table;
-  }
-
   namespace
   {
     /// The upper triangle of A^T A, row major; @p A has @p rows rows of length

@@ -124,6 +124,16 @@ namespace mortise
     return level;
   }
 
+  LevelVector<double>
+  constrained_components(const NodalLevel &level)
+  {
+    LevelVector<double> constrained(level.layout);
+    for (const unsigned int index : level.constrained)
+      constrained.local_element(index) = 1.;
+    constrained.update_ghost_values();
+    return constrained;
+  }
+
   template <typename Number>
   LevelOperator<Number>::LevelOperator(const NodalLevel    &level,
                                        const bool           with_penalty,

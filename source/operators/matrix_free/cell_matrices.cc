@@ -3,6 +3,7 @@
 #include <mortise/operators/matrix_free/tensor_kernel.h>
 
 #include <algorithm>
+#include <functional>
 
 namespace mortise
 {
@@ -55,106 +56,140 @@ namespace mortise
                   one.metric.begin());
       return one;
     }
+
+    /// Columns of @p matrices, by lane, from products with unit vectors:
+    /// @p product sets the first entries of a column from the first unknowns, the
+    /// rest from the rest.
+    template <typename Number, typename Product>
+    void
+    fill_columns(const unsigned int                       n_first,
+                 const unsigned int                       n_rest,
+                 const Product                           &product,
+                 const std::vector<FullMatrix<double> *> &matrices)
+    {
+      constexpr unsigned int width = Batch<Number>::size;
+      AlignedVector<Number>  u(width * n_first), p(width * n_rest), of_u(u),
+        of_p(p);
+      for (unsigned int j = 0; j < n_first + n_rest; ++j)
+        {
+          const auto set_unit = [&](const Number value) {
+            for (unsigned int lane = 0; lane < width; ++lane)
+              if (j < n_first)
+                u[lane * n_first + j] = value;
+              else
+                p[lane * n_rest + j - n_first] = value;
+          };
+          set_unit(1.);
+          of_u.fill(Number());
+          of_p.fill(Number());
+          product(u.data(), p.data(), of_u.data(), of_p.data());
+          set_unit(0.);
+          for (unsigned int lane = 0; lane < width; ++lane)
+            {
+              for (unsigned int i = 0; i < n_first; ++i)
+                (*matrices[lane])(i, j) = of_u[lane * n_first + i];
+              for (unsigned int k = 0; k < n_rest; ++k)
+                (*matrices[lane])(n_first + k, j) = of_p[lane * n_rest + k];
+            }
+        }
+    }
   } // namespace
 
   template <typename Number>
+  std::vector<typename MatrixFreeElasticity<Number>::CellMatrix>
+  MatrixFreeElasticity<Number>::batch_matrices(const unsigned int g,
+                                               const unsigned int batch) const
+  {
+    const CellBatches<Number> one = single_batch(groups[g], batch);
+    const unsigned int n_u = dim * one.n_nodes, n_p = n_pressure_nodes(one);
+    std::vector<CellMatrix>           result(Batch<Number>::size);
+    std::vector<FullMatrix<double> *> systems, norms;
+    for (CellMatrix &cell : result)
+      {
+        cell.mixed.reinit(n_u + n_p, n_u + n_p);
+        cell.pressure_norm.reinit(n_p, n_p);
+        systems.push_back(&cell.mixed);
+        norms.push_back(&cell.pressure_norm);
+      }
+    fill_columns<Number>(
+      n_u,
+      n_p,
+      [&](Number *u, Number *p, Number *of_u, Number *of_p) {
+        if (mixed[g])
+          mixed[g]->add_mixed_product(one, {u, p}, {of_u, of_p});
+        else
+          kernels[g]->add_product(one, u, of_u);
+      },
+      systems);
+    if (mixed[g])
+      fill_columns<Number>(
+        0,
+        n_p,
+        [&](Number *, Number *p, Number *, Number *of_p) {
+          mixed[g]->add_pressure_norm(one, p, of_p);
+        },
+        norms);
+    return result;
+  }
+
+  template <typename Number>
   void
-  MatrixFreeElasticity<Number>::visit_batch(
-    const CellBatches<Number>                     &cells,
-    const unsigned int                             batch,
-    const std::vector<FullMatrix<double>>         *matrices,
-    const std::function<void(const CellMatrix &)> &visit) const
+  MatrixFreeElasticity<Number>::for_each_cell_matrix(
+    const std::function<bool(const Cell &)>                     &wanted,
+    const std::function<void(const Cell &, const CellMatrix &)> &visit) const
   {
     constexpr unsigned int width = Batch<Number>::size;
-    const unsigned int     n_p   = n_pressure_nodes(cells);
-    for (unsigned int lane = 0; lane < cells.lanes(batch); ++lane)
+    for (unsigned int g = 0; g < groups.size(); ++g)
       {
-        CellMatrix cell;
-        for (unsigned int i = 0; i < cells.n_nodes; ++i)
-          for (unsigned int c = 0; c < dim; ++c)
-            cell.displacements.push_back(
-              cells.nodes[(std::size_t(batch) * cells.n_nodes + i) * width +
-                          lane] +
-              c);
-        for (unsigned int k = 0; k < n_p; ++k)
-          cell.pressures.push_back(
-            cells.pressure_nodes[(std::size_t(batch) * n_p + k) * width +
-                                 lane]);
-        if (matrices != nullptr)
-          cell.matrix = (*matrices)[lane];
-        visit(cell);
+        const CellBatches<Number> &cells = groups[g];
+        const unsigned int         n_p   = n_pressure_nodes(cells);
+        for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+          {
+            std::vector<CellMatrix> matrices; // once one is wanted
+            for (unsigned int lane = 0; lane < cells.lanes(batch); ++lane)
+              {
+                Cell                cell{cells, {}, {}};
+                const unsigned int *nodes =
+                  &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
+                for (unsigned int i = 0; i < cells.n_nodes; ++i)
+                  for (unsigned int c = 0; c < dim; ++c)
+                    cell.displacements.push_back(nodes[i * width + lane] + c);
+                for (unsigned int k = 0; k < n_p; ++k)
+                  cell.pressures.push_back(
+                    cells
+                      .pressure_nodes[(std::size_t(batch) * n_p + k) * width +
+                                      lane]);
+                if (!wanted(cell))
+                  continue;
+                if (matrices.empty())
+                  matrices = batch_matrices(g, batch);
+                visit(cell, matrices[lane]);
+              }
+          }
       }
   }
 
   template <typename Number>
   void
   MatrixFreeElasticity<Number>::for_each_cell(
-    const std::function<void(const CellMatrix &)> &visit) const
+    const std::function<void(const Cell &)> &visit) const
   {
-    for (const CellBatches<Number> &cells : groups)
-      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
-        visit_batch(cells, batch, nullptr, visit);
+    for_each_cell_matrix(
+      [&](const Cell &cell) {
+        visit(cell);
+        return false;
+      },
+      [](const Cell &, const CellMatrix &) {});
   }
 
-  template <typename Number>
-  void
-  MatrixFreeElasticity<Number>::for_each_cell_matrix(
-    const std::function<void(const CellMatrix &)> &visit) const
-  {
-    constexpr unsigned int width = Batch<Number>::size;
-    for (unsigned int g = 0; g < groups.size(); ++g)
-      {
-        const CellBatches<Number> &cells = groups[g];
-        const unsigned int n_u = dim * cells.n_nodes,
-                           n_p = n_pressure_nodes(cells), n = n_u + n_p;
-        std::vector<FullMatrix<double>> matrices(width,
-                                                 FullMatrix<double>(n));
-        AlignedVector<Number> u(width * n_u), p(width * n_p), r_u(u), r_p(p);
-        for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
-          {
-            const CellBatches<Number> one = single_batch(cells, batch);
-            for (unsigned int j = 0; j < n; ++j)
-              {
-                const auto set_unit = [&](const Number value) {
-                  for (unsigned int lane = 0; lane < width; ++lane)
-                    if (j < n_u)
-                      u[lane * n_u + j] = value;
-                    else
-                      p[lane * n_p + j - n_u] = value;
-                };
-                set_unit(1.);
-                r_u.fill(Number());
-                r_p.fill(Number());
-                if (mixed[g])
-                  mixed[g]->add_mixed_product(one,
-                                              {u.data(), p.data()},
-                                              {r_u.data(), r_p.data()});
-                else
-                  kernels[g]->add_product(one, u.data(), r_u.data());
-                set_unit(0.);
-                for (unsigned int lane = 0; lane < width; ++lane)
-                  {
-                    for (unsigned int i = 0; i < n_u; ++i)
-                      matrices[lane](i, j) = r_u[lane * n_u + i];
-                    for (unsigned int k = 0; k < n_p; ++k)
-                      matrices[lane](n_u + k, j) = r_p[lane * n_p + k];
-                  }
-              }
-            visit_batch(cells, batch, &matrices, visit);
-          }
-      }
-  }
-
-  template void
-  MatrixFreeElasticity<double>::visit_batch(
-    const CellBatches<double> &,
-    unsigned int,
-    const std::vector<FullMatrix<double>> *,
-    const std::function<void(const CellMatrix &)> &) const;
-  template void
-  MatrixFreeElasticity<double>::for_each_cell(
-    const std::function<void(const CellMatrix &)> &) const;
+  template std::vector<MatrixFreeElasticity<double>::CellMatrix>
+  MatrixFreeElasticity<double>::batch_matrices(unsigned int,
+                                               unsigned int) const;
   template void
   MatrixFreeElasticity<double>::for_each_cell_matrix(
-    const std::function<void(const CellMatrix &)> &) const;
+    const std::function<bool(const Cell &)> &,
+    const std::function<void(const Cell &, const CellMatrix &)> &) const;
+  template void
+  MatrixFreeElasticity<double>::for_each_cell(
+    const std::function<void(const Cell &)> &) const;
 } // namespace mortise

@@ -15,9 +15,9 @@ namespace mortise
 
   MonolithicNumbering::MonolithicNumbering(const BlockSystem &system)
   {
-    const IndexSet *owned[n_fields] = {&system.owned_displacement,
-                                       &system.owned_pressure,
-                                       &system.owned_multiplier};
+    const IndexSet    *owned[n_fields] = {&system.owned_displacement,
+                                          &system.owned_pressure,
+                                          &system.owned_multiplier};
     std::vector<Index> counts[n_fields];
     for (unsigned int field = 0; field < n_fields; ++field)
       {
@@ -80,14 +80,15 @@ namespace mortise
           }
     }
 
-    /// What is prescribed is zero.
+    /// What is prescribed is zero. @p relevant: rows that the cells of this rank touch.
     AffineConstraints<double>
     monolithic_constraints(const NodalSystem &nodal,
-                           const Numbering   &numbering)
+                           const Numbering   &numbering,
+                           const IndexSet    &relevant)
     {
-      const NodalLevel &level = nodal.levels().front();
-      const auto       &hanging = level.space->hanging_nodes();
-      AffineConstraints<double> constraints;
+      const NodalLevel         &level   = nodal.levels().front();
+      const auto               &hanging = level.space->hanging_nodes();
+      AffineConstraints<double> constraints(relevant);
       add_hanging_nodes(
         *level.space, dim, Numbering::displacement, numbering, constraints);
       if (nodal.pressure() != nullptr)
@@ -96,17 +97,12 @@ namespace mortise
                           Numbering::pressure,
                           numbering,
                           constraints);
-      LevelVector<double> constrained(level.layout);
-      for (const unsigned int index : level.constrained)
-        constrained.local_element(index) = 1.;
-      constrained.update_ghost_values();
-      for (unsigned int i = 0;
-           i < level.layout->locally_owned_size() + level.layout->n_ghost_indices();
-           ++i)
-        if (const Index index = level.layout->local_to_global(i);
-            constrained.local_element(i) != 0. &&
-            !hanging.is_constrained(index / dim))
-          constraints.add_line(numbering(Numbering::displacement, index));
+      const LevelVector<double> constrained = constrained_components(level);
+      for (const auto node : level.space->relevant_nodes())
+        if (!hanging.is_constrained(node))
+          for (unsigned int c = 0; c < dim; ++c)
+            if (const Index index = dim * node + c; constrained(index) != 0.)
+              constraints.add_line(numbering(Numbering::displacement, index));
       constraints.close();
       return constraints;
     }
@@ -126,15 +122,15 @@ namespace mortise
         if (nodal.pressure() == nullptr)
           return;
         const auto &of_pressure = nodal.pressure()->nodes().layout;
-        for (unsigned int i = 0;
-             i < of_pressure.locally_owned_size() + of_pressure.n_ghost_indices();
+        for (unsigned int i = 0; i < of_pressure.locally_owned_size() +
+                                       of_pressure.n_ghost_indices();
              ++i)
           pressures.push_back(
             numbering(Numbering::pressure, of_pressure.local_to_global(i)));
       }
 
       const std::vector<Index> &
-      of(const MatrixFreeElasticity<double>::CellMatrix &cell)
+      of(const MatrixFreeElasticity<double>::Cell &cell)
       {
         cell_indices.clear();
         for (const unsigned int i : cell.displacements)
@@ -161,9 +157,9 @@ namespace mortise
       for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
         if (const int pinned = system.free_pressures.pinned(g); pinned >= 0)
           {
-            const Index k = numbering(
-              Numbering::pressure,
-              system.owned_pressure.nth_index_in_set(pinned));
+            const Index k =
+              numbering(Numbering::pressure,
+                        system.owned_pressure.nth_index_in_set(pinned));
             entry(k, k, -1. / residual.inverse_diagonal_p()[pinned]);
           }
       if (system.owned_multiplier.size() == 0)
@@ -180,8 +176,8 @@ namespace mortise
               const EpetraRow row(B, local);
               for (int e = 0; e < row.length; ++e)
                 {
-                  const Index j = numbering(Numbering::displacement,
-                                            B.GCID(row.columns[e]));
+                  const Index j =
+                    numbering(Numbering::displacement, B.GCID(row.columns[e]));
                   entry(k, j, row.values[e]);
                   entry(j, k, row.values[e]);
                 }
@@ -207,24 +203,27 @@ namespace mortise
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering)
   {
-    const NodalSystem              &nodal = *system.nodal;
-    const AffineConstraints<double> constraints =
-      monolithic_constraints(nodal, numbering);
-    CellIndices cells(nodal, numbering);
-
+    const NodalSystem &nodal = *system.nodal;
+    CellIndices        cells(nodal, numbering);
     std::vector<Index> touched = cells.displacements;
     touched.insert(touched.end(),
                    cells.pressures.begin(),
                    cells.pressures.end());
+    std::sort(touched.begin(), touched.end());
+    IndexSet rows = numbering.owned();
+    rows.add_indices(touched.begin(), touched.end());
+    const AffineConstraints<double> constraints =
+      monolithic_constraints(nodal, numbering, rows);
+
+    touched.clear();
     for_each_constraint_entry(system,
                               residual,
                               numbering,
                               [&](const Index row, const Index, const double) {
-                                if (!numbering.owned().is_element(row))
+                                if (!rows.is_element(row))
                                   touched.push_back(row);
                               });
     std::sort(touched.begin(), touched.end());
-    IndexSet rows = numbering.owned();
     rows.add_indices(touched.begin(), touched.end());
     DynamicSparsityPattern sparsity(numbering.size(), numbering.size(), rows);
     nodal.elasticity().for_each_cell([&](const auto &cell) {
@@ -242,18 +241,21 @@ namespace mortise
                   sparsity,
                   system.communicator,
                   true);
-    nodal.elasticity().for_each_cell_matrix([&](const auto &cell) {
-      constraints.distribute_local_to_global(cell.matrix,
-                                             cells.of(cell),
-                                             matrix);
-    });
-    for_each_constraint_entry(
-      system,
-      residual,
-      numbering,
-      [&](const Index row, const Index column, const double value) {
-        matrix.add(row, column, value);
+    nodal.elasticity().for_each_cell_matrix(
+      [](const auto &) { return true; },
+      [&](const auto &cell, const auto &local) {
+        constraints.distribute_local_to_global(local.mixed,
+                                               cells.of(cell),
+                                               matrix);
       });
+    for_each_constraint_entry(system,
+                              residual,
+                              numbering,
+                              [&](const Index  row,
+                                  const Index  column,
+                                  const double value) {
+                                matrix.add(row, column, value);
+                              });
     matrix.compress(VectorOperation::add);
     return std::make_unique<Epetra_CrsMatrix>(matrix.trilinos_matrix());
   }

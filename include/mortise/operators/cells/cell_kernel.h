@@ -24,11 +24,6 @@ namespace mortise
   element_gradients(const dealii::FiniteElement<dim> &element,
                     const dealii::Quadrature<dim>    &quadrature);
 
-  /// Their values, [q][i].
-  std::vector<double>
-  element_values(const dealii::FiniteElement<dim> &element,
-                 const dealii::Quadrature<dim>    &quadrature);
-
   /// What the cells of one element share. One scalar element serves the three
   /// components.
   class CellKernel

@@ -5,7 +5,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <mortise/operators/levels/nodal_pressure.h>
+#include <mortise/operators/levels/nodal_level.h>
 
 #include <vector>
 
@@ -16,10 +16,10 @@ namespace mortise
   public:
     ClampedCellPressures() = default;
 
-    /// Finds the cells of @p level. Bodies of high degree have none: their dense
-    /// matrices would take longer than they save. Collective.
-    ClampedCellPressures(const NodalLevel    &level,
-                         const NodalPressure &pressures);
+    /// Finds the cells of @p level, whose products @p elasticity has, pressures included. Bodies
+    /// of high degree have none: their dense matrices would take longer than they save. Collective.
+    ClampedCellPressures(const NodalLevel                   &level,
+                         const MatrixFreeElasticity<double> &elasticity);
 
     /// dst += (P - P_0) p with P_0 the mass matrices of all cells, local with
     /// ghost entries.

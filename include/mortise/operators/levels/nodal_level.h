@@ -37,6 +37,10 @@ namespace mortise
                    const std::vector<Coupling>             &couplings,
                    MPI_Comm                                 comm);
 
+  /// 1 where components are constrained, 0 elsewhere; with ghost values. Collective.
+  LevelVector<double>
+  constrained_components(const NodalLevel &level);
+
   /// One for each kind of interface that there is.
   std::vector<NodalPenalty>
   make_nodal_penalties(const NodalLevel            &level,

@@ -101,24 +101,33 @@ namespace mortise
     void
     add_pressure_norm_diagonal(Number *dst) const;
 
+    /// One cell in the order of its batch.
+    struct Cell
+    {
+      const CellBatches<Number> &batches;
+      /// Where the displacements stand in vectors, component after component of
+      /// each node, and the pressures.
+      std::vector<unsigned int> displacements, pressures;
+    };
+
     /// Of one cell, without regard to what is constrained or hangs.
     struct CellMatrix
     {
-      /// Where the displacements stand in vectors, and the pressures.
-      std::vector<unsigned int> displacements, pressures;
       /// [K G^T; G -C], displacements first.
-      dealii::FullMatrix<double> matrix;
+      dealii::FullMatrix<double> mixed;
+      dealii::FullMatrix<double> pressure_norm; ///< P, a mass matrix
     };
 
-    /// Calls @p visit with the matrix of each owned cell, made of products with
-    /// unit vectors.
+    /// Calls @p visit with each owned cell.
+    void
+    for_each_cell(const std::function<void(const Cell &)> &visit) const;
+
+    /// Calls @p visit with the matrices of those for which @p wanted is true, right after that was
+    /// asked; they are made of products with unit vectors.
     void
     for_each_cell_matrix(
-      const std::function<void(const CellMatrix &)> &visit) const;
-
-    /// The same with empty matrices, which takes no time.
-    void
-    for_each_cell(const std::function<void(const CellMatrix &)> &visit) const;
+      const std::function<bool(const Cell &)>                     &wanted,
+      const std::function<void(const Cell &, const CellMatrix &)> &visit) const;
 
     /// By body and, in each, by the degree of the displacement on the finest
     /// level: the same cells in the same order on all levels.
@@ -140,13 +149,9 @@ namespace mortise
     template <int degree>
     class MixedSimplexKernel;
 
-    /// As for_each_cell(), lane by lane of a batch; where @p matrices is not
-    /// null, with those.
-    void
-    visit_batch(const CellBatches<Number>                     &cells,
-                unsigned int                                   batch,
-                const std::vector<dealii::FullMatrix<double>> *matrices,
-                const std::function<void(const CellMatrix &)> &visit) const;
+    /// Of all lanes of a batch of group @p g.
+    std::vector<CellMatrix>
+    batch_matrices(unsigned int g, unsigned int batch) const;
 
     static std::unique_ptr<Kernel>
     make_kernel(unsigned int degree);

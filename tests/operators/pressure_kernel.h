@@ -1,16 +1,81 @@
+// What the pressure adds to the matrix of one cell in mixed form, by dense
+// products: what tests compare with.
+#pragma once
+
+#include <deal.II/lac/full_matrix.h>
+
 #include <Teuchos_BLAS.hpp>
+#include <mortise/operators/cells/cell_geometry.h>
 #include <mortise/operators/cells/cell_kernel.h>
-#include <mortise/operators/cells/pressure_kernel.h>
 
+#include <array>
 #include <cmath>
+#include <vector>
 
-namespace mortise
+namespace mortise::testing
 {
   using namespace dealii;
 
-  PressureKernel::PressureKernel(const Body               &body,
-                                 const FiniteElement<dim> &system,
-                                 const FiniteElement<dim> &pressure)
+  /// Values of the functions of a scalar element, [q][i].
+  inline std::vector<double>
+  element_values(const FiniteElement<dim> &element,
+                 const Quadrature<dim>    &quadrature)
+  {
+    std::vector<double> table;
+    for (const Point<dim> &point : quadrature.get_points())
+      for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+        table.push_back(element.shape_value(i, point));
+    return table;
+  }
+
+  /// What the cells of one pair of elements share.
+  class PressureKernel
+  {
+  public:
+    /// @p system, @p pressure: elements of displacement and pressure on the
+    /// cells of @p body, which is kept by reference.
+    PressureKernel(const Body               &body,
+                   const FiniteElement<dim> &system,
+                   const FiniteElement<dim> &pressure);
+
+    /// With the pressures' functions Q_k and those of the displacement N_j in
+    /// the numbering of the system,
+    ///
+    ///     G_kj = -int Q_k div N_j,   M_kl = int Q_k Q_l
+    ///
+    /// in divergence() and mass(). The Jacobian must be positive.
+    void
+    compute(const Body::CellIterator &cell);
+
+    const FullMatrix<double> &
+    divergence() const
+    {
+      return G;
+    }
+
+    const FullMatrix<double> &
+    mass() const
+    {
+      return M;
+    }
+
+  private:
+    const unsigned int                         n, n_pressures;
+    std::array<std::vector<unsigned int>, dim> system_index;
+
+    CellGeometry        geometry;
+    std::vector<double> weights;
+    std::vector<double> reference_gradients; ///< [q][a][i]
+    std::vector<double> reference_values;    ///< of Q, [q][k]
+    std::vector<double> gradients;           ///< w |J| dN/dx, [q][c][i]
+    std::vector<double> values;              ///< sqrt(w |J|) Q, [q][k]
+    std::vector<double> product;             ///< [k][c][i]
+    FullMatrix<double>  G, M;
+  };
+
+  inline PressureKernel::PressureKernel(const Body               &body,
+                                        const FiniteElement<dim> &system,
+                                        const FiniteElement<dim> &pressure)
     : n(system.base_element(0).n_dofs_per_cell())
     , n_pressures(pressure.n_dofs_per_cell())
     , geometry(body,
@@ -32,7 +97,7 @@ namespace mortise
     values.resize(reference_values.size());
   }
 
-  void
+  inline void
   PressureKernel::compute(const Body::CellIterator &cell)
   {
     const auto  constant = geometry.constant_jacobian(cell);
@@ -79,4 +144,4 @@ namespace mortise
             G(k, system_index[c][i]) = product[k * columns + c * n + i];
       }
   }
-} // namespace mortise
+} // namespace mortise::testing
