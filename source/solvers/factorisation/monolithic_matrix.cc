@@ -146,13 +146,15 @@ namespace mortise
       std::vector<Index> cell_indices;
     };
 
-    /// Calls @p entry(row, column, value) for what is not K, G and C.
+    /// Calls @p entry(row, column, value) for what is not K, G and C. @p B: expanded, or empty without
+    /// multipliers.
     template <typename Entry>
     void
     for_each_constraint_entry(const BlockSystem    &system,
                               const ScaledResidual &residual,
                               const Numbering      &numbering,
-                              const Entry          &entry)
+                              const std::unique_ptr<Epetra_CrsMatrix> &B,
+                              const Entry                             &entry)
     {
       for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
         if (const int pinned = system.free_pressures.pinned(g); pinned >= 0)
@@ -162,10 +164,9 @@ namespace mortise
                         system.owned_pressure.nth_index_in_set(pinned));
             entry(k, k, -1. / residual.inverse_diagonal_p()[pinned]);
           }
-      if (system.owned_multiplier.size() == 0)
+      if (!B)
         return;
-      const Epetra_CrsMatrix B     = system.coupling.expanded();
-      int                    local = 0;
+      int local = 0;
       for (const auto i : system.owned_multiplier)
         {
           const Index k = numbering(Numbering::multiplier, i);
@@ -173,11 +174,11 @@ namespace mortise
             entry(k, k, -1. / residual.inverse_diagonal_lambda()[local]);
           else
             {
-              const EpetraRow row(B, local);
+              const EpetraRow row(*B, local);
               for (int e = 0; e < row.length; ++e)
                 {
                   const Index j =
-                    numbering(Numbering::displacement, B.GCID(row.columns[e]));
+                    numbering(Numbering::displacement, B->GCID(row.columns[e]));
                   entry(k, j, row.values[e]);
                   entry(j, k, row.values[e]);
                 }
@@ -203,7 +204,10 @@ namespace mortise
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering)
   {
-    const NodalSystem &nodal = *system.nodal;
+    const NodalSystem                &nodal = *system.nodal;
+    std::unique_ptr<Epetra_CrsMatrix> B;
+    if (system.owned_multiplier.size() > 0)
+      B = std::make_unique<Epetra_CrsMatrix>(system.coupling.expanded());
     CellIndices        cells(nodal, numbering);
     std::vector<Index> touched = cells.displacements;
     touched.insert(touched.end(),
@@ -219,6 +223,7 @@ namespace mortise
     for_each_constraint_entry(system,
                               residual,
                               numbering,
+                              B,
                               [&](const Index row, const Index, const double) {
                                 if (!rows.is_element(row))
                                   touched.push_back(row);
@@ -232,6 +237,7 @@ namespace mortise
     for_each_constraint_entry(system,
                               residual,
                               numbering,
+                              B,
                               [&](const Index row,
                                   const Index column,
                                   const double) { sparsity.add(row, column); });
@@ -251,6 +257,7 @@ namespace mortise
     for_each_constraint_entry(system,
                               residual,
                               numbering,
+                              B,
                               [&](const Index  row,
                                   const Index  column,
                                   const double value) {
