@@ -1,6 +1,7 @@
 #include <Epetra_CrsMatrix.h>
 #include <Epetra_Vector.h>
 #include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/spaces/thickness_coarsening.h>
 #include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_load.h>
@@ -106,9 +107,12 @@ namespace mortise
     if (!preconditioned)
       return;
     // the finest level respects the constraint itself; the matrix of vertices
-    // is made of the last
+    // is made of the last, unless it sees what multipliers see
+    const bool alone =
+      all_levels.size() == 1 &&
+      !coarsens_across_thickness(all_levels.front().space->bodies());
     for (unsigned int number = 0; number < all_levels.size(); ++number)
-      if (number > 0 || all_levels.size() == 1)
+      if (number > 0 || alone)
         all_levels[number].penalties =
           make_nodal_penalties(all_levels[number], number, couplings);
   }

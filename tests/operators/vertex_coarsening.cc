@@ -217,7 +217,7 @@ namespace mortise::testing
   {
     const NodalLevel                &level = scene.levels().back();
     const NodalBlockOperator<double> A(assemble_vertex_matrix(level).blocks);
-    const VertexMultigrid            multigrid(level, true);
+    const VertexMultigrid<float>     multigrid(level, true);
     verdict(name + ", not by one factorisation",
             multigrid.description().find("levels") == std::string::npos,
             0.);

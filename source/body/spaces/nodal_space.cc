@@ -10,6 +10,7 @@
 #include <mortise/body/spaces/nodal_conformity.h>
 #include <mortise/body/spaces/nodal_space.h>
 #include <mortise/body/spaces/simplex_nodal_conformity.h>
+#include <mortise/body/spaces/thickness_coarsening.h>
 
 #include <algorithm>
 #include <map>
@@ -207,13 +208,15 @@ namespace mortise
     };
     NodalSpaces levels;
     bool        lowest = false;
+    const bool  single = coarsens_across_thickness(bodies);
     for (unsigned int level = 0; !lowest; ++level)
       {
         const auto rule = degree_on(level);
         levels.push_back(std::make_unique<NodalSpace>(bodies, rule, comm));
-        lowest = std::all_of(bodies.begin(), bodies.end(), [&](const Body *b) {
-          return rule(*b, b->max_degree()) == 1;
-        });
+        lowest =
+          single || std::all_of(bodies.begin(), bodies.end(), [&](const Body *b) {
+            return rule(*b, b->max_degree()) == 1;
+          });
       }
     return levels;
   }

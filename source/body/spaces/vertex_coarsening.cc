@@ -17,7 +17,7 @@ namespace mortise
   namespace
   {
     using Index   = NodalSpace::Index;
-    using Entries = RefinedCorners::Entries;
+    using Entries = VertexCoarsening::Entries;
 
     /// Calls @p visit(child, vertex of it, corners of @p cell around that vertex)
     /// for the vertices of the children that are in the middle of an edge, a
@@ -93,7 +93,7 @@ namespace mortise
                 find_middles(lattice->body, lattice->n_refined - 1 - step);
               else if (step < lattice->n_steps())
                 find_gone(*lattice, step - lattice->n_refined);
-            result.push_back(coarsen());
+            result.push_back(coarsen_by(vertices, rows, fine_nodes, comm));
           }
         return result;
       }
@@ -142,66 +142,6 @@ namespace mortise
           });
       }
 
-      /// That owned ones follow from.
-      IndexSet
-      nodes_of_others() const
-      {
-        std::vector<Index> nodes;
-        for (const unsigned int node : fine_nodes)
-          for (const auto &entry : rows[node])
-            if (!owned.is_element(entry.first))
-              nodes.push_back(entry.first);
-        std::sort(nodes.begin(), nodes.end());
-        IndexSet result(owned.size());
-        result.add_indices(nodes.begin(),
-                           std::unique(nodes.begin(), nodes.end()));
-        return result;
-      }
-
-      VertexCoarsening
-      coarsen()
-      {
-        VertexCoarsening          result;
-        std::vector<unsigned int> coarse_nodes;
-        const auto               &hanging = vertices.hanging_nodes();
-        for (unsigned int i = 0; i < fine_nodes.size(); ++i)
-          if (const unsigned int node = fine_nodes[i];
-              rows[node].empty() &&
-              !hanging.is_constrained(owned.nth_index_in_set(node)))
-            {
-              result.kept.push_back(i);
-              coarse_nodes.push_back(node);
-            }
-        result.owned = next_range(coarse_nodes.size(), comm);
-        // on the coarser mesh, of nodes of the finest one
-        LinearAlgebra::distributed::Vector<double> number(owned,
-                                                          nodes_of_others(),
-                                                          comm);
-        for (unsigned int k = 0; k < coarse_nodes.size(); ++k)
-          number.local_element(coarse_nodes[k]) =
-            result.owned.nth_index_in_set(k);
-        number.update_ghost_values();
-
-        const auto add = [&](const Index node, const double weight) {
-          result.nodes.push_back(static_cast<Index>(number[node]));
-          result.weights.push_back(weight);
-        };
-        for (const unsigned int node : fine_nodes)
-          {
-            result.begin.push_back(result.nodes.size());
-            const Index index = owned.nth_index_in_set(node);
-            if (!rows[node].empty())
-              for (const auto &[from, weight] : rows[node])
-                add(from, weight);
-            else if (!hanging.is_constrained(index))
-              add(index, 1.);
-            rows[node] = Entries();
-          }
-        result.begin.push_back(result.nodes.size());
-        fine_nodes = std::move(coarse_nodes);
-        return result;
-      }
-
       const NodalSpace                     &vertices;
       const MPI_Comm                        comm;
       RefinedCorners                        corners;
@@ -223,6 +163,61 @@ namespace mortise
     IndexSet range(Utilities::MPI::sum(n_owned, comm));
     range.add_range(first, first + n_owned);
     return range;
+  }
+
+  VertexCoarsening
+  coarsen_by(const NodalSpace          &space,
+             std::vector<Entries>      &rows,
+             std::vector<unsigned int> &fine_nodes,
+             const MPI_Comm             comm)
+  {
+    const IndexSet           &owned   = space.owned_nodes();
+    const auto               &hanging = space.hanging_nodes();
+    VertexCoarsening          result;
+    std::vector<unsigned int> coarse_nodes;
+    std::vector<Index>        of_others;
+    for (unsigned int i = 0; i < fine_nodes.size(); ++i)
+      {
+        const Entries &row = rows[fine_nodes[i]];
+        for (const auto &entry : row)
+          if (!owned.is_element(entry.first))
+            of_others.push_back(entry.first);
+        if (row.empty() &&
+            !hanging.is_constrained(owned.nth_index_in_set(fine_nodes[i])))
+          {
+            result.kept.push_back(i);
+            coarse_nodes.push_back(fine_nodes[i]);
+          }
+      }
+    result.owned = next_range(coarse_nodes.size(), comm);
+    std::sort(of_others.begin(), of_others.end());
+    IndexSet ghosts(owned.size());
+    ghosts.add_indices(of_others.begin(),
+                       std::unique(of_others.begin(), of_others.end()));
+    // on the coarser mesh, of nodes of the finest one
+    LinearAlgebra::distributed::Vector<double> number(owned, ghosts, comm);
+    for (unsigned int k = 0; k < coarse_nodes.size(); ++k)
+      number.local_element(coarse_nodes[k]) = result.owned.nth_index_in_set(k);
+    number.update_ghost_values();
+
+    const auto add = [&](const Index node, const double weight) {
+      result.nodes.push_back(static_cast<Index>(number[node]));
+      result.weights.push_back(weight);
+    };
+    for (const unsigned int node : fine_nodes)
+      {
+        result.begin.push_back(result.nodes.size());
+        const Index index = owned.nth_index_in_set(node);
+        if (!rows[node].empty())
+          for (const auto &[from, weight] : rows[node])
+            add(from, weight);
+        else if (!hanging.is_constrained(index))
+          add(index, 1.);
+        rows[node] = Entries();
+      }
+    result.begin.push_back(result.nodes.size());
+    fine_nodes = std::move(coarse_nodes);
+    return result;
   }
 
   std::vector<VertexCoarsening>

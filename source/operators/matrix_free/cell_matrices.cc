@@ -133,32 +133,106 @@ namespace mortise
   }
 
   template <typename Number>
+  typename MatrixFreeElasticity<Number>::Cell
+  MatrixFreeElasticity<Number>::cell(const unsigned int g,
+                                     const unsigned int batch,
+                                     const unsigned int lane) const
+  {
+    constexpr unsigned int     width = Batch<Number>::size;
+    const CellBatches<Number> &cells = groups[g];
+    const unsigned int         n_p   = n_pressure_nodes(cells);
+    Cell                       result{cells, {}, {}};
+    const unsigned int        *nodes =
+      &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
+    for (unsigned int i = 0; i < cells.n_nodes; ++i)
+      for (unsigned int c = 0; c < dim; ++c)
+        result.displacements.push_back(nodes[i * width + lane] + c);
+    for (unsigned int k = 0; k < n_p; ++k)
+      result.pressures.push_back(
+        cells.pressure_nodes[(std::size_t(batch) * n_p + k) * width + lane]);
+    return result;
+  }
+
+  template <typename Number>
+  std::vector<FullMatrix<double>>
+  MatrixFreeElasticity<Number>::projected_matrices(
+    const unsigned int                g,
+    const unsigned int                batch,
+    const std::vector<CellFunctions> &functions) const
+  {
+    constexpr unsigned int          width = Batch<Number>::size;
+    const CellBatches<Number>       one   = single_batch(groups[g], batch);
+    const unsigned int              n     = dim * one.n_nodes;
+    std::size_t                     m     = 0;
+    std::vector<FullMatrix<double>> result;
+    for (const CellFunctions &of_cell : functions)
+      {
+        result.emplace_back(of_cell.size(), of_cell.size());
+        m = std::max(m, of_cell.size());
+      }
+    AlignedVector<Number> u(width * n), of_u(u);
+    for (unsigned int j = 0; j < m; ++j)
+      {
+        const auto set = [&](const Number factor) {
+          for (unsigned int lane = 0; lane < functions.size(); ++lane)
+            if (j < functions[lane].size())
+              for (const auto &[i, value] : functions[lane][j])
+                u[lane * n + i] = factor * value;
+        };
+        set(1.);
+        of_u.fill(Number());
+        kernels[g]->add_product(one, u.data(), of_u.data());
+        set(0.);
+        for (unsigned int lane = 0; lane < functions.size(); ++lane)
+          if (j < functions[lane].size())
+            for (unsigned int i = 0; i < functions[lane].size(); ++i)
+              for (const auto &[k, value] : functions[lane][i])
+                result[lane](i, j) += value * of_u[lane * n + k];
+      }
+    return result;
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::for_each_projected_matrix(
+    const std::function<CellFunctions(const Cell &)> &functions,
+    const std::function<void(const Cell &, const FullMatrix<double> &)> &visit)
+    const
+  {
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      for (unsigned int batch = 0; batch < groups[g].n_batches; ++batch)
+        {
+          std::vector<CellFunctions> of_lanes;
+          bool                       any = false;
+          for (unsigned int lane = 0; lane < groups[g].lanes(batch); ++lane)
+            {
+              of_lanes.push_back(functions(cell(g, batch, lane)));
+              any = any || !of_lanes.back().empty();
+            }
+          if (!any)
+            continue;
+          const auto matrices = projected_matrices(g, batch, of_lanes);
+          for (unsigned int lane = 0; lane < of_lanes.size(); ++lane)
+            if (!of_lanes[lane].empty())
+              visit(cell(g, batch, lane), matrices[lane]);
+        }
+  }
+
+  template <typename Number>
   void
   MatrixFreeElasticity<Number>::for_each_cell_matrix(
     const std::function<bool(const Cell &)>                     &wanted,
     const std::function<void(const Cell &, const CellMatrix &)> &visit) const
   {
-    constexpr unsigned int width = Batch<Number>::size;
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         const CellBatches<Number> &cells = groups[g];
-        const unsigned int         n_p   = n_pressure_nodes(cells);
         for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
           {
             std::vector<CellMatrix> matrices; // once one is wanted
             for (unsigned int lane = 0; lane < cells.lanes(batch); ++lane)
               {
-                Cell                cell{cells, {}, {}};
-                const unsigned int *nodes =
-                  &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
-                for (unsigned int i = 0; i < cells.n_nodes; ++i)
-                  for (unsigned int c = 0; c < dim; ++c)
-                    cell.displacements.push_back(nodes[i * width + lane] + c);
-                for (unsigned int k = 0; k < n_p; ++k)
-                  cell.pressures.push_back(
-                    cells
-                      .pressure_nodes[(std::size_t(batch) * n_p + k) * width +
-                                      lane]);
+                const Cell cell = this->cell(g, batch, lane);
                 if (!wanted(cell))
                   continue;
                 if (matrices.empty())
@@ -189,6 +263,20 @@ namespace mortise
   MatrixFreeElasticity<double>::for_each_cell_matrix(
     const std::function<bool(const Cell &)> &,
     const std::function<void(const Cell &, const CellMatrix &)> &) const;
+  template void
+  MatrixFreeElasticity<double>::for_each_projected_matrix(
+    const std::function<CellFunctions(const Cell &)> &,
+    const std::function<void(const Cell &, const FullMatrix<double> &)> &)
+    const;
+  template MatrixFreeElasticity<double>::Cell
+  MatrixFreeElasticity<double>::cell(unsigned int,
+                                     unsigned int,
+                                     unsigned int) const;
+  template std::vector<FullMatrix<double>>
+  MatrixFreeElasticity<double>::projected_matrices(
+    unsigned int,
+    unsigned int,
+    const std::vector<CellFunctions> &) const;
   template void
   MatrixFreeElasticity<double>::for_each_cell(
     const std::function<void(const Cell &)> &) const;

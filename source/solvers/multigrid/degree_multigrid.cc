@@ -9,24 +9,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 namespace mortise
 {
   using namespace dealii;
 
+  struct DegreeMultigrid::Implementation
+  {
+    virtual ~Implementation() = default;
+
+    virtual void
+    vmult(Vector &dst, const Vector &src) = 0;
+
+    virtual std::string
+    vertices_description() const = 0;
+
+    std::unique_ptr<CouplingProduct<float>> product;
+    std::unique_ptr<Lifting>                lifting;
+    std::unique_ptr<ConstraintProjector>    projector;
+    Vector                                  carried; ///< by springs
+    bool                                    valid = true;
+  };
+
   namespace
   {
-    using Number = float;
-
+    template <typename Number>
     struct SmoothedLevel
     {
       SmoothedLevel(const NodalLevel                  &level,
-                    const bool                         finest,
+                    const double                       lower_bound,
                     const InterfaceCorrection<Number> *correction)
         : matrix(level, correction == nullptr)
-        , smoother(matrix,
-                   lower_smoothing_bound(*level.space, finest),
-                   correction)
+        , smoother(matrix, lower_bound, correction)
       {
         matrix.initialize(x);
         matrix.initialize(b);
@@ -37,11 +52,34 @@ namespace mortise
       Chebyshev<Number>     smoother;
       LevelVector<Number>   x, b, r;
     };
+
+    std::vector<WeakJump>
+    weak_jumps(const BlockSystem &system)
+    {
+      if (system.owned_multiplier.size() == 0)
+        return {};
+      std::unique_ptr<Epetra_Vector> compliance;
+      if (system.has_springs())
+        {
+          compliance =
+            std::make_unique<Epetra_Vector>(system.coupling.row_map());
+          system.spring_compliance.trilinos_matrix().ExtractDiagonalCopy(
+            *compliance);
+        }
+      return find_weak_jumps(system.coupling,
+                             system.nodal->node_diagonal(),
+                             compliance.get(),
+                             system.active);
+    }
   } // namespace
 
-  struct DegreeMultigrid::Implementation
+  template <typename Number>
+  struct DegreeMultigrid::ImplementationOf : DegreeMultigrid::Implementation
   {
-    Implementation(const BlockSystem &system, const std::size_t max_gathered)
+    ImplementationOf(const BlockSystem           &system,
+                     const std::size_t            max_gathered,
+                     const ThicknessCoarsening   *thickness,
+                     const std::vector<WeakJump> &jumps)
     {
       const auto         &all       = system.nodal->levels();
       LevelVector<double> stiffness = system.nodal->node_diagonal();
@@ -50,32 +88,22 @@ namespace mortise
       root_of_stiffness = std::sqrt(stiffness.linfty_norm());
       // in front of all else: what algebraic multigrid needs for a while is the
       // largest part of the memory
-      vertices = std::make_unique<VertexMultigrid>(all.back(), all.size() > 1);
-      valid    = vertices->is_valid();
+      vertices =
+        thickness ?
+          std::make_unique<VertexMultigrid<Number>>(system, *thickness, jumps) :
+          std::make_unique<VertexMultigrid<Number>>(all.back(), all.size() > 1);
+      valid = vertices->is_valid();
       if (system.owned_multiplier.size() > 0)
-        {
-          const CouplingRows rows(system.coupling);
-          product    = std::make_unique<CouplingProduct<Number>>(system, rows);
-          lifting    = std::make_unique<Lifting>(system,
-                                                      rows,
-                                                      *product,
-                                                      max_gathered);
-          valid      = lifting->is_valid() && valid;
-          correction = std::make_unique<InterfaceCorrection<Number>>(system,
-                                                                     *product,
-                                                                     *lifting);
-          projector =
-            std::make_unique<ConstraintProjector>(system, rows, *lifting);
-          if (system.has_springs())
-            carried.reinit(system.owned_multiplier, system.communicator);
-        }
-      // where degree one is the finest, its level is smoothed here and stands
-      // for the vertices below, too
+        set_up_interfaces(system, max_gathered);
+      // where nothing but vertices is below, the finest level is smoothed here
+      // and stands for them, too
       const unsigned int n_smoothed = std::max<unsigned int>(1, all.size() - 1);
       for (unsigned int l = 0; l < n_smoothed; ++l)
         {
-          levels.push_back(std::make_unique<SmoothedLevel>(
-            all[l], l == 0, l == 0 ? correction.get() : nullptr));
+          levels.push_back(std::make_unique<SmoothedLevel<Number>>(
+            all[l],
+            lower_smoothing_bound(*all[l].space, l == 0, thickness),
+            l == 0 ? correction.get() : nullptr));
           valid = valid && levels.back()->smoother.is_valid();
         }
       coarse_x.reinit(all.back().layout);
@@ -89,6 +117,29 @@ namespace mortise
       valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator) == 1;
     }
 
+    void
+    set_up_interfaces(const BlockSystem &system, const std::size_t max_gathered)
+    {
+      const CouplingRows rows(system.coupling);
+      product = std::make_unique<CouplingProduct<float>>(system, rows);
+      lifting = std::make_unique<Lifting>(system, rows, *product, max_gathered);
+      valid   = lifting->is_valid() && valid;
+      const CouplingProduct<Number> *of_levels = nullptr;
+      if constexpr (std::is_same_v<Number, float>)
+        of_levels = product.get();
+      else
+        {
+          own_product = std::make_unique<CouplingProduct<Number>>(system, rows);
+          of_levels   = own_product.get();
+        }
+      correction = std::make_unique<InterfaceCorrection<Number>>(system,
+                                                                 *of_levels,
+                                                                 *lifting);
+      projector = std::make_unique<ConstraintProjector>(system, rows, *lifting);
+      if (system.has_springs())
+        carried.reinit(system.owned_multiplier, system.communicator);
+    }
+
     /// levels[l]->x = an approximate solution for levels[l]->b, on the finest
     /// level one that satisfies the constraint.
     void
@@ -99,10 +150,10 @@ namespace mortise
           vertices->vmult(coarse_x, coarse_b);
           return;
         }
-      SmoothedLevel &level  = *levels[l];
-      const bool     last   = l + 1 == levels.size();
-      auto          &next_x = last ? coarse_x : levels[l + 1]->x,
-           &next_b          = last ? coarse_b : levels[l + 1]->b;
+      SmoothedLevel<Number> &level  = *levels[l];
+      const bool             last   = l + 1 == levels.size();
+      auto                  &next_x = last ? coarse_x : levels[l + 1]->x,
+           &next_b                  = last ? coarse_b : levels[l + 1]->b;
       level.smoother.smooth(level.x, level.b, true);
       const bool constrained = l == 0 && correction;
       level.matrix.vmult(level.r, level.x);
@@ -125,24 +176,76 @@ namespace mortise
       level.smoother.smooth(level.x, level.b, false);
     }
 
-    std::unique_ptr<CouplingProduct<Number>>     product;
-    std::unique_ptr<Lifting>             lifting;
-    std::unique_ptr<ConstraintProjector>         projector;
-    std::unique_ptr<InterfaceCorrection<Number>> correction;
-    std::vector<std::unique_ptr<SmoothedLevel>>  levels;
+    void
+    vmult(Vector &dst, const Vector &src) override
+    {
+      auto &level = *levels.front();
+      // single precision has room for forces and displacements if both are the
+      // root of the stiffness
+      const double scale = src.linfty_norm() / root_of_stiffness;
+      if (scale == 0.)
+        {
+          dst     = 0.;
+          carried = 0.;
+          return;
+        }
+      const unsigned int n    = level.b.locally_owned_size();
+      const double      *from = src.begin();
+      double            *to   = dst.begin();
+      for (unsigned int i = 0; i < n; ++i)
+        level.b.local_element(i) = static_cast<Number>(from[i] / scale);
+      level.matrix.clear_constrained(level.b);
+      cycle(0);
+      for (unsigned int i = 0; i < n; ++i)
+        to[i] = scale * static_cast<double>(level.x.local_element(i));
+      if (carried.size() == 0)
+        return;
+      const Epetra_Vector &of_level = correction->carried_by_springs();
+      for (unsigned int i = 0; i < carried.locally_owned_size(); ++i)
+        carried.begin()[i] = scale * of_level[static_cast<int>(i)];
+      projector->clear_ties(carried);
+    }
+
+    std::string
+    vertices_description() const override
+    {
+      return vertices->description();
+    }
+
+    /// Where it is not that of the lifting.
+    std::unique_ptr<CouplingProduct<Number>>            own_product;
+    std::unique_ptr<InterfaceCorrection<Number>>        correction;
+    std::vector<std::unique_ptr<SmoothedLevel<Number>>> levels;
     std::unique_ptr<LevelOperator<Number>> coarse; ///< for the last transfer
     std::vector<std::unique_ptr<DegreeTransfer<Number>>> transfers;
     LevelVector<Number>                                  coarse_x, coarse_b;
-    std::unique_ptr<VertexMultigrid>                     vertices;
-    Vector                                               carried; ///< by springs
+    std::unique_ptr<VertexMultigrid<Number>>             vertices;
     double                                               root_of_stiffness;
-    bool                                                 valid = true;
   };
 
   DegreeMultigrid::DegreeMultigrid(const BlockSystem &system,
                                    const std::size_t  max_gathered)
-    : implementation(std::make_unique<Implementation>(system, max_gathered))
-  {}
+  {
+    const auto &space = *system.nodal->levels().front().space;
+    if (coarsens_across_thickness(space.bodies()))
+      {
+        // a thin body bends so much more easily than it stretches that single
+        // precision loses the way it bends
+        const auto jumps     = weak_jumps(system);
+        const auto thickness = make_thickness_coarsening(
+          space,
+          nodes_beside_flat_bodies(jumps,
+                                   space,
+                                   find_flat_bodies(space.bodies()),
+                                   system.communicator),
+          system.communicator);
+        implementation = std::make_unique<ImplementationOf<double>>(
+          system, max_gathered, &thickness, jumps);
+      }
+    else
+      implementation = std::make_unique<ImplementationOf<float>>(
+        system, max_gathered, nullptr, std::vector<WeakJump>());
+  }
 
   DegreeMultigrid::~DegreeMultigrid() = default;
 
@@ -161,33 +264,7 @@ namespace mortise
   void
   DegreeMultigrid::vmult(Vector &dst, const Vector &src) const
   {
-    auto &level = *implementation->levels.front();
-    // single precision has room for forces and displacements if both are the
-    // root of the stiffness
-    const double scale = src.linfty_norm() / implementation->root_of_stiffness;
-    if (scale == 0.)
-      {
-        dst = 0.;
-        implementation->carried = 0.;
-        return;
-      }
-    const unsigned int n    = level.b.locally_owned_size();
-    const double      *from = src.begin();
-    double            *to   = dst.begin();
-    for (unsigned int i = 0; i < n; ++i)
-      level.b.local_element(i) = static_cast<Number>(from[i] / scale);
-    level.matrix.clear_constrained(level.b);
-    implementation->cycle(0);
-    for (unsigned int i = 0; i < n; ++i)
-      to[i] = scale * static_cast<double>(level.x.local_element(i));
-    auto &carried = implementation->carried;
-    if (carried.size() == 0)
-      return;
-    const Epetra_Vector &of_level =
-      implementation->correction->carried_by_springs();
-    for (unsigned int i = 0; i < carried.locally_owned_size(); ++i)
-      carried.begin()[i] = scale * of_level[static_cast<int>(i)];
-    implementation->projector->clear_ties(carried);
+    implementation->vmult(dst, src);
   }
 
   const Vector &
@@ -208,7 +285,7 @@ namespace mortise
     const std::string multipliers =
       implementation->lifting ? implementation->lifting->description() : "";
     return "multigrid in the degree, " +
-           implementation->vertices->description() +
+           implementation->vertices_description() +
            (multipliers.empty() ? "" : ", " + multipliers);
   }
 } // namespace mortise

@@ -13,11 +13,21 @@ namespace mortise
     constexpr double base = 0.13;
 
     double
-    by_degree(const bool tetrahedra, const unsigned int degree)
+    by_degree(const bool         tetrahedra,
+              const unsigned int degree,
+              const unsigned int next)
     {
-      const double p = degree, next = lower_degree(tetrahedra, degree);
+      const double p = degree;
       return std::min(1., 2. * next / p) *
              std::min(1., std::pow((tetrahedra ? 2. : 4.) / p, 1.5));
+    }
+
+    /// The next level is linear over @p n_steps between nodes, so that its
+    /// smallest eigenvalue that is left goes with their square.
+    double
+    by_steps(const unsigned int n_steps)
+    {
+      return std::min(1., std::pow(6. / n_steps, 2));
     }
 
     /// The ratio is 3.5 for Poisson's ratio 0.3.
@@ -29,14 +39,23 @@ namespace mortise
   } // namespace
 
   double
-  lower_smoothing_bound(const NodalSpace &space, const bool finest)
+  lower_smoothing_bound(const NodalSpace          &space,
+                        const bool                 finest,
+                        const ThicknessCoarsening *thickness)
   {
     double factor = 1.;
     for (const Body *body : space.bodies())
-      factor = std::min(factor,
-                        by_degree(body->mesh.tetrahedra,
-                                  space.degree(*body, body->max_degree())) *
-                          by_material(body->material));
+      {
+        const bool         tetrahedra = body->mesh.tetrahedra;
+        const unsigned int degree     = space.degree(*body, body->max_degree());
+        const bool         flat = thickness && thickness->flat[body->index];
+        const double       of_next =
+          flat ? by_steps(thickness->n_steps) :
+                       by_degree(tetrahedra,
+                           degree,
+                           thickness ? 1 : lower_degree(tetrahedra, degree));
+        factor = std::min(factor, of_next * by_material(body->material));
+      }
     return base * factor * (finest ? 1. : 0.5);
   }
 } // namespace mortise

@@ -1,6 +1,6 @@
 // See vertex_multigrid.h.
 #include <mortise/operators/levels/nodal_block_operator.h>
-#include <mortise/operators/levels/vertex_matrix.h>
+#include <mortise/operators/levels/thickness_matrix.h>
 #include <mortise/operators/levels/vertex_selection.h>
 #include <mortise/operators/levels/vertex_transfer.h>
 #include <mortise/solvers/factorisation/cholesky_inverse.h>
@@ -9,6 +9,7 @@
 #include <mortise/solvers/multigrid/vertex_multigrid.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace mortise
 {
@@ -16,15 +17,17 @@ namespace mortise
 
   namespace
   {
-    using Number = VertexMultigrid::Number;
-
     /// Up to this many dofs a factorisation takes no longer (thick sphere, p =
     /// 2, one core: the same at 2,000; 0.34 instead of 0.25 s at 5,800).
     constexpr unsigned int max_factorised = 1500;
 
-    /// Where no coarser mesh is known: what takes fewer multiplications per dof,
-    /// as thin bodies do (doc/tuning.md), up to so many dofs that all ranks can
-    /// have the graph.
+    /// The same of functions across the thickness, to which no other way is as
+    /// good.
+    constexpr unsigned int max_factorised_across = 500000;
+
+    /// Where no coarser mesh is known: what takes fewer multiplications per
+    /// dof, as thin bodies do (doc/tuning.md), up to so many dofs that all
+    /// ranks can have the graph.
     constexpr double       max_work     = 3e5;
     constexpr unsigned int max_gathered = 100000;
 
@@ -48,12 +51,13 @@ namespace mortise
     }
 
     /// A level that is coarsened.
+    template <typename Number>
     struct SmoothedVertices
     {
       SmoothedVertices(NodalBlockMatrix        blocks,
-                   const double            smallest,
-                   const VertexCoarsening &coarsening,
-                   const NodalBlockMatrix &coarse)
+                       const double            smallest,
+                       const VertexCoarsening &coarsening,
+                       const NodalBlockMatrix &coarse)
         : matrix(std::move(blocks))
         , smoother(matrix, smallest)
         , transfer(coarsening, coarse)
@@ -69,6 +73,7 @@ namespace mortise
       LevelVector<Number>        x, b, r;
     };
 
+    template <typename Number>
     void
     copy_owned(LevelVector<Number> &to, const LevelVector<Number> &from)
     {
@@ -76,7 +81,8 @@ namespace mortise
     }
   } // namespace
 
-  struct VertexMultigrid::Implementation
+  template <typename Number>
+  struct VertexMultigrid<Number>::Implementation
   {
     Implementation(const NodalLevel &level, const bool smooth_finest)
       : level(level)
@@ -89,11 +95,33 @@ namespace mortise
       const bool     skip_finest = !smooth_finest && !coarsenings.empty();
       VertexMatrix   matrix =
         assemble_vertex_matrix(level, skip_finest ? &*next : nullptr);
-      NodalBlockMatrix &blocks = matrix.blocks;
       if (skip_finest)
-        to_first = std::make_unique<VertexTransfer<Number>>(*next++, blocks);
-      const double smallest = lower_smoothing_bound(*level.space, false);
-      while (blocks.layout->size() > max_factorised &&
+        to_first =
+          std::make_unique<VertexTransfer<Number>>(*next++, matrix.blocks);
+      set_up(std::move(matrix), {next, coarsenings.end()}, max_factorised);
+    }
+
+    Implementation(const BlockSystem           &system,
+                   const ThicknessCoarsening   &thickness,
+                   const std::vector<WeakJump> &jumps)
+      : level(system.nodal->levels().front())
+    {
+      VertexMatrix matrix = assemble_thickness_matrix(
+        level, system.nodal->elasticity(), thickness, jumps);
+      to_first = std::make_unique<VertexTransfer<Number>>(thickness.functions,
+                                                          matrix.blocks);
+      set_up(std::move(matrix), {}, max_factorised_across);
+    }
+
+    void
+    set_up(VertexMatrix                         matrix,
+           const std::vector<VertexCoarsening> &coarsenings,
+           const unsigned int                   max_size)
+    {
+      NodalBlockMatrix &blocks   = matrix.blocks;
+      const double      smallest = lower_smoothing_bound(*level.space, false);
+      auto              next     = coarsenings.begin();
+      while (blocks.layout->size() > max_size &&
              (next != coarsenings.end() || !is_cheap(blocks)))
         {
           const VertexCoarsening coarsening =
@@ -101,7 +129,7 @@ namespace mortise
           if (coarsening.owned.size() * dim == blocks.layout->size())
             break; // small bodies only
           NodalBlockMatrix coarse = coarsen(blocks, coarsening);
-          levels.push_back(std::make_unique<SmoothedVertices>(
+          levels.push_back(std::make_unique<SmoothedVertices<Number>>(
             std::move(blocks), smallest, coarsening, coarse));
           valid  = valid && levels.back()->smoother.is_valid();
           blocks = std::move(coarse);
@@ -109,7 +137,7 @@ namespace mortise
         }
       coarse_x.reinit(blocks.layout);
       coarse_b.reinit(blocks.layout);
-      constrained = constrained_components(blocks);
+      constrained     = constrained_components(blocks);
       const auto rows = as_epetra(blocks);
       blocks          = NodalBlockMatrix();
       vertex_x        = std::make_unique<Epetra_Vector>(rows->RowMap());
@@ -120,7 +148,7 @@ namespace mortise
                   rows->Multiply(false, x, y);
                 },
                 rows->RowMap(),
-                true) &&
+                std::is_same_v<Number, float>) &&
               valid;
     }
 
@@ -141,7 +169,7 @@ namespace mortise
             coarse_x.local_element(index) = 0;
           return;
         }
-      SmoothedVertices &level = *levels[l];
+      SmoothedVertices<Number> &level = *levels[l];
       level.smoother.smooth(level.x, level.b, true);
       level.matrix.vmult(level.r, level.x);
       level.r.sadd(-1, 1, level.b);
@@ -175,9 +203,9 @@ namespace mortise
       return l == levels.size() ? coarse_b : levels[l]->b;
     }
 
-    const NodalLevel                          &level;
-    std::vector<std::unique_ptr<SmoothedVertices>> levels;
-    LevelVector<Number>                        coarse_x, coarse_b;
+    const NodalLevel                                      &level;
+    std::vector<std::unique_ptr<SmoothedVertices<Number>>> levels;
+    LevelVector<Number>                                    coarse_x, coarse_b;
     std::vector<unsigned int> constrained; ///< on the coarsest level
     /// Where the caller smooths the finest mesh.
     std::unique_ptr<VertexTransfer<Number>> to_first;
@@ -186,22 +214,33 @@ namespace mortise
     bool                                    valid = true;
   };
 
-  VertexMultigrid::VertexMultigrid(const NodalLevel &level,
-                                   const bool        smooth_finest)
+  template <typename Number>
+  VertexMultigrid<Number>::VertexMultigrid(const NodalLevel &level,
+                                           const bool        smooth_finest)
     : implementation(std::make_unique<Implementation>(level, smooth_finest))
   {}
 
-  VertexMultigrid::~VertexMultigrid() = default;
+  template <typename Number>
+  VertexMultigrid<Number>::VertexMultigrid(const BlockSystem         &system,
+                                           const ThicknessCoarsening &thickness,
+                                           const std::vector<WeakJump> &jumps)
+    : implementation(std::make_unique<Implementation>(system, thickness, jumps))
+  {}
 
+  template <typename Number>
+  VertexMultigrid<Number>::~VertexMultigrid() = default;
+
+  template <typename Number>
   bool
-  VertexMultigrid::is_valid() const
+  VertexMultigrid<Number>::is_valid() const
   {
     return implementation->valid;
   }
 
+  template <typename Number>
   void
-  VertexMultigrid::vmult(LevelVector<Number>       &x,
-                         const LevelVector<Number> &b) const
+  VertexMultigrid<Number>::vmult(LevelVector<Number>       &x,
+                                 const LevelVector<Number> &b) const
   {
     auto &data = *implementation;
     if (data.to_first)
@@ -220,8 +259,9 @@ namespace mortise
       copy_owned(x, data.x(0));
   }
 
+  template <typename Number>
   std::string
-  VertexMultigrid::description() const
+  VertexMultigrid<Number>::description() const
   {
     const unsigned int n =
       implementation->levels.size() + (implementation->to_first ? 1 : 0);
@@ -230,4 +270,7 @@ namespace mortise
                      "on " + std::to_string(n + 1) + " levels, the coarsest ") +
            "factorised";
   }
+
+  template class VertexMultigrid<float>;
+  template class VertexMultigrid<double>;
 } // namespace mortise

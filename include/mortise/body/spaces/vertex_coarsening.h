@@ -7,6 +7,7 @@
 
 #include <mortise/body/spaces/nodal_space.h>
 
+#include <utility>
 #include <vector>
 
 namespace mortise
@@ -16,6 +17,9 @@ namespace mortise
   struct VertexCoarsening
   {
     using Index = NodalSpace::Index;
+
+    /// Nodes that a value follows from, with their weights.
+    using Entries = std::vector<std::pair<Index, double>>;
 
     /// Coarse nodes of this rank: those of its fine ones that stay and do not
     /// hang.
@@ -35,6 +39,15 @@ namespace mortise
   /// before. Collective.
   dealii::IndexSet
   next_range(dealii::types::global_dof_index n_owned, MPI_Comm comm);
+
+  /// Of the owned nodes @p fine_nodes of @p space (positions in its range) those stay that have no entries in
+  /// @p rows, by owned node, and do not hang; they are what @p fine_nodes becomes, and the rows of all are
+  /// cleared. Collective.
+  VertexCoarsening
+  coarsen_by(const NodalSpace                       &space,
+             std::vector<VertexCoarsening::Entries> &rows,
+             std::vector<unsigned int>              &fine_nodes,
+             MPI_Comm                                comm);
 
   /// Takes back, body by body, the finest cells of all, then the finest of what
   /// is left, down to the coarse meshes; none where nothing was refined.

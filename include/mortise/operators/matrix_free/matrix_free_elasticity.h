@@ -12,6 +12,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace mortise
@@ -129,6 +130,19 @@ namespace mortise
       const std::function<bool(const Cell &)>                     &wanted,
       const std::function<void(const Cell &, const CellMatrix &)> &visit) const;
 
+    /// Functions in a cell: entries (number among Cell::displacements, value) of each.
+    using CellFunctions =
+      std::vector<std::vector<std::pair<unsigned int, double>>>;
+
+    /// Calls @p visit with W^T K W of the cells to which @p functions gives some, the columns of W, for as long as the
+    /// cell is visited.
+    void
+    for_each_projected_matrix(
+      const std::function<CellFunctions(const Cell &)> &functions,
+      const std::function<void(const Cell &,
+                               const dealii::FullMatrix<double> &)> &visit)
+      const;
+
     /// By body and, in each, by the degree of the displacement on the finest
     /// level: the same cells in the same order on all levels.
     const std::vector<CellBatches<Number>> &
@@ -152,6 +166,16 @@ namespace mortise
     /// Of all lanes of a batch of group @p g.
     std::vector<CellMatrix>
     batch_matrices(unsigned int g, unsigned int batch) const;
+
+    /// Of one lane.
+    Cell
+    cell(unsigned int g, unsigned int batch, unsigned int lane) const;
+
+    /// W^T K W of all lanes of a batch.
+    std::vector<dealii::FullMatrix<double>>
+    projected_matrices(unsigned int                      g,
+                       unsigned int                      batch,
+                       const std::vector<CellFunctions> &functions) const;
 
     static std::unique_ptr<Kernel>
     make_kernel(unsigned int degree);

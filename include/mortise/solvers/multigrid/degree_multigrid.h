@@ -1,7 +1,8 @@
 // Multigrid in the degree: Chebyshev smoothers on the degree and those of
 // lower_degree(), the vertex functions by VertexMultigrid. On the finest level
 // smoothers stay among what satisfies the constraint; the others see the tie by
-// penalties (NodalLevel).
+// penalties (NodalLevel). Where bodies have flat cells, the functions of
+// ThicknessCoarsening are the only other level.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -52,6 +53,8 @@ namespace mortise
 
   private:
     struct Implementation;
+    template <typename Number>
+    struct ImplementationOf;
     std::unique_ptr<Implementation> implementation;
   };
 } // namespace mortise

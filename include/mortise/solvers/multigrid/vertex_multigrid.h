@@ -3,21 +3,27 @@
 // factorised. It knows nothing of higher degrees.
 #pragma once
 
-#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/body/spaces/thickness_coarsening.h>
+#include <mortise/operators/block_system.h>
+#include <mortise/operators/levels/weak_jumps.h>
 
 #include <memory>
 #include <string>
 
 namespace mortise
 {
+  template <typename Number>
   class VertexMultigrid
   {
   public:
-    using Number = float;
-
     /// @p level: of degree one in all bodies, kept by reference. @p smooth_finest: false where the
     /// caller smooths what is on the finest mesh. Collective.
     VertexMultigrid(const NodalLevel &level, bool smooth_finest);
+
+    /// On the functions of @p thickness, for the finest level of @p system; the caller smooths that. Collective.
+    VertexMultigrid(const BlockSystem           &system,
+                    const ThicknessCoarsening   &thickness,
+                    const std::vector<WeakJump> &jumps);
     ~VertexMultigrid();
 
     /// False where a matrix is not positive definite.

@@ -1,0 +1,101 @@
+// The functions that a matrix on a level is made for, by what they are at the
+// nodes of its cells, and sums over cells.
+#pragma once
+
+#include <mortise/operators/cells/cell_kernel.h>
+#include <mortise/operators/levels/nodal_block_matrix.h>
+#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/operators/levels/vertex_transfer.h>
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  /// Given by the values at the nodes of the level that do not hang, or by
+  /// those that a coarsening keeps.
+  class LevelFunctions
+  {
+  public:
+    using Index = dealii::types::global_dof_index;
+
+    struct Entry
+    {
+      Index        node; ///< of the matrix
+      double       weight;
+      unsigned int constrained; ///< bits of components for which it is none
+    };
+
+    /// What the values of a cell follow from: at node i from the entries
+    /// ends[i - 1], ..., of node nodes[index] each.
+    struct Masters
+    {
+      std::vector<Index>        nodes;
+      std::vector<Entry>        entries;
+      std::vector<unsigned int> indices; ///< by entry
+      std::vector<unsigned int> ends;    ///< by node
+
+      /// They are the nodes themselves and nothing is constrained.
+      bool plain = true;
+    };
+
+    /// Both are kept by reference; @p coarsening may be null. Collective.
+    LevelFunctions(const NodalLevel &level, const VertexCoarsening *coarsening);
+
+    /// Adds to @p entries the value at a local node that does not hang.
+    void
+    expand(unsigned int        index,
+           double              weight,
+           std::vector<Entry> &entries) const;
+
+    Masters
+    find_masters(const std::vector<Index> &nodes) const;
+
+    /// By node of @p masters and component: the entries (component of a node of the cell, value) of the function.
+    static MatrixFreeElasticity<double>::CellFunctions
+    columns(const Masters &masters);
+
+    /// Adds W^T A W, A the matrix of a cell and W what columns() are.
+    void
+    add(const dealii::FullMatrix<double> &matrix,
+        const Masters                    &masters,
+        NodalBlockMatrixBuilder          &builder);
+
+    /// Adds what stands for these functions already.
+    void
+    add_projected(const dealii::FullMatrix<double> &matrix,
+                  const std::vector<Index>         &nodes,
+                  NodalBlockMatrixBuilder          &builder);
+
+  private:
+    void
+    resolve(const Masters &masters, const dealii::FullMatrix<double> &matrix);
+
+    unsigned int
+    local(const Index node) const
+    {
+      return level.layout->global_to_local(dim * node) / dim;
+    }
+
+    const NodalLevel          &level;
+    std::vector<unsigned int>  constrained; ///< by local node, bits
+    InterpolationRows          rows;        ///< of the coarsening
+    std::vector<unsigned int>  begin;
+    dealii::FullMatrix<double> half, resolved;
+    std::vector<unsigned int>  numbers; ///< in the builder
+  };
+
+  /// Of functions of degree one.
+  class LinearCellMatrices
+  {
+  public:
+    /// Components in the order of the vertices.
+    const dealii::FullMatrix<double> &
+    of(const Body &body, const Body::CellIterator &cell);
+
+  private:
+    std::map<unsigned int, std::unique_ptr<CellKernel>> kernels; ///< by body
+    dealii::FullMatrix<double>                          local;
+  };
+} // namespace mortise

@@ -1,0 +1,19 @@
+// The matrix of the functions of a ThicknessCoarsening.
+#pragma once
+
+#include <mortise/body/spaces/thickness_coarsening.h>
+#include <mortise/operators/levels/vertex_matrix.h>
+#include <mortise/operators/levels/weak_jumps.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// P^T (K + J) P: of flat bodies with the matrices of cells of all degrees, @p elasticity, of
+  /// others with those of degree one; J are @p jumps. @p level: the finest. Collective.
+  VertexMatrix
+  assemble_thickness_matrix(const NodalLevel                   &level,
+                            const MatrixFreeElasticity<double> &elasticity,
+                            const ThicknessCoarsening          &coarsening,
+                            const std::vector<WeakJump>        &jumps);
+} // namespace mortise

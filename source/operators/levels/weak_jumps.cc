@@ -1,0 +1,174 @@
+// See weak_jumps.h.
+#include <deal.II/base/exceptions.h>
+
+#include <mortise/operators/levels/weak_jumps.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// f of the header.
+    constexpr double strength = 300.;
+
+    class JumpFinder
+    {
+    public:
+      JumpFinder(const CouplingMatrix                   &B,
+                 const LevelVector<double>              &diagonal,
+                 const Epetra_Vector                    *compliance,
+                 const std::optional<std::vector<bool>> &active)
+        : B(B)
+        , compliance(compliance)
+        , active(active)
+        , flexibility(on_columns(diagonal))
+      {}
+
+      std::vector<WeakJump>
+      run()
+      {
+        if (B.has_frames())
+          for (int k = 0; k < B.frames().NumMyRows(); ++k)
+            add_in_frame(k);
+        else
+          for (int i = 0; i < B.scalar().NumMyRows(); ++i)
+            {
+              Tensor<1, dim> direction;
+              direction[B.component(i)] = 1.;
+              add(i, {{B.representative(i), direction}});
+            }
+        std::vector<WeakJump> jumps;
+        for (const auto &[row, stiffness] : stiffnesses)
+          {
+            jumps.push_back({{}, stiffness});
+            const View view = row_of(B.scalar(), row);
+            for (int k = 0; k < view.length; ++k)
+              jumps.back().entries.emplace_back(
+                B.scalar().GCID(view.columns[k]), view.values[k]);
+          }
+        return jumps;
+      }
+
+    private:
+      struct View
+      {
+        int     length = 0, *columns = nullptr;
+        double *values = nullptr;
+      };
+
+      static View
+      row_of(const Epetra_CrsMatrix &A, const int i)
+      {
+        View view;
+        A.ExtractMyRowView(i, view.length, view.values, view.columns);
+        return view;
+      }
+
+      Epetra_MultiVector
+      on_columns(const LevelVector<double> &diagonal) const
+      {
+        std::vector<double> inverse;
+        for (unsigned int i = 0; i < diagonal.locally_owned_size(); ++i)
+          inverse.push_back(1. / diagonal.local_element(i));
+        return B.on_columns(inverse.data());
+      }
+
+      /// A multiplier that moves along R_ki the row i of B_c.
+      void
+      add_in_frame(const int k)
+      {
+        std::map<int, Tensor<1, dim>> directions;
+        const View                    view = row_of(B.frames(), k);
+        for (int e = 0; e < view.length; ++e)
+          {
+            const int i =
+              B.scalar().RowMap().LID(B.frames().GCID(view.columns[e]));
+            AssertThrow(i >= 0, ExcInternalError()); // frames are local
+            directions[B.representative(i)][B.component(i)] += view.values[e];
+          }
+        add(k, directions);
+      }
+
+      /// Multiplier @p k, by rows of the scalar matrix.
+      void
+      add(const int k, const std::map<int, Tensor<1, dim>> &directions)
+      {
+        if (active && !(*active)[k])
+          return;
+        double square = 0.; // C_kk
+        for (const auto &[row, direction] : directions)
+          {
+            const View view = row_of(B.scalar(), row);
+            for (int e = 0; e < view.length; ++e)
+              for (unsigned int c = 0; c < dim; ++c)
+                square += std::pow(direction[c] * view.values[e], 2) *
+                          flexibility[c][view.columns[e]];
+          }
+        if (!(square > 0.))
+          return;
+        const double given = compliance == nullptr ? 0. : (*compliance)[k];
+        for (const auto &[row, direction] : directions)
+          stiffnesses[row] +=
+            outer_product(direction, direction) / (square / strength + given);
+      }
+
+      const CouplingMatrix                   &B;
+      const Epetra_Vector                    *compliance;
+      const std::optional<std::vector<bool>> &active;
+      const Epetra_MultiVector                flexibility;
+      std::map<int, Tensor<2, dim>>           stiffnesses; ///< by scalar row
+    };
+  } // namespace
+
+  std::vector<WeakJump>
+  find_weak_jumps(const CouplingMatrix                   &coupling,
+                  const LevelVector<double>              &diagonal,
+                  const Epetra_Vector                    *compliance,
+                  const std::optional<std::vector<bool>> &active)
+  {
+    return JumpFinder(coupling, diagonal, compliance, active).run();
+  }
+
+  std::vector<types::global_dof_index>
+  nodes_beside_flat_bodies(const std::vector<WeakJump> &jumps,
+                           const NodalSpace            &space,
+                           const std::vector<bool>     &flat,
+                           const MPI_Comm               comm)
+  {
+    std::vector<types::global_dof_index> nodes;
+    for (const WeakJump &jump : jumps)
+      for (const auto &entry : jump.entries)
+        nodes.push_back(entry.first);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    IndexSet relevant(space.owned_nodes().size());
+    relevant.add_indices(nodes.begin(), nodes.end());
+    LevelVector<double> is_flat(space.owned_nodes(), relevant, comm);
+    space.for_each_cell(
+      [&](const Body &body, const auto &, const auto &of_cell) {
+        for (const auto node : of_cell)
+          if (flat[body.index] && space.owned_nodes().is_element(node))
+            is_flat(node) = 1.;
+      });
+    is_flat.update_ghost_values();
+    std::vector<types::global_dof_index> result;
+    for (const WeakJump &jump : jumps)
+      {
+        const auto is = [&](const auto &entry) {
+          return is_flat(entry.first) != 0.;
+        };
+        if (std::any_of(jump.entries.begin(), jump.entries.end(), is))
+          for (const auto &entry : jump.entries)
+            if (!is(entry))
+              result.push_back(entry.first);
+      }
+    std::sort(result.begin(), result.end());
+    result.erase(std::unique(result.begin(), result.end()), result.end());
+    return result;
+  }
+} // namespace mortise
