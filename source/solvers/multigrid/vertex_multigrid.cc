@@ -105,6 +105,7 @@ namespace mortise
                    const ThicknessCoarsening   &thickness,
                    const std::vector<WeakJump> &jumps)
       : level(system.nodal->levels().front())
+      , across_thickness(true)
     {
       VertexMatrix matrix = assemble_thickness_matrix(
         level, system.nodal->elasticity(), thickness, jumps);
@@ -203,7 +204,9 @@ namespace mortise
       return l == levels.size() ? coarse_b : levels[l]->b;
     }
 
-    const NodalLevel                                      &level;
+    const NodalLevel &level;
+    const bool        across_thickness =
+      false; ///< the first matrix is of these functions
     std::vector<std::unique_ptr<SmoothedVertices<Number>>> levels;
     LevelVector<Number>                                    coarse_x, coarse_b;
     std::vector<unsigned int> constrained; ///< on the coarsest level
@@ -265,6 +268,11 @@ namespace mortise
   {
     const unsigned int n =
       implementation->levels.size() + (implementation->to_first ? 1 : 0);
+    if (implementation->across_thickness)
+      return "what is linear across flat bodies " +
+             (n == 1 ? std::string() :
+                       "on " + std::to_string(n) + " levels, the coarsest ") +
+             "factorised";
     return "vertices " +
            (n == 0 ? "" :
                      "on " + std::to_string(n + 1) + " levels, the coarsest ") +

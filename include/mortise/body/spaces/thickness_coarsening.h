@@ -4,19 +4,13 @@
 // rest. It knows nothing of matrices.
 #pragma once
 
+#include <mortise/body/spaces/flat_bodies.h>
 #include <mortise/body/spaces/vertex_coarsening.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// By body: are its cells, hexahedra of any degree or tetrahedra of degree 1
-  /// or 2, so much shorter along one direction than along the others that this
-  /// pays? Those of one body are enough for the others to need less.
-  /// Collective.
-  std::vector<bool>
-  find_flat_bodies(const std::vector<const Body *> &bodies);
-
   struct ThicknessCoarsening
   {
     std::vector<bool> flat; ///< by index of the body
@@ -44,9 +38,4 @@ namespace mortise
   /// Can it be made, and is a body flat? Collective.
   bool
   coarsens_across_thickness(const std::vector<const Body *> &bodies);
-
-  /// The nodes of a cell in the order of NodalSpace::get_nodes(), as if its
-  /// edges were straight.
-  std::vector<dealii::Point<dim>>
-  straight_positions(const Body::CellIterator &cell, unsigned int degree);
 } // namespace mortise
