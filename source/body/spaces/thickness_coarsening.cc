@@ -185,18 +185,24 @@ namespace mortise
           });
         for (unsigned int i = 0; i < label.locally_owned_size(); ++i)
           label.local_element(i) = space.owned_nodes().nth_index_in_set(i);
+        std::vector<double> local(label.locally_owned_size() +
+                                  label.get_partitioner()->n_ghost_indices());
         for (bool changed = true; changed;)
           {
             label.update_ghost_values();
-            const bool here = lower(parts);
+            std::copy_n(label.begin(), local.size(), local.begin());
+            const bool here = lower(parts, local);
+            label.zero_out_ghost_values(); // else it could not be compressed
+            std::copy_n(local.begin(), local.size(), label.begin());
             label.compress(VectorOperation::min);
             changed = Utilities::MPI::max(here ? 1 : 0, comm) == 1;
           }
         label.update_ghost_values();
       }
 
-      bool
-      lower(const std::vector<std::vector<unsigned int>> &parts)
+      static bool
+      lower(const std::vector<std::vector<unsigned int>> &parts,
+            std::vector<double>                          &local)
       {
         bool any = false;
         for (bool changed = true; changed;)
@@ -206,12 +212,12 @@ namespace mortise
               {
                 double least = std::numeric_limits<double>::max();
                 for (const unsigned int i : part)
-                  least = std::min(least, label.local_element(i));
+                  least = std::min(least, local[i]);
                 for (const unsigned int i : part)
-                  if (label.local_element(i) > least)
+                  if (local[i] > least)
                     {
-                      label.local_element(i) = least;
-                      changed                = true;
+                      local[i] = least;
+                      changed  = true;
                     }
               }
             any = any || changed;
