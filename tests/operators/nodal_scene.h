@@ -2,6 +2,8 @@
 // it.
 #pragma once
 
+#include <deal.II/dofs/dof_tools.h>
+
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_solution.h>
 
@@ -11,6 +13,22 @@
 
 namespace mortise::testing
 {
+  /// Holds the face with number 0, and of that with number 2 the second
+  /// component.
+  inline void
+  hold_two_faces(const Body                        &body,
+                 dealii::AffineConstraints<double> &constraints)
+  {
+    dealii::DoFTools::make_zero_boundary_constraints(body.dof_handler,
+                                                     0,
+                                                     constraints);
+    dealii::DoFTools::make_zero_boundary_constraints(
+      body.dof_handler,
+      2,
+      constraints,
+      dealii::ComponentMask({false, true, false}));
+  }
+
   class NodalScene
   {
   public:

@@ -3,8 +3,6 @@
 // bodies are of degree one but where nodes stay besides, and that their matrix
 // is P^T K P, for hexahedra and tetrahedra, prescribed components included. The
 // same on every number of ranks.
-#include <deal.II/dofs/dof_tools.h>
-
 #include <mortise/operators/levels/nodal_block_operator.h>
 #include <mortise/operators/levels/thickness_matrix.h>
 #include <mortise/operators/levels/vertex_transfer.h>
@@ -41,16 +39,8 @@ namespace mortise::testing
       meshes,
       [&](Body &body) { body.create_space(degree, {}, ""); },
       [](const Body &body, AffineConstraints<double> &constraints) {
-        if (body.mesh.tetrahedra)
-          return;
-        DoFTools::make_zero_boundary_constraints(body.dof_handler,
-                                                 0,
-                                                 constraints);
-        DoFTools::make_zero_boundary_constraints(body.dof_handler,
-                                                 2,
-                                                 constraints,
-                                                 ComponentMask(
-                                                   {false, true, false}));
+        if (!body.mesh.tetrahedra)
+          hold_two_faces(body, constraints);
       });
   }
 

@@ -4,8 +4,6 @@
 // the coarsest mesh has the corners of the generator's blocks alone; that
 // matrices are P^T A P, prescribed components included; and that multigrid
 // contracts errors. The same on every number of ranks.
-#include <deal.II/dofs/dof_tools.h>
-
 #include <mortise/operators/levels/nodal_block_operator.h>
 #include <mortise/operators/levels/vertex_matrix.h>
 #include <mortise/operators/levels/vertex_selection.h>
@@ -59,16 +57,7 @@ namespace mortise::testing
     return NodalScene(
       meshes,
       [](Body &body) { body.create_space(1, {}, ""); },
-      [](const Body &body, AffineConstraints<double> &constraints) {
-        DoFTools::make_zero_boundary_constraints(body.dof_handler,
-                                                 0,
-                                                 constraints);
-        DoFTools::make_zero_boundary_constraints(body.dof_handler,
-                                                 2,
-                                                 constraints,
-                                                 ComponentMask(
-                                                   {false, true, false}));
-      });
+      hold_two_faces);
   }
 
   /// The same on every number of ranks as far as norms go.

@@ -70,7 +70,11 @@ namespace mortise
               const double flatness = short_direction(cell).flatness;
               ++n_cells;
               n_flat += flatness >= in_half_of_cells ? 1 : 0;
-              n_others += flatness < least_flat ? 1 : 0;
+              if (flatness < least_flat)
+                {
+                  ++n_others;
+                  break; // one is enough: most scenes have no flat bodies
+                }
             }
       const MPI_Comm comm = body.triangulation().get_communicator();
       return Utilities::MPI::sum(n_others, comm) == 0. &&

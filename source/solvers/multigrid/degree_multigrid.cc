@@ -226,8 +226,9 @@ namespace mortise
   DegreeMultigrid::DegreeMultigrid(const BlockSystem &system,
                                    const std::size_t  max_gathered)
   {
-    const auto &space = *system.nodal->levels().front().space;
-    if (coarsens_across_thickness(space.bodies()))
+    const auto &levels = system.nodal->levels();
+    const auto &space  = *levels.front().space;
+    if (levels.size() == 1 && coarsens_across_thickness(space.bodies()))
       {
         // a thin body bends so much more easily than it stretches that single
         // precision loses the way it bends
