@@ -44,11 +44,19 @@ namespace mortise::testing
       });
   }
 
+  /// Height of the lowest cells of the body beside the flat one.
+  constexpr double layer = 0.5;
+
   /// Of flat bodies: x^p (1 + 100 z) y^(p - 1) or, on tetrahedra, whose
-  /// polynomials have degree p as a whole, x^p + 100 z x^(p - 1).
+  /// polynomials have degree p as a whole, x^p + 100 z x^(p - 1). Of the other
+  /// one: a polynomial of the lowest cells, whose nodes stay, which is gone
+  /// above them.
   double
   function(const Body &body, const Point<dim> &x, const unsigned int p)
   {
+    if (body.index == 1)
+      return std::pow(x[0] * x[1], p) *
+             std::max(0., 1. - std::pow(x[2] / layer, p));
     if (body.mesh.tetrahedra)
       return std::pow(x[0], p) + 100. * x[2] * std::pow(x[0], p - 1.);
     return std::pow(x[0], p) * (1. + 100. * x[2]) * std::pow(x[1], p - 1.);
@@ -66,8 +74,16 @@ namespace mortise::testing
     const auto       &owned = space.owned_nodes();
     verdict(name + ": one level", scene.levels().size(), 1);
 
+    std::vector<types::global_dof_index> beside;
+    space.for_each_cell(
+      [&](const Body &body, const auto &cell, const auto &nodes) {
+        const auto positions = straight_positions(cell, degree);
+        for (unsigned int i = 0; i < nodes.size(); ++i)
+          if (body.index == 1 && positions[i][2] == 0.)
+            beside.push_back(nodes[i]);
+      });
     const ThicknessCoarsening thickness =
-      make_thickness_coarsening(space, {}, MPI_COMM_WORLD);
+      make_thickness_coarsening(space, beside, MPI_COMM_WORLD);
     const VertexCoarsening &rows = thickness.functions;
     verdict(name + ": nodes that stay",
             std::abs(double(rows.owned.size()) - double(n_kept)),
@@ -82,7 +98,7 @@ namespace mortise::testing
       [&](const Body &body, const auto &cell, const auto &nodes) {
         const auto positions = straight_positions(cell, degree);
         for (unsigned int i = 0; i < nodes.size(); ++i)
-          if (owned.is_element(nodes[i]) && thickness.flat[body.index])
+          if (owned.is_element(nodes[i]))
             exact(dim * nodes[i]) = function(body, positions[i], degree);
       });
     for (unsigned int k = 0; k < rows.kept.size(); ++k)
@@ -133,13 +149,16 @@ main(int argc, char *argv[])
         {box("hexahedra", 0.01, {2, 3, 3})},
         8,
         4 * (2 * 8 + 1) * (3 * 8 + 1));
-  for (const unsigned int p : {1, 2})
+  for (const unsigned int p : {1, 2, 3, 4, 6})
     check("tetrahedra, degree " + std::to_string(p),
-          {box("tetrahedra", 0.01, {4, 7, 3})},
+          {box("tetrahedra", 0.01, {4, 7, 2})},
           p,
           2 * (4 * p + 1) * (7 * p + 1));
-  check("beside a block, degree 2",
-        {box("hexahedra", 0.01, {4, 7, 3}), box("hexahedra", 2., {3, 5, 4})},
-        2,
-        2 * 9 * 15 + 4 * 6 * 5);
+  for (const unsigned int p : {1, 2, 3})
+    check("beside a block, degree " + std::to_string(p),
+          {box("hexahedra", 0.01, {4, 7, 3}),
+           box("hexahedra", 4. * layer, {3, 5, 4})},
+          p,
+          2 * (4 * p + 1) * (7 * p + 1) + 4 * 6 * 3 +
+            (3 * p + 1) * (5 * p + 1) * (p + 1));
 }

@@ -4,6 +4,7 @@
 
 #include <deal.II/fe/fe_tools.h>
 
+#include <mortise/body/elements/simplex_basis.h>
 #include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/body/spaces/flat_bodies.h>
 
@@ -63,19 +64,21 @@ namespace mortise
     is_flat(const Body &body, const double in_half_of_cells)
     {
       double n_cells = 0., n_flat = 0., n_others = 0.;
-      if (!body.mesh.tetrahedra || body.max_degree() <= 2)
-        for (const auto &cell : body.dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              const double flatness = short_direction(cell).flatness;
-              ++n_cells;
-              n_flat += flatness >= in_half_of_cells ? 1 : 0;
-              if (flatness < least_flat)
-                {
-                  ++n_others;
-                  break; // one is enough: most scenes have no flat bodies
-                }
-            }
+      // nodes of tetrahedra that lie on no line need all those around them
+      const unsigned int needed =
+        body.mesh.tetrahedra && body.max_degree() > 2 ? body.max_degree() : 0;
+      for (const auto &cell : body.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            const double flatness = short_direction(cell).flatness;
+            ++n_cells;
+            n_flat += flatness >= in_half_of_cells ? 1 : 0;
+            if (flatness < least_flat || body.degree(cell) < needed)
+              {
+                ++n_others;
+                break; // one is enough: most scenes have no flat bodies
+              }
+          }
       const MPI_Comm comm = body.triangulation().get_communicator();
       return Utilities::MPI::sum(n_others, comm) == 0. &&
              Utilities::MPI::sum(2. * n_flat - n_cells, comm) > 0.;
@@ -93,6 +96,118 @@ namespace mortise
                            i / (degree + 1) % (degree + 1),
                            i / (degree + 1) / (degree + 1)}});
       return places;
+    }
+
+    NodesAcross
+    hexahedral_lines(const unsigned int degree, const unsigned int axis)
+    {
+      const auto places = hexahedral_places(degree);
+      std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> lines;
+      for (unsigned int i = 0; i < places.size(); ++i)
+        lines[{{places[i][(axis + 1) % dim], places[i][(axis + 2) % dim]}}]
+          .push_back(i);
+      NodesAcross result;
+      for (auto &line : lines)
+        result.lines.push_back(std::move(line.second));
+      return result;
+    }
+
+    /// Barycentric coordinates in the triangle that is left where the vertices
+    /// @p a and @p b become one, which is the first.
+    std::array<double, 3>
+    in_triangle(const std::array<double, 4> &lambda,
+                const unsigned int           a,
+                const unsigned int           b)
+    {
+      std::array<double, 3> result{{lambda[a] + lambda[b], 0., 0.}};
+      unsigned int          next = 1;
+      for (unsigned int v = 0; v < lambda.size(); ++v)
+        if (v != a && v != b)
+          result[next++] = lambda[v];
+      return result;
+    }
+
+    /// P_p(triangle) + lambda_b P_(p - 1)(triangle) at a node.
+    std::vector<double>
+    functions_across(const unsigned int           degree,
+                     const std::array<double, 4> &lambda,
+                     const unsigned int           a,
+                     const unsigned int           b)
+    {
+      const auto triangle = in_triangle(lambda, a, b);
+      const auto size     = [](const unsigned int p) {
+        return (p + 1) * (p + 2) / 2;
+      };
+      std::vector<double> values(size(degree) + size(degree - 1));
+      const VertexOrder   order{{0, 1, 2, 3}};
+      double             *at = values.data();
+      SimplexLegendrePolynomials(degree, order).evaluate_trace(triangle, at);
+      at += size(degree);
+      SimplexLegendrePolynomials(degree - 1, order)
+        .evaluate_trace(triangle, at);
+      for (; at != values.data() + values.size(); ++at)
+        *at *= lambda[b];
+      return values;
+    }
+
+    /// All by ascending vertices.
+    NodesAcross
+    tetrahedral_lines(const unsigned int degree,
+                      const unsigned int a,
+                      const unsigned int b)
+    {
+      NodesAcross result;
+      // nodes of lines and faces are where others are in the triangle, unless
+      // the short edge is one of several of the face
+      std::map<std::array<long, 3>, std::vector<unsigned int>> lines;
+      std::vector<unsigned int>                                given;
+      const auto &nodes = simplex_nodes(degree);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        {
+          const auto   lambda   = barycentric_coordinates(nodes[i]);
+          const auto   triangle = in_triangle(lambda, a, b);
+          const double other    = std::max(triangle[1], triangle[2]);
+          const bool   between  = std::min(lambda[a], lambda[b]) > 1e-8;
+          if (between && other > 1e-8)
+            result.others.push_back({i, {}});
+          else
+            {
+              std::array<long, 3> place;
+              for (unsigned int k = 0; k < 3; ++k)
+                place[k] = std::lround(1e8 * triangle[k]);
+              lines[place].push_back(i);
+              if (!between)
+                given.push_back(i);
+            }
+        }
+      for (auto &line : lines)
+        result.lines.push_back(std::move(line.second));
+      if (result.others.empty())
+        return result;
+      // as many values are given as there are functions
+      FullMatrix<double> functions(given.size());
+      for (unsigned int k = 0; k < given.size(); ++k)
+        {
+          const auto values = functions_across(
+            degree, barycentric_coordinates(nodes[given[k]]), a, b);
+          AssertDimension(values.size(), given.size());
+          std::copy(values.begin(), values.end(), &functions(k, 0));
+        }
+      functions.gauss_jordan();
+      for (auto &[node, entries] : result.others)
+        {
+          const auto values = functions_across(
+            degree, barycentric_coordinates(nodes[node]), a, b);
+          for (unsigned int k = 0; k < given.size(); ++k)
+            {
+              double weight = 0.;
+              for (unsigned int j = 0; j < values.size(); ++j)
+                weight += values[j] * functions(j, k);
+              if (std::abs(weight) > 1e-12)
+                entries.emplace_back(given[k], weight);
+            }
+        }
+      return result;
     }
   } // namespace
 
@@ -156,39 +271,30 @@ namespace mortise
     return positions;
   }
 
-  std::vector<std::vector<unsigned int>>
-  lines_across(const Body::CellIterator &cell, const unsigned int degree)
+  NodesAcross
+  nodes_across(const Body::CellIterator &cell, const unsigned int degree)
   {
     const unsigned int number = short_direction(cell).number;
-    std::map<std::vector<unsigned int>, std::vector<unsigned int>> lines;
     if (cell->reference_cell() == ReferenceCells::Hexahedron)
+      return hexahedral_lines(degree, number);
+    const VertexOrder ranks = vertex_ranks(vertex_order(cell));
+    const auto [a, b]       = std::minmax({ranks[tetrahedron_lines[number][0]],
+                                           ranks[tetrahedron_lines[number][1]]});
+    static std::map<std::array<unsigned int, 3>, NodesAcross> tables;
+    NodesAcross &ascending = tables[{degree, a, b}];
+    if (ascending.lines.empty())
+      ascending = tetrahedral_lines(degree, a, b);
+    const auto  index  = ascending_dof_indices(degree, vertex_order(cell));
+    NodesAcross result = ascending;
+    for (auto &line : result.lines)
+      for (unsigned int &i : line)
+        i = index[i];
+    for (auto &[node, entries] : result.others)
       {
-        const auto places = hexahedral_places(degree);
-        for (unsigned int i = 0; i < places.size(); ++i)
-          lines[{places[i][(number + 1) % dim], places[i][(number + 2) % dim]}]
-            .push_back(i);
+        node = index[node];
+        for (auto &entry : entries)
+          entry.first = index[entry.first];
       }
-    else
-      {
-        // the ends of the short edge are one vertex of the triangle that is
-        // left
-        const auto &ends = tetrahedron_lines;
-        const auto  seen = [&](const unsigned int vertex) {
-          return vertex == ends[number][1] ? ends[number][0] : vertex;
-        };
-        for (unsigned int v = 0; v < cell->n_vertices(); ++v)
-          lines[{seen(v), seen(v)}].push_back(v);
-        if (degree == 2)
-          for (unsigned int l = 0; l < cell->n_lines(); ++l)
-            {
-              const auto [a, b] =
-                std::minmax({seen(ends[l][0]), seen(ends[l][1])});
-              lines[{a, b}].push_back(cell->n_vertices() + l);
-            }
-      }
-    std::vector<std::vector<unsigned int>> result;
-    for (auto &line : lines)
-      result.push_back(std::move(line.second));
     return result;
   }
 } // namespace mortise

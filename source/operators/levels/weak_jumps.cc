@@ -4,7 +4,7 @@
 #include <mortise/operators/levels/weak_jumps.h>
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <map>
 
 namespace mortise
@@ -100,21 +100,26 @@ namespace mortise
       {
         if (active && !(*active)[k])
           return;
-        double square = 0.; // C_kk
+        double square = 0., least = std::numeric_limits<double>::max();
         for (const auto &[row, direction] : directions)
           {
             const View view = row_of(B.scalar(), row);
             for (int e = 0; e < view.length; ++e)
               for (unsigned int c = 0; c < dim; ++c)
-                square += std::pow(direction[c] * view.values[e], 2) *
-                          flexibility[c][view.columns[e]];
+                if (const double value = direction[c] * view.values[e],
+                    of_node            = flexibility[c][view.columns[e]];
+                    value != 0. && of_node > 0.)
+                  {
+                    square += value * value;
+                    least = std::min(least, of_node);
+                  }
           }
         if (!(square > 0.))
           return;
-        const double given = compliance == nullptr ? 0. : (*compliance)[k];
+        const double given    = compliance == nullptr ? 0. : (*compliance)[k];
+        const double softness = square * least / strength + given;
         for (const auto &[row, direction] : directions)
-          stiffnesses[row] +=
-            outer_product(direction, direction) / (square / strength + given);
+          stiffnesses[row] += outer_product(direction, direction) / softness;
       }
 
       const CouplingMatrix                   &B;

@@ -13,13 +13,15 @@ namespace mortise
     constexpr double base = 0.13;
 
     double
-    by_degree(const bool         tetrahedra,
-              const unsigned int degree,
-              const unsigned int next)
+    by_degree(const bool tetrahedra, const unsigned int degree)
     {
-      const double p = degree;
-      return std::min(1., 2. * next / p) *
-             std::min(1., std::pow((tetrahedra ? 2. : 4.) / p, 1.5));
+      return std::min(1., std::pow((tetrahedra ? 2. : 4.) / degree, 1.5));
+    }
+
+    double
+    by_next_degree(const unsigned int degree, const unsigned int next)
+    {
+      return std::min(1., 2. * next / degree);
     }
 
     /// The next level is linear over @p n_steps between nodes, so that its
@@ -50,11 +52,13 @@ namespace mortise
         const unsigned int degree     = space.degree(*body, body->max_degree());
         const bool         flat = thickness && thickness->flat[body->index];
         const double       of_next =
-          flat ? by_steps(thickness->n_steps) :
-                       by_degree(tetrahedra,
-                           degree,
+          flat ?
+                  by_steps(thickness->n_steps) :
+                  by_next_degree(degree,
                            thickness ? 1 : lower_degree(tetrahedra, degree));
-        factor = std::min(factor, of_next * by_material(body->material));
+        factor = std::min(factor,
+                          of_next * by_degree(tetrahedra, degree) *
+                            by_material(body->material));
       }
     return base * factor * (finest ? 1. : 0.5);
   }

@@ -15,24 +15,21 @@ namespace mortise
   {
     std::vector<bool> flat; ///< by index of the body
 
-    /// Of flat bodies the ends of the lines of nodes across the plane of the
-    /// cells stay, and as many nodes between them that no more than
-    /// max_steps_across of the line's steps are between two that stay; values
-    /// at the others are linear along the line. Of other bodies the vertices
-    /// stay; the functions are those of degree one.
+    /// Of flat bodies the rows of find_rows_across(). Of other bodies the
+    /// vertices stay and the functions are those of degree one, but for cells
+    /// beside flat bodies, all of whose nodes stay, so that what these pull
+    /// along goes on into the body as it would on the finest level.
     VertexCoarsening functions;
 
-    /// The most steps between two nodes that stay, over all ranks.
+    /// The most steps across between two nodes that stay, over all ranks.
     unsigned int n_steps = 1;
-
-    static constexpr unsigned int max_steps_across = 12;
   };
 
   /// @p nodes: of the finest level; bodies that are not flat have no hanging nodes unless their degree is one.
-  /// @p kept: nodes of these, of any rank, that stay besides: what flat bodies pull along. Collective.
+  /// @p beside: nodes of these, of any rank, that flat bodies pull along; cells with more than one of them are beside a flat body. Collective.
   ThicknessCoarsening
   make_thickness_coarsening(const NodalSpace                     &nodes,
-                            const std::vector<NodalSpace::Index> &kept,
+                            const std::vector<NodalSpace::Index> &beside,
                             MPI_Comm                              comm);
 
   /// Can it be made, and is a body flat? Collective.
