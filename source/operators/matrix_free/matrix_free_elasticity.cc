@@ -128,7 +128,7 @@ namespace mortise
       {
         if (!body.mesh.tetrahedra)
           return QGauss<dim>(degree + 1);
-        const Quadrature<dim>   rule = simplex_rule(degree);
+        const Quadrature<dim>   rule = simplex_rule<Number>(degree);
         std::vector<Point<dim>> points;
         axes.clear();
         for (const Point<dim> &ascending : rule.get_points())
@@ -186,8 +186,8 @@ namespace mortise
             unsigned int *to =
               &batches.pressure_nodes[(std::size_t(batch) * nodes.size() + i) *
                                       width];
-            to[lane] = pressures->layout.global_to_local(
-              nodes[pressure_order[i]]);
+            to[lane] =
+              pressures->layout.global_to_local(nodes[pressure_order[i]]);
             if (lane == 0)
               std::fill(to + 1, to + width, to[0]);
           }
@@ -279,7 +279,7 @@ namespace mortise
           if (tangled.empty())
             tangled = builder.build();
           groups.push_back(std::move(builder.batches));
-          std::unique_ptr<Kernel> kernel;
+          std::unique_ptr<Kernel>    kernel;
           const CellBatches<Number> &cells = groups.back();
           if constexpr (std::is_same_v<Number, double>)
             if (!cells.pressure_nodes.empty())

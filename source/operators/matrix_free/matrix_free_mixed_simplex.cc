@@ -58,7 +58,7 @@ namespace mortise
     {
       if (!this->curved)
         return;
-      const Quadrature<dim> rule = simplex_rule(degree);
+      const Quadrature<dim> rule = simplex_rule<Number>(degree);
       std::vector<double>   scale;
       for (unsigned int q = 0; q < rule.size(); ++q)
         scale.push_back(

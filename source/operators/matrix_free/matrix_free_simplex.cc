@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <type_traits>
 
 namespace mortise
 {
@@ -74,12 +75,20 @@ namespace mortise
     return transposed(factor_of_mass(degree - 1));
   }
 
+  template <typename Number>
   Quadrature<dim>
   simplex_rule(const unsigned int degree)
   {
-    return degree < sum_factorised_from ? simplex_quadrature<dim>(2 * degree) :
-                                          collapsed_quadrature<dim>(2 * degree);
+    if (degree >= sum_factorised_from)
+      return collapsed_quadrature<dim>(2 * degree);
+    return simplex_quadrature<dim>(2 * degree -
+                                   (std::is_same_v<Number, float> ? 1 : 0));
   }
+
+  template Quadrature<dim>
+  simplex_rule<float>(unsigned int);
+  template Quadrature<dim>
+  simplex_rule<double>(unsigned int);
 
   Tensor<2, dim>
   simplex_rule_jacobian(const unsigned int degree, const Point<dim> &x)
@@ -101,12 +110,13 @@ namespace mortise
     return result;
   }
 
+  template <typename Number>
   const FullMatrix<double> &
   gradients_on_curved(const unsigned int degree)
   {
     return made_once(degree, [&] {
-      const auto               points = simplex_rule(degree).get_points();
-      const unsigned int       n      = points.size();
+      const auto         points = simplex_rule<Number>(degree).get_points();
+      const unsigned int n      = points.size();
       const FullMatrix<double> along_axes =
         simplex_nodal_gradients(degree, points);
       FullMatrix<double> result(dim * n, along_axes.n());
@@ -121,6 +131,11 @@ namespace mortise
       return result;
     });
   }
+
+  template const FullMatrix<double> &
+  gradients_on_curved<float>(unsigned int);
+  template const FullMatrix<double> &
+  gradients_on_curved<double>(unsigned int);
 
   template <typename Number>
   std::unique_ptr<typename MatrixFreeElasticity<Number>::Kernel>

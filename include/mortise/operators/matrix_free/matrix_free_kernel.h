@@ -10,7 +10,11 @@ namespace mortise
   /// on curved cells; where deal.II's symmetric rules end.
   constexpr unsigned int sum_factorised_from = 6;
 
-  /// The points of curved tetrahedra, of the degree of stiffness_quadrature().
+  /// The points of curved tetrahedra: exact up to twice the degree, so that of
+  /// stiffness_quadrature(); in single precision, which serves preconditioners
+  /// alone, one degree less where sum factorisation does not need more, still
+  /// exact on affine cells.
+  template <typename Number>
   dealii::Quadrature<dim>
   simplex_rule(unsigned int degree);
 
