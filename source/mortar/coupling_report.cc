@@ -8,41 +8,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "multiplier_sums.h"
+
 namespace mortise
 {
   using namespace dealii;
 
   namespace
   {
-    /// Sum over the functions of a face that are not zero on constants: those
-    /// of its vertices.
-    double
-    on_constants(const FullMatrix<double> &local,
-                 const unsigned int        i,
-                 const TraceBasis         &basis)
-    {
-      double sum = 0.;
-      for (unsigned int v = 0; v < basis.n_vertices(); ++v)
-        sum += local(i, basis.vertex_function(v));
-      return sum;
-    }
-
-    /// Calls visit(slave face, node, direction, multiplier, its weight).
-    template <typename Visit>
-    void
-    for_each_entry(const Coupling &coupling, const Visit &visit)
-    {
-      for (unsigned int s = 0; s < coupling.local.size(); ++s)
-        if (!coupling.local[s].partners.empty())
-          {
-            const auto        &rows = coupling.multipliers->rows()[s];
-            const unsigned int n    = rows.n_nodes();
-            for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                visit(s, r % n, rows.direction(r), rows.index[e], rows.weight[e]);
-          }
-    }
-
     /// int psi_i psi_j
     double
     multiplier_product(const LocalCoupling &local,
@@ -81,22 +54,6 @@ namespace mortise
       return std::sqrt(multiplier_product(coupling.local[s], i, i)) *
              coupling.interface->slave().faces[s].size;
     }
-
-    /// Entries by multiplier, those that the faces of this rank touch included.
-    std::vector<LinearAlgebra::distributed::Vector<double>>
-    make_sums(const unsigned int n,
-              const Coupling    &coupling,
-              const IndexSet    &owned_multiplier,
-              const MPI_Comm     comm)
-    {
-      IndexSet ghosts = owned_multiplier;
-      for (const auto &rows : coupling.multipliers->rows())
-        ghosts.add_indices(rows.index.begin(), rows.index.end());
-      std::vector<LinearAlgebra::distributed::Vector<double>> sums(n);
-      for (auto &sum : sums)
-        sum.reinit(owned_multiplier, ghosts, comm);
-      return sums;
-    }
   } // namespace
 
   std::vector<MultiplierMoment>
@@ -109,27 +66,27 @@ namespace mortise
     // the bound, then by component the weight and the moment
     constexpr unsigned int n_sums = 1 + dim + dim * dim;
     auto sums = make_sums(n_sums, coupling, owned_multiplier, comm);
-    for_each_entry(
-      coupling,
-      [&](const unsigned int    s,
-          const unsigned int    i,
-          const Tensor<1, dim> &direction,
-          const auto            index,
-          const double          w) {
-        const LocalCoupling &local = coupling.local[s];
-        sums[0](index) += std::fabs(w) * weight_bound(coupling, s, i);
-        const double weight =
-          on_constants(local.constraint,
+    for_each_entry(coupling,
+                   [&](const unsigned int    s,
+                       const unsigned int    i,
+                       const Tensor<1, dim> &direction,
+                       const auto            index,
+                       const double          w) {
+                     const LocalCoupling &local = coupling.local[s];
+                     sums[0](index) +=
+                       std::fabs(w) * weight_bound(coupling, s, i);
+                     const double weight = on_constants(
+                       local.constraint,
                        i,
                        coupling.interface->slave().traces[s].basis());
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            sums[1 + c](index) += w * direction[c] * weight;
-            for (unsigned int d = 0; d < dim; ++d)
-              sums[1 + dim + dim * c + d](index) +=
-                w * direction[c] * local.position_moment[i][d];
-          }
-      });
+                     for (unsigned int c = 0; c < dim; ++c)
+                       {
+                         sums[1 + c](index) += w * direction[c] * weight;
+                         for (unsigned int d = 0; d < dim; ++d)
+                           sums[1 + dim + dim * c + d](index) +=
+                             w * direction[c] * local.position_moment[i][d];
+                       }
+                   });
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);
 
@@ -173,7 +130,8 @@ namespace mortise
                      shares[s] += flags(index) * size;
                    });
     for (unsigned int s = 0; s < shares.size(); ++s)
-      coupling.local[s].active_share = sizes[s] > 0. ? shares[s] / sizes[s] : 1.;
+      coupling.local[s].active_share =
+        sizes[s] > 0. ? shares[s] / sizes[s] : 1.;
   }
 
   TransferErrors
@@ -301,10 +259,10 @@ namespace mortise
   {
     for (unsigned int s = 0; s < coefficients.size(); ++s)
       {
-        const auto        &rows  = coupling.multipliers->rows()[s];
-        const FaceTrace   &trace = coupling.interface->slave().traces[s];
-        const unsigned int n     = trace.n_functions();
-        const auto values = along_directions(rows, coefficients[s]);
+        const auto        &rows   = coupling.multipliers->rows()[s];
+        const FaceTrace   &trace  = coupling.interface->slave().traces[s];
+        const unsigned int n      = trace.n_functions();
+        const auto         values = along_directions(rows, coefficients[s]);
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
           if (rows.begin[r + 1] == rows.begin[r] + 1)
             multiplier[rows.index[rows.begin[r]]] =
@@ -327,15 +285,15 @@ namespace mortise
              const std::vector<std::vector<Tensor<1, dim>>>  &normals,
              Vector                                          &rhs)
   {
-    const BodySurface &slave   = coupling.interface->slave();
+    const BodySurface &slave = coupling.interface->slave();
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       if (const LocalCoupling &local = coupling.local[s];
           !local.partners.empty())
         {
-          const auto            &rows  = coupling.multipliers->rows()[s];
-          const FaceTrace       &trace = slave.traces[s];
-          const unsigned int     n     = rows.n_nodes();
-          FullMatrix<double>     nodal(n, n); // int psi_i phi_k
+          const auto        &rows  = coupling.multipliers->rows()[s];
+          const FaceTrace   &trace = slave.traces[s];
+          const unsigned int n     = rows.n_nodes();
+          FullMatrix<double> nodal(n, n); // int psi_i phi_k
           local.constraint.mmult(
             nodal, face_nodal_basis(trace.shape, trace.degree).functions);
           const auto nodes = face_nodes(trace.shape, trace.degree);

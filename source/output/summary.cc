@@ -63,6 +63,20 @@ namespace mortise
 
     template <typename Visit>
     void
+    visit_members(ContactSummary &contact, const Visit &visit)
+    {
+      visit("area", contact.area);
+      visit("force", contact.force);
+      visit("moment", contact.moment);
+      visit("pressure_mean", contact.pressure_mean);
+      visit("pressure_max", contact.pressure_max);
+      visit("gap_min", contact.gap_min);
+      visit("active", contact.active);
+      visit("inactive", contact.inactive);
+    }
+
+    template <typename Visit>
+    void
     visit_members(InterfaceSummary &interface, const Visit &visit)
     {
       visit("name", interface.name);
@@ -79,6 +93,7 @@ namespace mortise
       visit("force_residual", interface.force_residual);
       visit("moment_residual", interface.moment_residual);
       visit("linear_completeness_error", interface.linear_completeness_error);
+      visit("contact", interface.contact);
     }
 
     template <typename Visit>
@@ -89,6 +104,8 @@ namespace mortise
       visit("preconditioner", solver.preconditioner);
       visit("iterations", solver.iterations);
       visit("relative_residual", solver.relative_residual);
+      visit("active_sets", solver.active_sets);
+      visit("linear_iterations", solver.linear_iterations);
     }
 
     template <typename Visit>

@@ -64,8 +64,64 @@ namespace mortise
       }
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
       interface_summaries.push_back(couplings.summary(i));
+    prepare_contact();
     stage.details(std::to_string(system.owned_multiplier.size()) +
                   " multipliers");
+  }
+
+  void
+  Discretisation::prepare_contact()
+  {
+    std::string no_sign;
+    for (const Coupling &coupling : couplings.all())
+      {
+        auto &all = normal_multipliers_of_contact.emplace_back();
+        if (!coupling.is_contact)
+          continue;
+        all = normal_multipliers(coupling, system.owned_multiplier, run.comm);
+        if (std::any_of(all.begin(), all.end(), [](const auto &multiplier) {
+              return !multiplier.has_sign;
+            }))
+          no_sign = coupling.interface->name();
+      }
+    throw_if_any(
+      no_sign.empty() ?
+        "" :
+        "Interface " + no_sign +
+          ": Law = contact needs multipliers that are pressures at nodes, and those of the slave are not; allowed are "
+          "hexahedra of one degree without hanging nodes and tetrahedra of degree 1 there, whose edges are not clamped "
+          "from degree 2 on. Exchange slave and master if the other side is like that",
+      run.comm);
+  }
+
+  std::vector<bool>
+  Discretisation::one_sided() const
+  {
+    std::vector<bool> result;
+    for (const Coupling &coupling : couplings.all())
+      result.insert(result.end(),
+                    coupling.multipliers->n_owned(),
+                    coupling.is_contact);
+    return result;
+  }
+
+  Vector
+  Discretisation::gaps(const SceneLoad &load, const SystemVector &x) const
+  {
+    Vector result(system.owned_multiplier, run.comm), moved(result);
+    system.coupling.vmult(moved, x.displacement); // of inactive ones, too
+    result = load.rhs.multiplier;
+    result -= moved;
+    double *gap = result.begin();
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      {
+        for (const NormalMultiplier &multiplier :
+             normal_multipliers_of_contact[i])
+          *gap++ /= multiplier.area;
+        if (normal_multipliers_of_contact[i].empty())
+          gap += couplings.all()[i].multipliers->n_owned();
+      }
+    return result;
   }
 
   void
@@ -186,6 +242,15 @@ namespace mortise
             load.rhs.multiplier);
           load.rhs.multiplier.compress(VectorOperation::add);
         }
+    double *given = load.rhs.multiplier.begin();
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      {
+        for (unsigned int k = 0; k < normal_multipliers_of_contact[i].size();
+             ++k)
+          if (couplings.sides()[i].mesh_gap == "real")
+            given[k] += normal_multipliers_of_contact[i][k].gap;
+        given += couplings.all()[i].multipliers->n_owned();
+      }
     for (const FreePressure &free : free_pressures)
       {
         if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)

@@ -47,7 +47,7 @@ namespace mortise
   tied_directions(const Parameters          &parameters,
                   const InterfaceParameters &interface)
   {
-    if (interface.law == "slide")
+    if (interface.law == "slide" || interface.law == "contact")
       return TiedDirections::normal;
     if (!interface.tangential_stiffness)
       return TiedDirections::all;

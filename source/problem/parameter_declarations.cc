@@ -72,8 +72,8 @@ namespace mortise
       section.add("Law",
                   interface.law,
                   "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
-                  "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. spring: a thin layer or glue of the stiffnesses below.",
-                  Allowed::one_of({"tie", "slide", "spring"}));
+                  "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those of the start. spring: a thin layer or glue of the stiffnesses below.",
+                  Allowed::one_of({"tie", "slide", "contact", "spring"}));
       section.add("Normal stiffness",
                   interface.normal_stiffness,
                   "Law = spring: traction by opening [force per volume]. A layer of thickness d has its modulus over "
@@ -85,9 +85,15 @@ namespace mortise
                   {"an expression in x, y, z, positive; or 0"});
       section.add("Offset",
                   interface.offset,
-                  "The gap that is left between the bodies on top of that between their meshes, which it takes for "
+                  "The gap that is left between the bodies on top of that between their meshes, which all laws but contact take for "
                   "closed; negative: an interference, as of a press fit whose meshes coincide [length].",
                   {"an expression in x, y, z, t"});
+      section.add("Mesh gap",
+                  interface.mesh_gap,
+                  "Law = contact: what lies between the meshes, or how far they overlap. real: a gap or an "
+                  "interference; ignored: they stand for surfaces that coincide, as facets of different size on one "
+                  "circle do. Offset comes on top of it.",
+                  Allowed::one_of({"real", "ignored"}));
       section.add("Multiplier",
                   interface.multiplier,
                   "Space of the Lagrange multiplier (the traction): standard, the slave's traces, or dual, as many "

@@ -77,6 +77,7 @@ namespace mortise
     options.points_per_direction = given.quadrature_points;
     Coupling coupling;
     coupling.is_spring  = given.law == "spring";
+    coupling.is_contact = given.law == "contact";
     coupling.directions = tied_directions(run.parameters, given);
     coupling.interface  = std::make_unique<InterfaceHandler>(
       name,

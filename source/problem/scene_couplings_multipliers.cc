@@ -205,6 +205,23 @@ namespace mortise
   }
 
   void
+  SceneCouplings::check_held(const std::vector<bool> &active) const
+  {
+    auto         ties  = tie_supports();
+    unsigned int first = 0;
+    for (TieSupport &tie : ties)
+      {
+        std::vector<MultiplierMoment> pressing;
+        for (unsigned int k = 0; k < tie.multipliers.size(); ++k)
+          if (active[first + k])
+            pressing.push_back(tie.multipliers[k]);
+        first += tie.multipliers.size();
+        tie.multipliers = std::move(pressing);
+      }
+    check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
+  }
+
+  void
   SceneCouplings::select(const std::vector<bool> &active)
   {
     for (Coupling &coupling : couplings)

@@ -60,7 +60,11 @@ namespace mortise
     options.tolerance      = given.tolerance;
     options.max_iterations = given.max_iterations;
     options.max_gathered   = given.max_gathered;
-    options.successive     = context.parameters.steps.given() ? 4 : 0;
+    // with contact each set is solved from the one before
+    options.successive =
+      context.parameters.steps.given()                ? 4 :
+      discretisation->interfaces().have_contact() ? 1 :
+                                                    0;
     if (given.print_iterations)
       options.monitor = [&](const unsigned int iteration,
                             const double       residual) {
@@ -68,6 +72,9 @@ namespace mortise
                          "  residual " + RunLog::number(residual));
       };
     solver = make_linear_solver(discretisation->linear_system(), options);
+    if (discretisation->interfaces().have_contact())
+      contact =
+        std::make_unique<ContactStep>(context, *discretisation, *solver);
     // a factorisation gives one of many answers and does not tell
     if (options.method == SolverMethod::direct)
       discretisation->check_multipliers();
@@ -92,7 +99,8 @@ namespace mortise
   Simulation::solve(const SceneLoad &load)
   {
     SystemVector solution;
-    report = solver->solve(load.rhs, solution);
+    report = contact ? contact->solve(load, state.solution, solution) :
+                       solver->solve(load.rhs, solution);
     if (!discretisation->choice().reason.empty())
       report.preconditioner += "; " + discretisation->choice().reason;
     if (!std::isfinite(report.relative_residual))
@@ -133,7 +141,14 @@ namespace mortise
     result.solver = {report.method,
                      report.preconditioner,
                      report.iterations,
-                     report.relative_residual};
+                     report.relative_residual,
+                     {},
+                     {}};
+    if (contact)
+      {
+        result.solver->active_sets       = contact->n_sets();
+        result.solver->linear_iterations = contact->linear_iterations();
+      }
     evaluate_step(context, *discretisation, solved, fields, result);
     field_checks.throw_if_any(context.comm);
     const std::string not_finite = first_not_finite(result);

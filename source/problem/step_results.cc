@@ -1,4 +1,9 @@
+#include <deal.II/base/mpi.h>
+
 #include <mortise/problem/step_results.h>
+
+#include <algorithm>
+#include <limits>
 
 namespace mortise
 {
@@ -43,8 +48,8 @@ namespace mortise
         return result;
       std::vector<TiedBodies> tied;
       for (unsigned int i = 0; i < interfaces.all().size(); ++i)
-        tied.push_back({interfaces.sides()[i].slave.body,
-                        interfaces.given_slave(i)});
+        tied.push_back(
+          {interfaces.sides()[i].slave.body, interfaces.given_slave(i)});
       result.multiplier_l2 = multiplier_error(
         bodies, interfaces.all(), tied, fields.tractions, exact);
       return result;
@@ -54,6 +59,65 @@ namespace mortise
     components(const Tensor<1, dim> &value)
     {
       return {value[0], value[1], value[2]};
+    }
+
+    /// @p pressure, @p gap, @p active: by owned multiplier of the interface.
+    ContactSummary
+    contact_summary(const std::vector<NormalMultiplier>    &multipliers,
+                    const double                           *pressure,
+                    const double                           *gap,
+                    const std::vector<bool>::const_iterator active,
+                    const MPI_Comm                          comm)
+    {
+      ContactSummary result;
+      Tensor<1, dim> force, moment;
+      double         work = 0., least = std::numeric_limits<double>::max();
+      for (unsigned int k = 0; k < multipliers.size(); ++k)
+        {
+          const NormalMultiplier &of = multipliers[k];
+          least                      = std::min(least, gap[k]);
+          ++(active[k] ? result.active : result.inactive);
+          if (!active[k])
+            continue;
+          result.area += of.area;
+          work += pressure[k] * of.area;
+          force -= pressure[k] * of.normal;
+          moment -= pressure[k] * of.moment;
+          result.pressure_max = std::max(result.pressure_max, pressure[k]);
+        }
+      result.area          = Utilities::MPI::sum(result.area, comm);
+      work                 = Utilities::MPI::sum(work, comm);
+      result.pressure_mean = result.area > 0. ? work / result.area : 0.;
+      result.pressure_max  = Utilities::MPI::max(result.pressure_max, comm);
+      result.gap_min       = Utilities::MPI::min(least, comm);
+      result.force         = components(Utilities::MPI::sum(force, comm));
+      result.moment        = components(Utilities::MPI::sum(moment, comm));
+      result.active        = Utilities::MPI::sum(result.active, comm);
+      result.inactive      = Utilities::MPI::sum(result.inactive, comm);
+      return result;
+    }
+
+    void
+    add_contact(const RunContext     &run,
+                const Discretisation &discretisation,
+                const SolvedStep     &solved,
+                StepSummary          &summary)
+    {
+      const auto   &interfaces = discretisation.interfaces().all();
+      const Vector  gaps = discretisation.gaps(solved.load, solved.solution);
+      const double *gap  = gaps.begin();
+      const double *pressure = solved.solution.multiplier.begin();
+      auto          active   = discretisation.linear_system().active->begin();
+      for (unsigned int i = 0; i < interfaces.size(); ++i)
+        {
+          if (interfaces[i].is_contact)
+            summary.interfaces[i].contact = contact_summary(
+              discretisation.pressing()[i], pressure, gap, active, run.comm);
+          const auto n = interfaces[i].multipliers->n_owned();
+          gap += n;
+          pressure += n;
+          active += n;
+        }
     }
   } // namespace
 
@@ -73,6 +137,8 @@ namespace mortise
         summary.interfaces[i].force_residual  = errors.force;
         summary.interfaces[i].moment_residual = errors.moment;
       }
+    if (discretisation.interfaces().have_contact())
+      add_contact(run, discretisation, solved, summary);
     if (const auto &exact = solved.data.exact())
       summary.errors = errors_of(discretisation, *exact, fields);
     for (const PointQuantity &quantity : run.parameters.output.points)

@@ -23,6 +23,7 @@ namespace mortise
     std::vector<LocalCoupling>        local; ///< by slave face
     TiedDirections                    directions = TiedDirections::all;
     bool                              is_spring  = false;
+    bool                              is_contact = false; ///< it never pulls
     std::unique_ptr<MultiplierSpace>  multipliers;
   };
 

@@ -106,6 +106,13 @@ namespace mortise
       return owned_dofs.size();
     }
 
+    /// The number of the first of these; valid after number().
+    Index
+    first() const
+    {
+      return first_number;
+    }
+
     /// Displacement dofs (DoFHandler's numbering, owned) that the owned
     /// multipliers sit on.
     const std::vector<Index> &

@@ -44,6 +44,17 @@ namespace mortise
     std::uint64_t                total = 0;
   };
 
+  /// What is in contact at the nodes of the slave.
+  struct ContactSummary
+  {
+    double              area = 0.; ///< that presses
+    std::vector<double> force, moment; ///< on the slave, about the origin
+    double              pressure_mean = 0.; ///< over that area, positive
+    double              pressure_max  = 0.;
+    double              gap_min       = 0.; ///< of all nodes
+    std::uint64_t active = 0, inactive = 0;
+  };
+
   struct InterfaceSummary
   {
     std::string           name;
@@ -60,6 +71,7 @@ namespace mortise
     std::optional<double> force_residual;
     std::optional<double> moment_residual;
     std::optional<double> linear_completeness_error;
+    std::optional<ContactSummary> contact; ///< with that law
   };
 
   struct SolverSummary
@@ -68,6 +80,8 @@ namespace mortise
     std::optional<std::string>   preconditioner;
     std::optional<std::uint64_t> iterations;
     double                       relative_residual = 0.;
+    std::optional<std::uint64_t> active_sets; ///< with contact
+    std::optional<std::uint64_t> linear_iterations; ///< of all of these
   };
 
   /// Relative errors against the exact solution.

@@ -2,6 +2,7 @@
 // stand while loads change. Other meshes need another one.
 #pragma once
 
+#include <mortise/mortar/normal_multipliers.h>
 #include <mortise/output/checkpoint.h>
 #include <mortise/problem/scene_couplings.h>
 #include <mortise/problem/scene_spaces.h>
@@ -36,6 +37,23 @@ namespace mortise
     /// follow. Collective.
     void
     show_active();
+
+    /// By interface, what its multipliers stand for; nothing of those without
+    /// contact.
+    const std::vector<std::vector<NormalMultiplier>> &
+    pressing() const
+    {
+      return normal_multipliers_of_contact;
+    }
+
+    /// By owned multiplier: may it press only?
+    std::vector<bool>
+    one_sided() const;
+
+    /// By owned multiplier, where that is of contact: the gap that @p x leaves, a length. @p load: of the same
+    /// time. Collective.
+    Vector
+    gaps(const SceneLoad &load, const SystemVector &x) const;
 
     /// The solution by body. Collective.
     std::vector<BodySolution>
@@ -88,6 +106,8 @@ namespace mortise
     void
     couple();
     void
+    prepare_contact();
+    void
     create_bulk();
     void
     find_free_pressures();
@@ -99,5 +119,6 @@ namespace mortise
     SparseMatrix               prescribed_columns; ///< of B, if there are any
     std::vector<FreePressure>  free_pressures;
     std::vector<InterfaceSummary> interface_summaries;
+    std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;
   };
 } // namespace mortise

@@ -75,7 +75,8 @@ namespace mortise
     std::string    name;
     SideParameters slave; ///< carries the multiplier
     SideParameters master;
-    std::string    law               = "tie"; ///< or "slide", "spring"
+    std::string    mesh_gap = "real"; ///< or "ignored"; of contact
+    std::string    law               = "tie"; ///< or "slide", "contact", "spring"
     std::string    multiplier        = "dual";
     std::string    offset            = "0";
     /// For "spring" alone.

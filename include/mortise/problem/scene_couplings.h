@@ -51,6 +51,11 @@ namespace mortise
     void
     select(const std::vector<bool> &active);
 
+    /// Throws InputError that names the bodies which @p active multipliers, by owned one,
+    /// do not hold, and their motions. Collective.
+    void
+    check_held(const std::vector<bool> &active) const;
+
     /// Does an interface let bodies slide?
     bool
     slide() const
@@ -59,6 +64,16 @@ namespace mortise
                          couplings.end(),
                          [](const Coupling &coupling) {
                            return coupling.directions == TiedDirections::normal;
+                         });
+    }
+
+    bool
+    have_contact() const
+    {
+      return std::any_of(couplings.begin(),
+                         couplings.end(),
+                         [](const Coupling &coupling) {
+                           return coupling.is_contact;
                          });
     }
 

@@ -2,6 +2,7 @@
 // members stand in the order in which data flows.
 #pragma once
 
+#include <mortise/problem/contact_step.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/field_files.h>
 #include <mortise/problem/load_steps.h>
@@ -91,6 +92,7 @@ namespace mortise
     Bodies                          bodies;
     std::unique_ptr<Discretisation> discretisation;
     std::unique_ptr<LinearSolver>   solver;
+    std::unique_ptr<ContactStep>    contact; ///< null without
     SolveReport                     report; ///< of the last step
     State                           state;
     Summary                         summary;

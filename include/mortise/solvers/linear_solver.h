@@ -31,6 +31,13 @@ namespace mortise
     void
     update_active();
 
+    /// What later solves go on to, in place of SolverOptions::tolerance.
+    void
+    set_tolerance(const double tolerance)
+    {
+      options.tolerance = tolerance;
+    }
+
     /// Solve for @p rhs = (f, h, g); what @p x held is not used.
     /// A solve that does not reach the tolerance returns converged == false
     /// and the last iterate; nothing is thrown. The residual reported is always
@@ -74,7 +81,7 @@ namespace mortise
         SolveReport        &report) = 0;
 
     const BlockSystem  &system;
-    const SolverOptions options;
+    SolverOptions       options;
     std::string         description; ///< what set_up() made, in words
     std::unique_ptr<ScaledResidual> residual;
 

@@ -1,0 +1,55 @@
+// Sums over what faces give to multipliers, for reports; only sources of this
+// room include it.
+#pragma once
+
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/mortar/coupling.h>
+
+namespace mortise
+{
+  /// Sum over the functions of a face that are not zero on constants: those
+  /// of its vertices.
+  inline double
+  on_constants(const dealii::FullMatrix<double> &local,
+               const unsigned int                i,
+               const TraceBasis                 &basis)
+  {
+    double sum = 0.;
+    for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+      sum += local(i, basis.vertex_function(v));
+    return sum;
+  }
+
+  /// Calls visit(slave face, node, direction, multiplier, its weight).
+  template <typename Visit>
+  void
+  for_each_entry(const Coupling &coupling, const Visit &visit)
+  {
+    for (unsigned int s = 0; s < coupling.local.size(); ++s)
+      if (!coupling.local[s].partners.empty())
+        {
+          const auto        &rows = coupling.multipliers->rows()[s];
+          const unsigned int n    = rows.n_nodes();
+          for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+            for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+              visit(s, r % n, rows.direction(r), rows.index[e], rows.weight[e]);
+        }
+  }
+
+  /// Entries by multiplier, those that the faces of this rank touch included.
+  inline std::vector<dealii::LinearAlgebra::distributed::Vector<double>>
+  make_sums(const unsigned int      n,
+            const Coupling         &coupling,
+            const dealii::IndexSet &owned_multiplier,
+            const MPI_Comm          comm)
+  {
+    dealii::IndexSet ghosts = owned_multiplier;
+    for (const auto &rows : coupling.multipliers->rows())
+      ghosts.add_indices(rows.index.begin(), rows.index.end());
+    std::vector<dealii::LinearAlgebra::distributed::Vector<double>> sums(n);
+    for (auto &sum : sums)
+      sum.reinit(owned_multiplier, ghosts, comm);
+    return sums;
+  }
+} // namespace mortise

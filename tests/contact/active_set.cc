@@ -1,0 +1,161 @@
+// Proves that active sets end at what solves lambda >= 0, gap = q + C lambda >=
+// 0, lambda gap = 0 for C with positive principal minors, those included where
+// sets come back and only one multiplier at a time may turn; and that what
+// nearly presses is left alone. The multipliers are dealt out to the ranks; the
+// sets are the same on any number of these.
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
+
+#include <mortise/contact/active_set.h>
+#include <mortise/solvers/pseudo_random.h>
+#include <verdict.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace mortise;
+using dealii::FullMatrix;
+
+namespace
+{
+  constexpr unsigned int n = 15;
+
+  struct Problem
+  {
+    FullMatrix<double>     C = FullMatrix<double>(n, n);
+    dealii::Vector<double> q = dealii::Vector<double>(n);
+  };
+
+  /// C = A^T A with entries of A in -1..1, as nothing local makes it; in every
+  /// second draw blocks 1, 0, 2; 2, 1, 0; 0, 2, 1, for which sets of all
+  /// violations come back. Source: Ben Gharbia, Gilbert (2012).
+  Problem
+  draw(const unsigned int number)
+  {
+    Problem            problem;
+    FullMatrix<double> A(n, n);
+    const unsigned int first = number * n * (n + 1);
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        problem.q(i) = pseudo_random(first + n * n + i);
+        for (unsigned int j = 0; j < n; ++j)
+          A(i, j) = pseudo_random(first + n * i + j);
+      }
+    if (number % 2 == 0)
+      {
+        A.Tmmult(problem.C, A);
+        for (unsigned int i = 0; i < n; ++i)
+          problem.C(i, i) += 1e-2;
+      }
+    else
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          problem.q(i)                      = -1. + 0.1 * problem.q(i);
+          const unsigned int block          = i / 3 * 3;
+          problem.C(i, i)                   = 1.;
+          problem.C(i, block + (i + 2) % 3) = 2.;
+        }
+    return problem;
+  }
+
+  /// The multipliers of a set, and all gaps.
+  void
+  solve(const Problem           &problem,
+        const std::vector<bool> &active,
+        dealii::Vector<double>  &lambda,
+        dealii::Vector<double>  &gap)
+  {
+    FullMatrix<double>     C = problem.C;
+    dealii::Vector<double> q = problem.q;
+    for (unsigned int i = 0; i < n; ++i)
+      if (!active[i])
+        {
+          for (unsigned int j = 0; j < n; ++j)
+            C(i, j) = C(j, i) = 0.;
+          C(i, i) = 1.;
+          q(i)    = 0.;
+        }
+    C.gauss_jordan();
+    C.vmult(lambda, q);
+    lambda *= -1.;
+    problem.C.vmult(gap, lambda);
+    gap += problem.q;
+  }
+
+  std::vector<bool>
+  of_all_ranks(const ActiveSet &set)
+  {
+    std::vector<bool> result;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(MPI_COMM_WORLD, set.active()))
+      result.insert(result.end(), part.begin(), part.end());
+    return result;
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const unsigned int                       n_ranks =
+                       dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
+                     me =
+                       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD),
+                     first = me * n / n_ranks, end = (me + 1) * n / n_ranks;
+  double       worst     = 0.;
+  unsigned int most_sets = 0, n_cycles = 0;
+  for (unsigned int number = 0; number < 1000; ++number)
+    {
+      const Problem problem = draw(number);
+      ActiveSet     set(std::vector<bool>(end - first, true),
+                    first,
+                    MPI_COMM_WORLD);
+      if (number % 2 == 1)
+        {
+          std::vector<bool> start;
+          for (unsigned int i = first; i < end; ++i)
+            start.push_back(i % 3 == 0);
+          set.start_from(start);
+        }
+      dealii::Vector<double> lambda(n), gap(n);
+      unsigned int           n_sets = 0;
+      ActiveSet::Change      change;
+      do
+        {
+          ++n_sets;
+          solve(problem, of_all_ranks(set), lambda, gap);
+          change =
+            set.advance(lambda.begin() + first, gap.begin() + first, 1., 1e-12);
+        }
+      while (change.any() && n_sets < 1000);
+      most_sets = std::max(most_sets, n_sets);
+      n_cycles += set.cycles() ? 1 : 0;
+      const double largest = lambda.linfty_norm();
+      for (unsigned int i = 0; i < n; ++i)
+        worst = std::max(
+          {worst,
+           -lambda(i) / std::max(1., largest),
+           -gap(i) / std::max(1., largest),
+           std::fabs(lambda(i) * gap(i)) / std::max(1., largest * largest)});
+    }
+  if (me > 0)
+    std::cout.setstate(std::ios_base::failbit); // one rank prints
+  verdict("signs and products 1e-10", worst, 1e-10);
+  verdict("sets", most_sets, 200);
+  verdict("some draws come back", n_cycles > 0 ? 0. : 1., 0.);
+
+  // active ones: pressing, just pulling, pulling; those that may pull always
+  // stay
+  const bool mine = me == 0;
+  ActiveSet  set(mine ? std::vector<bool>{true, true, true, false} :
+                       std::vector<bool>(),
+                mine ? 0 : 4,
+                MPI_COMM_WORLD);
+  const double pressures[] = {1., -1e-12, -1., -1.}, gaps[] = {0., 0., 0., 0.};
+  const auto   change = set.advance(pressures, gaps, 1., 1e-10);
+  verdict("one opens", std::fabs(double(change.opened) - 1.), 0.);
+  verdict("one is undecided", std::fabs(double(change.undecided) - 1.), 0.);
+  verdict("two of contact are left",
+          std::fabs(double(set.n_active()) - 2.),
+          0.);
+}

@@ -1,0 +1,289 @@
+// Proves contact without friction: what presses is exact where it is constant
+// or linear, parts in press fits come apart and gaps close at the loads of
+// Lame, a part of a face opens without a trace of pull, and what is lost or
+// cannot be done is said. The same on any number of ranks.
+#include <mortise/base/error.h>
+
+#include "scene.h"
+#include "scenes.h"
+
+using namespace mortise;
+using namespace mortise::testing;
+
+namespace
+{
+  const Settings contact = {"Interface glue/Law=contact"};
+
+  const ContactSummary &
+  contact_of(const StepSummary &step)
+  {
+    return *step.interfaces.front().contact;
+  }
+
+  Settings
+  degrees(const std::string &a, const std::string &b, const unsigned int p)
+  {
+    return {"Body " + a + "/Degree=" + std::to_string(p),
+            "Body " + b + "/Degree=" + std::to_string(p)};
+  }
+
+  /// No node pulls, none overlaps, and all that is known of the set.
+  void
+  check_signs(const std::string &what, const StepSummary &step)
+  {
+    const ContactSummary &of = contact_of(step);
+    verdict(what + ": nothing overlaps", -of.gap_min, 1e-10);
+    verdict(what + ": active sets", *step.solver->active_sets, 8);
+  }
+
+  /// Two blocks of 1 x 1, heights 1 and 0.5, sides free, a gap between them,
+  /// the upper one pushed down.
+  std::string
+  two_blocks()
+  {
+    return tied("lower, upper", "lower: zmax", "upper: zmin") +
+           "subsection Body lower\n  subsection Mesh\n    set Extent = 0, 0, 0, 1, 1, 1\n"
+           "    set Subdivisions = 3, 3, 2\n  end\n"
+           "  subsection Material\n    set Young modulus = 900\n    set Poisson ratio = 0.3\n  end\n"
+           "  subsection Boundary zmin\n    set Displacement = -, -, 0\n  end\n"
+           "  subsection Boundary xmin\n    set Displacement = 0, -, -\n  end\n"
+           "  subsection Boundary ymin\n    set Displacement = -, 0, -\n  end\nend\n"
+           "subsection Body upper\n  subsection Mesh\n    set Extent = 0, 0, 1.001, 1, 1, 1.501\n"
+           "    set Subdivisions = 4, 4, 1\n  end\n"
+           "  subsection Material\n    set Young modulus = 300\n    set Poisson ratio = 0.1\n  end\n"
+           "  subsection Boundary zmax\n    set Displacement = -, -, -0.011\n  end\n"
+           "  subsection Boundary xmin\n    set Displacement = 0, -, -\n  end\n"
+           "  subsection Boundary ymin\n    set Displacement = -, 0, -\n  end\nend\n";
+  }
+
+  void
+  check_blocks()
+  {
+    const double pressure = (0.011 - 0.001) / (1. / 900. + 0.5 / 300.);
+    for (const unsigned int p : {1, 2, 3, 5})
+      for (const std::string gap : {"of the meshes", "by Offset"})
+        {
+          Settings settings = contact + degrees("lower", "upper", p);
+          if (gap == "by Offset")
+            settings = settings + Settings{"Interface glue/Mesh gap=ignored",
+                                           "Interface glue/Offset=0.001"};
+          const StepSummary step =
+            run_scene(two_blocks(), settings).steps.back();
+          const std::string what =
+            "blocks, gap " + gap + ", degree " + std::to_string(p);
+          verdict(what + ": mean pressure",
+                  std::fabs(contact_of(step).pressure_mean / pressure - 1.),
+                  1e-9);
+          verdict(what + ": largest pressure",
+                  std::fabs(contact_of(step).pressure_max / pressure - 1.),
+                  1e-8);
+          verdict(what + ": area",
+                  std::fabs(contact_of(step).area - 1.),
+                  1e-12);
+          verdict(what + ": active sets", *step.solver->active_sets, 2);
+        }
+    const StepSummary open =
+      run_scene(two_blocks(), contact + Settings{"Interface glue/Offset=0.02"})
+        .steps.back();
+    verdict("blocks that do not touch: active", contact_of(open).active, 0);
+    verdict("blocks that do not touch: gap",
+            std::fabs(contact_of(open).gap_min - 0.01),
+            1e-10);
+  }
+
+  /// Inner part 1..2, outer 2..3, E = 1000 and 500, nu = 0.3 and 0.25.
+  std::string
+  fit(const bool sphere)
+  {
+    return tied("inner, outer", "inner: outside", "outer: inside") +
+           layer("inner", "1, 2", sphere, true) +
+           layer("outer", "2, 3", sphere, false) +
+           "subsection Body inner\n  subsection Material\n"
+           "    set Young modulus = 1000\n    set Poisson ratio = 0.3\n  end\nend\n"
+           "subsection Body outer\n  subsection Material\n"
+           "    set Young modulus = 500\n    set Poisson ratio = 0.25\n  end\n"
+           "  subsection Boundary outside\n    set Pressure = 0\n  end\nend\n"
+           "subsection Interface glue\n  set Mesh gap = ignored\nend\n";
+  }
+
+  void
+  check_fits()
+  {
+    for (const bool sphere : {false, true})
+      {
+        const std::string subdivisions = sphere ? "3, 2" : "5, 2, 1";
+        const Settings    common =
+          contact + degrees("inner", "outer", 4) +
+          Settings{"Body inner/Mesh/Subdivisions=" + subdivisions,
+                   std::string("Body outer/Mesh/Subdivisions=") +
+                     (sphere ? "4, 2" : "7, 2, 1")};
+        const auto check = [&](const std::string &what,
+                               const Settings    &loads,
+                               const double       pressure) {
+          const std::string name =
+            (sphere ? "spheres, " : "cylinders, ") + what;
+          const StepSummary step =
+            run_scene(fit(sphere), common + loads).steps.back();
+          const ContactSummary &of = contact_of(step);
+          if (pressure > 0.)
+            {
+              verdict(name + ": pressure",
+                      std::fabs(of.pressure_mean / pressure - 1.),
+                      1e-4);
+              verdict(name + ": all press", of.inactive, 0);
+            }
+          else
+            verdict(name + ": nothing presses", of.active, 0);
+          check_signs(name, step);
+        };
+        const std::string none    = "Body inner/Boundary inside/Pressure=0";
+        const std::string fits    = "Interface glue/Offset=-0.01";
+        const double      opens   = sphere ? 1.563786008 : 0.7407407407;
+        const auto        tension = [&](const double share) {
+          return "Body outer/Boundary outside/Pressure=" +
+                 number(-share * opens);
+        };
+        const double pressure = sphere ? 1.819923372 : 0.7545271630;
+        check("press fit", {none, fits}, pressure);
+        check("pulled by half", {none, fits, tension(0.5)}, 0.5 * pressure);
+        check("pulled nearly open",
+              {none, fits, tension(0.99)},
+              0.01 * pressure);
+        check("pulled open", {none, fits, tension(1.01)}, 0.);
+        const std::string gap      = "Interface glue/Offset=0.01";
+        const double      closes   = sphere ? 33.33333333 : 8.241758242;
+        const auto        inflated = [](const double by) {
+          return "Body inner/Boundary inside/Pressure=" + number(by);
+        };
+        check("inflated to 60",
+              {inflated(60.), gap},
+              sphere ? 1.455938697 : 4.738430584);
+        check("inflated too little", {inflated(0.99 * closes), gap}, 0.);
+      }
+  }
+
+  /// The upper block is pushed on one half and pulled on the other.
+  void
+  check_part()
+  {
+    for (const unsigned int p : {1, 2, 4})
+      {
+        const Settings settings =
+          contact + degrees("lower", "upper", p) +
+          Settings{"Body upper/Mesh/Extent=0, 0, 1, 1, 1, 1.5",
+                   "Body upper/Boundary zmax/Displacement=-, -, 0.01*(x - 0.6)",
+                   "Body lower/Mesh/Subdivisions=6, 3, 4",
+                   "Body upper/Mesh/Subdivisions=8, 4, 2"};
+        const StepSummary step = run_scene(two_blocks(), settings).steps.back();
+        const std::string what = "a part opens, degree " + std::to_string(p);
+        const auto       &of   = contact_of(step);
+        verdict(what + ": some press", of.active > 0 ? 0. : 1., 0.);
+        verdict(what + ": some do not", of.inactive > 0 ? 0. : 1., 0.);
+        verdict(what + ": forces balance",
+                *step.interfaces.front().force_residual,
+                1e-10);
+        check_signs(what, step);
+      }
+  }
+
+  /// Pushed, pulled apart and pushed again: nothing remembers.
+  void
+  check_steps()
+  {
+    const Settings settings =
+      contact + degrees("lower", "upper", 2) +
+      Settings{"Steps/End time=4",
+               "Steps/Step=0.25",
+               "Body upper/Boundary zmax/Displacement=-, -, "
+               "-0.011*sin(t*pi/2)*(1 + sin(t*pi/2)*x)"};
+    const auto   steps = run_scene(two_blocks(), settings).steps;
+    const auto  &first = contact_of(steps[2]), &open = contact_of(steps[11]);
+    unsigned int most = 0;
+    for (unsigned int k = 1; k < steps.size(); ++k)
+      most = std::max<unsigned int>(most, *steps[k].solver->active_sets);
+    verdict("steps: number", std::fabs(double(steps.size()) - 16.), 0.);
+    verdict("steps: active sets", most, 8);
+    verdict("steps: apart on the way", open.active, 0);
+    verdict("steps: back again",
+            std::fabs(contact_of(steps[4]).force[2] / first.force[2] - 1.),
+            1e-8);
+    verdict("steps: the same area",
+            std::fabs(contact_of(steps[4]).area / first.area - 1.),
+            1e-12);
+  }
+
+  /// In units of 1e-3 for lengths and 1e9 for moduli, and the slave above.
+  void
+  check_units()
+  {
+    const auto part = [](const double unit, const double modulus) {
+      const auto box = [&](const std::vector<double> &corners) {
+        std::string text;
+        for (const double x : corners)
+          text += (text.empty() ? "" : ", ") + number(unit * x);
+        return text;
+      };
+      return contact_of(
+        run_scene(
+          two_blocks(),
+          contact + degrees("lower", "upper", 3) +
+            Settings{
+              "Body lower/Mesh/Extent=" + box({0, 0, 0, 1, 1, 1}),
+              "Body upper/Mesh/Extent=" + box({0, 0, 1, 1, 1, 1.5}),
+              "Body lower/Material/Young modulus=" + number(900. * modulus),
+              "Body upper/Material/Young modulus=" + number(300. * modulus),
+              "Body upper/Boundary zmax/Displacement=-, -, 0.01*(x - " +
+                number(0.6 * unit) + ")"})
+          .steps.back());
+    };
+    const ContactSummary one = part(1., 1.), other = part(1e-3, 1e9);
+    verdict("other units: force",
+            std::fabs(other.force[2] / (1e3 * one.force[2]) - 1.),
+            1e-8);
+    verdict("other units: active",
+            std::fabs(double(one.active) - double(other.active)),
+            0.);
+    verdict("other units: largest pressure",
+            std::fabs(other.pressure_max / (1e9 * one.pressure_max) - 1.),
+            1e-8);
+  }
+
+  void
+  check_message(const std::string &what,
+                const std::string &text,
+                const Settings    &settings,
+                const std::string &expected)
+  {
+    std::string message;
+    try
+      {
+        run_scene(text, settings);
+      }
+    catch (const InputError &error)
+      {
+        message = error.what();
+      }
+    verdict(what, message.find(expected) == std::string::npos ? 1. : 0., 0.);
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_blocks();
+  check_fits();
+  check_part();
+  check_steps();
+  check_units();
+  check_message("contact that is lost",
+                two_blocks(),
+                contact + Settings{"Body upper/Boundary zmax/Displacement=",
+                                   "Body upper/Boundary zmax/Traction=0, 0, 1"},
+                "Contact is lost");
+  check_message("triangles of degree 2",
+                two_blocks(),
+                contact + degrees("lower", "upper", 2) +
+                  Settings{"Body lower/Mesh/Cells=tetrahedra"},
+                "pressures at nodes");
+}
