@@ -1,9 +1,14 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/error.h>
+#include <mortise/body/boundary_faces.h>
 #include <mortise/problem/step_results.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace mortise
 {
@@ -97,13 +102,96 @@ namespace mortise
       return result;
     }
 
+    /// Displacements of vertices on one side of an interface, by component
+    /// from the least to the largest.
+    class MotionRange
+    {
+    public:
+      void
+      add(const Body           &body,
+          const BodyVector     &displacement,
+          const SideParameters &side)
+      {
+        for (const BoundaryFace &face :
+             boundary_faces(body, body.boundary_id(side.boundary, "")))
+          if (face.cell->is_locally_owned())
+            {
+              const auto of_face = face.cell->face(face.number);
+              for (unsigned int v = 0; v < of_face->n_vertices(); ++v)
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    const double u = displacement(of_face->vertex_dof_index(
+                      v, c, face.cell->active_fe_index()));
+                    least[c]       = std::min(least[c], u);
+                    most[c]        = std::max(most[c], u);
+                  }
+            }
+      }
+
+      /// The most by which two of them differ. Collective.
+      double
+      width(const MPI_Comm comm) const
+      {
+        double square = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          square += std::pow(Utilities::MPI::max(most[c], comm) -
+                               Utilities::MPI::min(least[c], comm),
+                             2);
+        return std::sqrt(square);
+      }
+
+    private:
+      static constexpr double none = std::numeric_limits<double>::max();
+      std::array<double, dim> least{{none, none, none}};
+      std::array<double, dim> most{{-none, -none, -none}};
+    };
+
+    /// Throws InputError where a face without a partner could have met one.
+    void
+    check_partners(const RunContext     &run,
+                   const Discretisation &discretisation,
+                   const unsigned int    i,
+                   const StepFields     &fields)
+    {
+      const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
+      const InterfaceHandler    &interface =
+        *discretisation.interfaces().all()[i].interface;
+      MotionRange range;
+      for (const SideParameters *side : {&sides.slave, &sides.master})
+        range.add(*discretisation.bodies()[side->body],
+                  fields.solutions[side->body].displacement,
+                  *side);
+      const double       moved = range.width(run.comm);
+      std::ostringstream text;
+      for (unsigned int s = 0; s < interface.coverage().size(); ++s)
+        if (const SurfaceFace &face = interface.slave().faces[s];
+            interface.coverage()[s] < 0.99 && text.str().empty() &&
+            moved > sides.search_distance * face.size)
+          text << "Interface " << interface.name()
+               << ": its sides move by up to " << RunLog::number(moved)
+               << " against each other, but the face at "
+               << interface.slave()
+                    .cells[s]
+                    ->face(interface.slave().face_numbers[s])
+                    ->center()
+               << " has looked for partners only as far as "
+               << RunLog::number(sides.search_distance * face.size)
+               << ", so that contact there would go unseen; allowed: a larger "
+                  "Search distance, or smaller displacements";
+      throw_if_any(text.str(), run.comm);
+    }
+
     void
     add_contact(const RunContext     &run,
                 const Discretisation &discretisation,
                 const SolvedStep     &solved,
+                const StepFields     &fields,
                 StepSummary          &summary)
     {
-      const auto   &interfaces = discretisation.interfaces().all();
+      const auto &interfaces = discretisation.interfaces().all();
+      for (unsigned int i = 0; i < interfaces.size(); ++i)
+        if (interfaces[i].is_contact)
+          check_partners(run, discretisation, i, fields);
       const Vector  gaps = discretisation.gaps(solved.load, solved.solution);
       const double *gap  = gaps.begin();
       const double *pressure = solved.solution.multiplier.begin();
@@ -138,7 +226,7 @@ namespace mortise
         summary.interfaces[i].moment_residual = errors.moment;
       }
     if (discretisation.interfaces().have_contact())
-      add_contact(run, discretisation, solved, summary);
+      add_contact(run, discretisation, solved, fields, summary);
     if (const auto &exact = solved.data.exact())
       summary.errors = errors_of(discretisation, *exact, fields);
     for (const PointQuantity &quantity : run.parameters.output.points)

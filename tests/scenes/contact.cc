@@ -281,6 +281,14 @@ main(int argc, char *argv[])
                 contact + Settings{"Body upper/Boundary zmax/Displacement=",
                                    "Body upper/Boundary zmax/Traction=0, 0, 1"},
                 "Contact is lost");
+  check_message("partners out of sight",
+                two_blocks(),
+                contact +
+                  Settings{"Body upper/Mesh/Extent=0, 0, 1.01, 1.2, 1, 1.5",
+                           "Body lower/Mesh/Extent=0, 0, 0, 1.4, 1, 1",
+                           "Body upper/Boundary zmax/Displacement=-, -, -0.02",
+                           "Interface glue/Search distance=0.02"},
+                "would go unseen");
   check_message("triangles of degree 2",
                 two_blocks(),
                 contact + degrees("lower", "upper", 2) +

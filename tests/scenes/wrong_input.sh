@@ -65,6 +65,7 @@ expect 2 'Normal stiffness: got nothing with Law = spring' "$scene" --set 'Inter
 expect 2 'allowed: a positive stiffness' "$scene" --set 'Interface glue/Law=spring' \
   --set 'Interface glue/Normal stiffness=-1' --set 'Interface glue/Tangential stiffness=1'
 expect 2 'only Law = spring has stiffnesses' "$scene" --set 'Interface glue/Tangential stiffness=1'
+expect 2 'Mesh gap.*did you mean "ignored"' "$scene" --set 'Interface glue/Law=contact' --set 'Interface glue/Mesh gap=ignore'
 expect 2 'Offset .*is inf at' "$scene" --set 'Interface glue/Offset=1/(x-x)'
 # bodies that slide across an edge that ends within a smooth surface
 cat >"$work/corner.geo" <<'END'
