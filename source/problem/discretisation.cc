@@ -89,8 +89,8 @@ namespace mortise
         "" :
         "Interface " + no_sign +
           ": Law = contact needs multipliers that are pressures at nodes, and those of the slave are not; allowed are "
-          "hexahedra of one degree without hanging nodes and tetrahedra of degree 1 there, whose edges are not clamped "
-          "from degree 2 on. Exchange slave and master if the other side is like that",
+          "slaves of degree 1, and hexahedra of one higher degree without hanging nodes, clamped edges and faces that "
+          "are covered in part. Exchange slave and master if the other side is like that",
       run.comm);
   }
 

@@ -81,7 +81,7 @@ def main():
 Regenerate: `tests/benchmarks/contact.py build/mortise` (writes this page).
 
 Missed so far: the contact of `prm/rocking.prm` costs more than three ties (the goal, last column of the last table); no contact on
-slaves with triangles above degree 1, with hanging nodes above degree 1, or with a clamped edge above degree 1 (refused with the reason); partners
+slaves above degree 1 with triangles, hanging nodes, clamped edges or faces covered in part (refused with the reason); partners
 are those within `Search distance` at the start (where a face without one could have met one the run ends with exit code 2); no fields of gap and status.
 
 ## Press fit of cylinders
