@@ -300,6 +300,8 @@ namespace mortise
           vector->update_ghost_values();
         for_each_flat_cell(
           [&](const Body &body, const auto &cell, const auto &nodes) {
+            if (!body.mesh.tetrahedra)
+              return; // all its nodes lie on lines
             const auto across = nodes_across(cell, space.degree(body, cell));
             for (const auto &[i, entries] : across.others)
               if (space.owned_nodes().is_element(nodes[i]))
