@@ -1,4 +1,6 @@
 // See active_set.h.
+#include <deal.II/base/array_view.h>
+
 #include <mortise/contact/active_set.h>
 
 #include <algorithm>
@@ -10,13 +12,22 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Less than that of a length is rounding.
+    constexpr double rounding_of_gaps = 1e-13;
+  } // namespace
+
   ActiveSet::ActiveSet(std::vector<bool>             one_sided,
+                       std::vector<double>           stiffness,
                        const types::global_dof_index first,
                        const MPI_Comm                comm)
     : one_sided(std::move(one_sided))
+    , stiffness(std::move(stiffness))
     , first(first)
     , comm(comm)
     , now(this->one_sided.size(), true)
+    , unclear(this->one_sided.size(), false)
   {}
 
   void
@@ -28,50 +39,65 @@ namespace mortise
   }
 
   ActiveSet::Change
-  ActiveSet::advance(const double *multiplier,
-                     const double *gap,
-                     const double  length,
-                     const double  accuracy)
+  ActiveSet::advance(const double                                   *multiplier,
+                     const double                                   *gap,
+                     const double                                    length,
+                     const double                                    accuracy,
+                     const std::function<void(std::vector<bool> &)> &extend)
   {
     seen.insert(fingerprint());
-    double largest = 0.;
-    for (unsigned int i = 0; i < now.size(); ++i)
-      if (one_sided[i])
-        largest = std::max(largest, std::fabs(multiplier[i]));
-    const double least_pressure =
-                   -accuracy * Utilities::MPI::max(largest, comm),
-                 least_gap = -accuracy * length;
-    std::vector<unsigned int> wrong;
-    Change                    change;
+    double largest[2] = {0., 0.}; // of pressures, of gaps that overlap
     for (unsigned int i = 0; i < now.size(); ++i)
       if (one_sided[i])
         {
-          if (now[i] ? multiplier[i] < least_pressure : gap[i] < least_gap)
-            wrong.push_back(i);
-          else if (now[i] ? multiplier[i] <= -least_pressure :
-                            gap[i] <= -least_gap)
-            ++change.undecided;
+          largest[0] = std::max(largest[0], std::fabs(multiplier[i]));
+          largest[1] = std::max(largest[1], -gap[i] * stiffness[i]);
+        }
+    Utilities::MPI::max(ArrayView<const double>(largest),
+                        comm,
+                        ArrayView<double>(largest));
+    const double least = accuracy * (largest[0] > 0. ? largest[0] : largest[1]);
+    std::vector<bool> turns(now.size(), false);
+    for (unsigned int i = 0; i < now.size(); ++i)
+      if (one_sided[i])
+        {
+          const double value = now[i] ? multiplier[i] : gap[i],
+                       small = now[i] ? least :
+                                        std::max(least / stiffness[i],
+                                                 rounding_of_gaps * length);
+          turns[i]           = value < -small;
+          unclear[i]         = !turns[i] && value <= small;
         }
     const auto none = std::numeric_limits<types::global_dof_index>::max();
-    const auto least =
-      Utilities::MPI::min(wrong.empty() ? none : first + wrong.front(), comm);
-    const auto turn = [&](const bool only_least) {
-      for (const unsigned int i : wrong)
-        if (!only_least || first + i == least)
-          now[i] = !now[i];
+    const auto mine = std::find(turns.begin(), turns.end(), true);
+    const auto least_wrong = Utilities::MPI::min(
+      mine == turns.end() ? none : first + (mine - turns.begin()), comm);
+    const std::vector<bool> before = now;
+    const auto              turn   = [&] {
+      for (unsigned int i = 0; i < now.size(); ++i)
+        now[i] = before[i] != turns[i];
     };
-    turn(one_by_one);
-    if (!one_by_one && seen.count(fingerprint()) > 0 && least != none)
+    if (!one_by_one && least_wrong != none)
       {
-        turn(false); // back
-        one_by_one = true;
-        turn(true);
+        if (extend)
+          extend(turns);
+        turn();
+        if (seen.count(fingerprint()) > 0)
+          one_by_one = true;
       }
-    for (const unsigned int i : wrong)
-      if (!one_by_one || first + i == least)
-        ++(now[i] ? change.closed : change.opened);
-    std::uint64_t counts[] = {change.opened, change.closed, change.undecided};
-    std::uint64_t sums[3];
+    if (one_by_one)
+      {
+        for (unsigned int i = 0; i < now.size(); ++i)
+          turns[i] = first + i == least_wrong;
+        turn();
+      }
+    std::uint64_t counts[3] = {0, 0, 0}, sums[3];
+    for (unsigned int i = 0; i < now.size(); ++i)
+      {
+        counts[0] += turns[i] && before[i] ? 1 : 0;
+        counts[1] += turns[i] && !before[i] ? 1 : 0;
+        counts[2] += unclear[i] ? 1 : 0;
+      }
     MPI_Allreduce(counts, sums, 3, MPI_UINT64_T, MPI_SUM, comm);
     return {sums[0], sums[1], sums[2]};
   }

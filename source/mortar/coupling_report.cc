@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "multiplier_sums.h"
 
@@ -200,34 +201,49 @@ namespace mortise
   }
 
   std::vector<std::vector<double>>
+  values_by_row(const Coupling &coupling,
+                const Vector   &multiplier,
+                const MPI_Comm  comm)
+  {
+    std::vector<std::vector<double>> values;
+    IndexSet relevant = multiplier.locally_owned_elements();
+    for (const auto &rows : coupling.multipliers->rows())
+      {
+        values.emplace_back(rows.begin.size() - 1);
+        relevant.add_indices(rows.index.begin(), rows.index.end());
+      }
+    if (multiplier.size() == 0)
+      return values;
+    relevant.compress();
+    Vector ghosted(multiplier.locally_owned_elements(), relevant, comm);
+    ghosted = multiplier;
+    for (unsigned int s = 0; s < values.size(); ++s)
+      {
+        const auto &rows = coupling.multipliers->rows()[s];
+        for (unsigned int r = 0; r < values[s].size(); ++r)
+          for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+            values[s][r] += rows.weight[e] * ghosted(rows.index[e]);
+      }
+    return values;
+  }
+
+  std::vector<std::vector<double>>
   multiplier_coefficients(const Coupling &coupling,
                           const Vector   &multiplier,
                           const MPI_Comm  comm)
   {
+    const auto values = values_by_row(coupling, multiplier, comm);
     std::vector<std::vector<double>> coefficients;
-    for (const auto &rows : coupling.multipliers->rows())
-      coefficients.emplace_back(dim * rows.n_nodes(), 0.);
-    if (multiplier.size() == 0)
-      return coefficients;
-    IndexSet relevant = multiplier.locally_owned_elements();
-    for (const auto &rows : coupling.multipliers->rows())
-      relevant.add_indices(rows.index.begin(), rows.index.end());
-    relevant.compress();
-    Vector ghosted(multiplier.locally_owned_elements(), relevant, comm);
-    ghosted = multiplier;
-
-    for (unsigned int s = 0; s < coefficients.size(); ++s)
+    for (unsigned int s = 0; s < values.size(); ++s)
       {
         const auto        &rows = coupling.multipliers->rows()[s];
         const unsigned int n    = rows.n_nodes();
-        for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+        coefficients.emplace_back(dim * n, 0.);
+        for (unsigned int r = 0; r < values[s].size(); ++r)
           {
-            double value = 0.;
-            for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-              value += rows.weight[e] * ghosted(rows.index[e]);
             const Tensor<1, dim> direction = rows.direction(r);
             for (unsigned int c = 0; c < dim; ++c)
-              coefficients[s][c * n + r % n] += value * direction[c];
+              coefficients[s][c * n + r % n] += values[s][r] * direction[c];
           }
       }
     return coefficients;
@@ -260,22 +276,18 @@ namespace mortise
     for (unsigned int s = 0; s < coefficients.size(); ++s)
       {
         const auto        &rows   = coupling.multipliers->rows()[s];
-        const FaceTrace   &trace  = coupling.interface->slave().traces[s];
-        const unsigned int n      = trace.n_functions();
+        const unsigned int n      = rows.n_nodes();
         const auto         values = along_directions(rows, coefficients[s]);
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
           if (rows.begin[r + 1] == rows.begin[r] + 1)
             multiplier[rows.index[rows.begin[r]]] =
               values[r] / rows.weight[rows.begin[r]];
-        const FullMatrix<double> &functions =
-          face_nodal_basis(trace.shape, trace.degree).functions;
-        for (const auto &[row, index] : rows.hierarchical)
-          {
-            double sum = 0.;
-            for (unsigned int k = 0; k < n; ++k)
-              sum += functions(row % n, k) * values[row - row % n + k];
-            multiplier[index] = sum;
-          }
+        for (const auto &coefficient : rows.coefficients)
+          multiplier[coefficient.index] =
+            std::inner_product(coefficient.of_values.begin(),
+                               coefficient.of_values.end(),
+                               values.begin() + coefficient.direction * n,
+                               0.);
       }
   }
 

@@ -2,12 +2,15 @@
 // MultiplierSpace::number().
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/multiplier_space.h>
 #include <mortise/mortar/nodal_block.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "signed_multipliers.h"
 
 namespace mortise
 {
@@ -18,25 +21,7 @@ namespace mortise
     using Index        = MultiplierSpace::Index;
     using Dofs         = std::vector<Index>;
     using ByDof        = LinearAlgebra::distributed::Vector<double>;
-    using Combination  = std::vector<std::pair<Index, double>>; ///< of dofs
     using Combinations = std::vector<Combination>;
-
-    /// to += factor * other
-    void
-    add(Combination &to, const double factor, const Combination &other)
-    {
-      for (const auto &[dof, weight] : other)
-        {
-          const auto found =
-            std::find_if(to.begin(), to.end(), [dof = dof](const auto &entry) {
-              return entry.first == dof;
-            });
-          if (found == to.end())
-            to.emplace_back(dof, factor * weight);
-          else
-            found->second += factor * weight;
-        }
-    }
 
     /// The functions of each edge, then those inside.
     std::vector<std::vector<unsigned int>>
@@ -64,13 +49,25 @@ namespace mortise
         flags = 0.;
       }
 
+      /// Where @p presses_only, values at the nodes of a face have the sign of
+      /// the pressure only where multipliers are dual and none is missing
+      /// inside.
       void
-      add(const TraceBasis &basis, const Dofs &dofs)
+      add(const TraceBasis &basis,
+          const Dofs       &dofs,
+          const bool        presses_only,
+          const bool        is_dual)
       {
-        for (const auto &entity : edges_and_inside(basis))
-          if (std::any_of(entity.begin(), entity.end(), [&](const auto k) {
-                return reduction.is_constrained(dofs[k]);
-              }))
+        const auto entities      = edges_and_inside(basis);
+        const auto is_incomplete = [&](const auto &entity) {
+          return std::any_of(entity.begin(), entity.end(), [&](const auto k) {
+            return reduction.is_constrained(dofs[k]);
+          });
+        };
+        const bool all =
+          presses_only && (!is_dual || is_incomplete(entities.back()));
+        for (const auto &entity : entities)
+          if (all || is_incomplete(entity))
             for (const unsigned int k : entity)
               mark(dofs[k]);
         for (unsigned int v = 0; v < basis.n_vertices(); ++v)
@@ -172,40 +169,79 @@ namespace mortise
       return values;
     }
 
-    /// The rows of a face, multipliers by their dofs. @p dofs: by direction.
-    MultiplierSpace::FaceRows
-    rows_in_dofs(const TraceBasis                &basis,
-                 const std::vector<Dofs>         &dofs,
-                 const ByDof                     &ones,
-                 const AffineConstraints<double> &reduction,
-                 const HierarchicalMultipliers   &hierarchical)
+    /// Multipliers by their dofs, in which the values at the nodes of a face
+    /// are expanded.
+    class RowsInDofs
     {
-      MultiplierSpace::FaceRows rows;
-      rows.begin = {0};
-      for (unsigned int c = 0; c < dofs.size(); ++c)
-        {
-          rows.hold_constants[c] = true;
-          const auto values =
-            values_at_nodes(basis, dofs[c], reduction, hierarchical);
-          for (unsigned int k = 0; k < values.size(); ++k)
-            {
-              double sum = 0.;
-              for (const auto &[dof, weight] : values[k])
-                {
-                  rows.index.push_back(dof);
-                  rows.weight.push_back(weight);
-                  sum += weight * ones(dof);
-                }
-              rows.begin.push_back(rows.index.size());
-              if (hierarchical.is_one(dofs[c][k]))
-                rows.hierarchical.emplace_back(c * values.size() + k,
-                                               dofs[c][k]);
-              if (basis.functions[k].dimension == 0)
-                rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
-            }
-        }
-      return rows;
-    }
+    public:
+      /// @p with_signs: null where multipliers need none.
+      RowsInDofs(const ByDof                     &ones,
+                 const AffineConstraints<double> &reduction,
+                 const HierarchicalMultipliers   &hierarchical,
+                 const SignedMultipliers         *with_signs)
+        : ones(ones)
+        , reduction(reduction)
+        , hierarchical(hierarchical)
+        , with_signs(with_signs)
+      {}
+
+      /// @p dofs: by direction.
+      MultiplierSpace::FaceRows
+      operator()(const TraceBasis &basis, const std::vector<Dofs> &dofs) const
+      {
+        MultiplierSpace::FaceRows rows;
+        rows.begin = {0};
+        for (unsigned int c = 0; c < dofs.size(); ++c)
+          {
+            const auto values =
+              with_signs ?
+                with_signs->values_at_nodes(basis, dofs[c]) :
+                values_at_nodes(basis, dofs[c], reduction, hierarchical);
+            rows.hold_constants[c] = true;
+            for (unsigned int k = 0; k < values.size(); ++k)
+              {
+                double sum = 0.;
+                for (const auto &[dof, weight] : values[k])
+                  {
+                    rows.index.push_back(dof);
+                    rows.weight.push_back(weight);
+                    sum += weight * ones(dof);
+                  }
+                rows.begin.push_back(rows.index.size());
+                if (basis.functions[k].dimension == 0)
+                  rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
+              }
+            for (auto &[dof, of_values] : coefficients(basis, dofs[c]))
+              rows.coefficients.push_back({dof, c, std::move(of_values)});
+          }
+        return rows;
+      }
+
+    private:
+      /// Multipliers that are no value at a node, and what gives them from all
+      /// of these.
+      std::vector<std::pair<Index, std::vector<double>>>
+      coefficients(const TraceBasis &basis, const Dofs &dofs) const
+      {
+        if (with_signs)
+          return with_signs->from_values(basis, dofs);
+        std::vector<std::pair<Index, std::vector<double>>> result;
+        const FullMatrix<double>                          &functions =
+          face_nodal_basis(basis.shape, basis.degree).functions;
+        for (unsigned int k = 0; k < basis.size(); ++k)
+          if (hierarchical.is_one(dofs[k]))
+            result.emplace_back(dofs[k],
+                                std::vector<double>(&functions(k, 0),
+                                                    &functions(k, 0) +
+                                                      basis.size()));
+        return result;
+      }
+
+      const ByDof                     &ones;
+      const AffineConstraints<double> &reduction;
+      const HierarchicalMultipliers   &hierarchical;
+      const SignedMultipliers         *with_signs;
+    };
 
     /// Which rows of B components share: those of multipliers at the same dofs
     /// whose parts of the values at nodes are the same on all faces.
@@ -337,19 +373,35 @@ namespace mortise
       {
         dofs.push_back(face_dofs(slave.cells[s], slave.face_numbers[s]));
         for (unsigned int c = 0; c < n_directions; ++c)
-          hierarchical.add(slave.traces[s].basis(), dofs[s][c]);
+          hierarchical.add(slave.traces[s].basis(),
+                           dofs[s][c],
+                           presses_only,
+                           has_dual[s]);
       }
     hierarchical.exchange();
+    const SignedMultipliers::Choice has_coefficients =
+      [&](const auto &functions, const auto &of_face) {
+        return hierarchical(functions, of_face);
+      };
+    SignedMultipliers with_signs(reduction, has_coefficients);
+    if (presses_only)
+      {
+        for (const auto &[cell, f] : slave.known)
+          with_signs.add_face(*CellFace(cell, f).basis, face_dofs(cell, f)[0]);
+        ones = 1.;
+        ones.update_ghost_values();
+      }
+    const RowsInDofs rows_in_dofs(ones,
+                                  reduction,
+                                  hierarchical,
+                                  presses_only ? &with_signs : nullptr);
 
     Rows result;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       {
         result.by_face.push_back(
           rows_in_dofs(slave.traces[s].basis(),
-                       {dofs[s].begin(), dofs[s].begin() + n_directions},
-                       ones,
-                       reduction,
-                       hierarchical));
+                       {dofs[s].begin(), dofs[s].begin() + n_directions}));
         if (n_directions == dim)
           shared.compare(result.by_face[s]);
         else
@@ -371,8 +423,9 @@ namespace mortise
             index               = static_cast<Index>(std::fabs(number)) - 1;
             rows.is_represented.push_back(number < 0.);
           }
-        for (auto &[row, index] : rows.hierarchical)
-          index = static_cast<Index>(std::fabs(numbers(index))) - 1;
+        for (auto &coefficient : rows.coefficients)
+          coefficient.index =
+            static_cast<Index>(std::fabs(numbers(coefficient.index))) - 1;
       }
     return result;
   }

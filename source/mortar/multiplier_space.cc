@@ -153,22 +153,24 @@ namespace mortise
                                    const BodySurface               &slave,
                                    const std::vector<PartnerState> &partners,
                                    const std::vector<bool>         &blocked,
-                                   const TiedDirections directions)
+                                   const TiedDirections             directions,
+                                   const bool presses_only)
     : body(body)
     , n_directions(directions == TiedDirections::all ? dim : 1)
+    , presses_only(presses_only)
   {
+    for (const PartnerState &partner : partners)
+      has_dual.push_back(partner.has_dual);
     const bool along_normals = directions == TiedDirections::normal;
     if (along_normals)
       normals = slave_normals(body, slave);
-    const std::vector<MultiplierFace> faces =
-      collect_multiplier_faces(body,
-                               slave,
-                               partners,
-                               along_normals ?
-                                 blocked_normals(body, slave, normals, blocked) :
-                                 blocked);
+    const std::vector<MultiplierFace> faces = collect_multiplier_faces(
+      body,
+      slave,
+      partners,
+      along_normals ? blocked_normals(body, slave, normals, blocked) : blocked);
 
-    MultiplierRecords                 records;
+    MultiplierRecords records;
     // with the dof of the first component there
     std::map<types::global_dof_index,
              std::pair<types::global_dof_index, unsigned int>>
@@ -189,8 +191,9 @@ namespace mortise
         if (face.cover >= Cover::partial)
           make_up_for_blocked_vertices(face, c, records);
 
-    const auto followers  = find_followers(body, faces, n_directions, records);
-    const auto may_follow = find_stranded(body, faces, n_directions, records, followers);
+    const auto followers = find_followers(body, faces, n_directions, records);
+    const auto may_follow =
+      find_stranded(body, faces, n_directions, records, followers);
     const StrandedVertices stranded(body, faces, may_follow);
     IndexSet               known = body.relevant_dofs;
     stranded.add_representatives(known);
@@ -217,9 +220,8 @@ namespace mortise
                                 record->second.vertex);
         }
     complete_constraints(body.dof_handler, reduction);
-    for (unsigned int s = 0; s < slave.faces.size(); ++s)
-      for (const auto &component :
-           face_dofs(slave.cells[s], slave.face_numbers[s]))
+    for (const auto &[cell, f] : slave.known)
+      for (const auto &component : face_dofs(cell, f))
         for (const auto dof : component)
           if (body.conformity.is_constrained(dof) &&
               !reduction.is_constrained(dof))

@@ -70,7 +70,9 @@ namespace mortise
         for (unsigned int s = 0; s < coupling.local.size(); ++s)
           {
             const double covered = coupling.interface->coverage()[s];
-            PartnerState state   = {cover_of(covered, true), {}};
+            PartnerState state   = {cover_of(covered, true),
+                                    {},
+                                    coupling.local[s].is_dual()};
             for (const Coupling *other : sharing)
               if (goes_in_front(*other, coupling, s))
                 state.cover = cover_of(covered, false);

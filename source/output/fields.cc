@@ -255,7 +255,8 @@ namespace mortise
       return vector;
     }
 
-    /// Gap by local projection on each face: that of x_master - x_slave, as multipliers see it.
+    /// Gap by local projection on each face: that of x_master - x_slave, as
+    /// multipliers see it.
     std::vector<std::vector<double>>
     gap_coefficients(const Coupling &coupling)
     {
@@ -312,15 +313,14 @@ namespace mortise
                          degree,
                          body.mesh.curved ? DataOut<dim>::curved_inner_cells :
                                             DataOut<dim>::no_curved_cells);
-    write_vtu_file(output,
-                   file,
-                   body.triangulation().get_communicator());
+    write_vtu_file(output, file, body.triangulation().get_communicator());
   }
 
   void
   write_interface_fields(const Body                             &slave_body,
                          const Coupling                         &coupling,
                          const std::vector<std::vector<double>> &coefficients,
+                         const std::vector<std::vector<double>> &contact,
                          const BodyVector                       &displacement,
                          const std::string                      &file)
   {
@@ -330,13 +330,18 @@ namespace mortise
                               slave_body.triangulation().get_communicator()},
                              surface,
                              coefficients,
-                             gap_coefficients(coupling),
+                             coupling.is_contact ? contact :
+                                                   gap_coefficients(coupling),
+                             coupling.is_contact,
                              displacement);
     const unsigned int degree = slave_body.max_degree();
     const BodyVector   traction =
       from_faces(slave_body, surface, coefficients, -1.);
     const BodyVector gap =
-      from_faces(slave_body, surface, gap_coefficients(coupling), 1.);
+      from_faces(slave_body,
+                 surface,
+                 coupling.is_contact ? contact : gap_coefficients(coupling),
+                 1.);
 
     SurfaceOutput output(surface);
     output.set_flags(flags(degree));
@@ -348,11 +353,14 @@ namespace mortise
                              vector_field);
     };
     add(traction, "traction");
-    add(gap, "gap");
+    if (coupling.is_contact)
+      output.add_data_vector(gap,
+                             contact_field_names(),
+                             DataOutFaces<dim>::type_dof_data);
+    else
+      add(gap, "gap");
     add(displacement, "displacement");
     output.build_patches(*slave_body.mapping, degree);
-    write_vtu_file(output,
-                   file,
-                   slave_body.triangulation().get_communicator());
+    write_vtu_file(output, file, slave_body.triangulation().get_communicator());
   }
 } // namespace mortise

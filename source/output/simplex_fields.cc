@@ -89,9 +89,7 @@ namespace mortise
                           body.material,
                           selection));
         }
-    write_vtu_file(output,
-                   file,
-                   body.triangulation().get_communicator());
+    write_vtu_file(output, file, body.triangulation().get_communicator());
   }
 
   namespace
@@ -120,14 +118,20 @@ namespace mortise
                   const BodySurface                      &surface,
                   const std::vector<std::vector<double>> &multiplier,
                   const std::vector<std::vector<double>> &gap,
+                  const bool                              is_contact,
                   const BodyVector                       &displacement)
   {
     unsigned int degree = 1;
     for (const FaceTrace &trace : surface.traces)
       degree = std::max(degree, trace.degree);
     SimplexPatches<2> output(Utilities::MPI::max(degree, file.comm));
-    for (const char *name : {"traction", "gap", "displacement"})
-      output.add_field(name, dim);
+    output.add_field("traction", dim);
+    if (!is_contact)
+      output.add_field("gap", dim);
+    else
+      for (const std::string &name : contact_field_names())
+        output.add_field(name, 1);
+    output.add_field("displacement", dim);
 
     for (unsigned int s = 0; s < surface.faces.size(); ++s)
       {

@@ -71,8 +71,10 @@ namespace mortise
       visit("pressure_mean", contact.pressure_mean);
       visit("pressure_max", contact.pressure_max);
       visit("gap_min", contact.gap_min);
+      visit("penetration_max", contact.penetration_max);
       visit("active", contact.active);
       visit("inactive", contact.inactive);
+      visit("undecided", contact.undecided);
     }
 
     template <typename Visit>

@@ -18,13 +18,38 @@ namespace mortise
     constexpr unsigned int max_sets = 100;
 
     /// Of solves on the way to the set: doc/contact.md.
-    constexpr double loose = 1e-3;
+    constexpr double loose = 1e-2;
+
+    /// Of it, from one to the next where signs are not known yet.
+    constexpr double finer = 1e-2;
+
+    /// More of them tell of a preconditioner that has seen too little.
+    constexpr unsigned int few_iterations = 40;
 
     types::global_dof_index
     first_multiplier(const BlockSystem &system)
     {
       const auto &owned = system.owned_multiplier;
       return owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+    }
+
+    ContactEdge
+    make_edge(const Discretisation &discretisation, const MPI_Comm comm)
+    {
+      std::vector<Point<dim>>   places;
+      std::vector<unsigned int> surfaces; // 0: no contact
+      const auto               &all = discretisation.interfaces().all();
+      for (unsigned int i = 0; i < all.size(); ++i)
+        {
+          const auto &pressing = discretisation.pressing()[i];
+          for (unsigned int k = 0; k < all[i].multipliers->n_owned(); ++k)
+            {
+              surfaces.push_back(pressing.empty() ? 0 : 1 + i);
+              places.push_back(pressing.empty() ? Point<dim>() :
+                                                  pressing[k].place);
+            }
+        }
+      return {std::move(places), std::move(surfaces), comm};
     }
   } // namespace
 
@@ -35,8 +60,10 @@ namespace mortise
     , discretisation(discretisation)
     , solver(solver)
     , set(discretisation.one_sided(),
+          discretisation.gap_stiffness(),
           first_multiplier(discretisation.linear_system()),
           run.comm)
+    , edge(make_edge(discretisation, run.comm))
   {}
 
   bool
@@ -87,25 +114,46 @@ namespace mortise
                          SystemVector    &x)
   {
     discretisation.select(set.active());
-    // coarse levels go on with the ties that they saw until it pays that they
-    // see those of now
-    const bool is_last = tolerance == run.parameters.solver.tolerance;
-    if (!is_shown || (is_last && differs_from_shown()))
-      {
-        shown    = set.active();
-        is_shown = true;
-        discretisation.show_active();
-        solver.update();
-      }
+    const unsigned int most    = run.parameters.solver.max_iterations;
+    const bool         is_last = tolerance == run.parameters.solver.tolerance;
+    // preconditioners go on with the ties that they saw until it pays that they
+    // see those of now; smoothers know too little of many new ones
+    const bool shows = !is_shown || (is_last && differs_from_shown()) ||
+                       set.n_active() > 2 * n_shown;
+    if (shows)
+      show();
     else
       solver.update_active();
-    solver.set_tolerance(tolerance);
+    const auto run_from = [&](const SystemVector &start,
+                              const unsigned int  max_iterations) {
+      solver.set_limits(tolerance, max_iterations);
+      if (start.multiplier.size() > 0)
+        solver.remember(load.rhs, start);
+      return solver.solve(load.rhs, x);
+    };
     if (x.multiplier.size() > 0)
-      {
-        discretisation.linear_system().clear_inactive(x.multiplier.begin());
-        solver.remember(load.rhs, x);
-      }
-    return solver.solve(load.rhs, x);
+      discretisation.linear_system().clear_inactive(x.multiplier.begin());
+    const SystemVector start = x;
+    const SolveReport  first =
+      run_from(start, shows ? most : std::min(most, few_iterations));
+    if (first.converged || shows)
+      return first;
+    show();
+    SolveReport report = run_from(start, most);
+    report.iterations += first.iterations;
+    report.setup_seconds += first.setup_seconds;
+    report.solve_seconds += first.solve_seconds;
+    return report;
+  }
+
+  void
+  ContactStep::show()
+  {
+    shown    = set.active();
+    n_shown  = set.n_active();
+    is_shown = true;
+    discretisation.show_active();
+    solver.update();
   }
 
   void
@@ -135,6 +183,7 @@ namespace mortise
     start(load, last);
     SolveReport report;
     double      setup_seconds = 0., solve_seconds = 0.;
+    bool        extends = true, extended = false;
     iterations = 0;
     sets       = 1;
     while (true)
@@ -150,11 +199,21 @@ namespace mortise
         const double length =
           std::max(gaps.linfty_norm(), x.displacement.linfty_norm());
         // what a linear solve leaves is no reason to open or close
-        const double            accuracy = std::max(1e-10, 10. * tolerance);
+        const double            accuracy = std::max(1e-10, tolerance);
         ActiveSet               next     = set;
         const ActiveSet::Change change =
-          next.advance(x.multiplier.begin(), gaps.begin(), length, accuracy);
+          next.advance(x.multiplier.begin(),
+                       gaps.begin(),
+                       length,
+                       accuracy,
+                       [&](std::vector<bool> &turns) {
+                         if (tolerance > asked && extends)
+                           edge.extend(set.active(), turns);
+                       });
+        unclear = next.undecided();
         print(set.n_active(), change, report.iterations);
+        extends  = extends && !(extended && change.closed > 0);
+        extended = extended || change.opened > 0;
         const std::string free =
           change.any() ? free_motions(next.active()) : "";
         if (tolerance == asked)
@@ -166,9 +225,12 @@ namespace mortise
                                "what still presses holds no longer. " +
                                free);
           }
-        else if (!change.any() || !free.empty())
+        else if (!change.any() || !free.empty() || next.cycles())
           {
-            tolerance = asked; // and ask again
+            // and ask again; what is open until the end costs more there
+            extends = extends && !next.cycles();
+            tolerance =
+              change.undecided > 0 ? std::max(asked, finer * tolerance) : asked;
             set.start_from(set.active());
             continue;
           }

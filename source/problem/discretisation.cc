@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace mortise
 {
@@ -72,7 +73,7 @@ namespace mortise
   void
   Discretisation::prepare_contact()
   {
-    std::string no_sign;
+    std::string nowhere;
     for (const Coupling &coupling : couplings.all())
       {
         auto &all = normal_multipliers_of_contact.emplace_back();
@@ -80,17 +81,16 @@ namespace mortise
           continue;
         all = normal_multipliers(coupling, system.owned_multiplier, run.comm);
         if (std::any_of(all.begin(), all.end(), [](const auto &multiplier) {
-              return !multiplier.has_sign;
+              return !(multiplier.area > 0.);
             }))
-          no_sign = coupling.interface->name();
+          nowhere = coupling.interface->name();
       }
     throw_if_any(
-      no_sign.empty() ?
+      nowhere.empty() ?
         "" :
-        "Interface " + no_sign +
-          ": Law = contact needs multipliers that are pressures at nodes, and those of the slave are not; allowed are "
-          "slaves of degree 1, and hexahedra of one higher degree without hanging nodes, clamped edges and faces that "
-          "are covered in part. Exchange slave and master if the other side is like that",
+        "Interface " + nowhere +
+          ": a multiplier of the contact has no area, since too "
+          "little of its faces has a partner; move the surfaces, or exchange slave and master",
       run.comm);
   }
 
@@ -102,6 +102,23 @@ namespace mortise
       result.insert(result.end(),
                     coupling.multipliers->n_owned(),
                     coupling.is_contact);
+    return result;
+  }
+
+  std::vector<double>
+  Discretisation::gap_stiffness() const
+  {
+    std::vector<double> result;
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      {
+        for (const NormalMultiplier &multiplier :
+             normal_multipliers_of_contact[i])
+          result.push_back(multiplier.stiffness);
+        if (normal_multipliers_of_contact[i].empty())
+          result.insert(result.end(),
+                        couplings.all()[i].multipliers->n_owned(),
+                        0.);
+      }
     return result;
   }
 
@@ -129,14 +146,15 @@ namespace mortise
   {
     auto              stage        = run.log.stage(run.timers, "bulk");
     const SceneField &displacement = spaces.fields.displacement;
-    system.nodal                   = std::make_unique<NodalSystem>(
-      std::move(spaces.nodal),
-      std::move(spaces.nodal_pressures),
-      NodalSystem::Scene{displacement.numbering,
-                         displacement.constraints,
-                         couplings.all(),
-                         spaces.choice.method != SolverMethod::direct},
-      run.comm);
+    system.nodal =
+      std::make_unique<NodalSystem>(std::move(spaces.nodal),
+                                    std::move(spaces.nodal_pressures),
+                                    NodalSystem::Scene{displacement.numbering,
+                                                       displacement.constraints,
+                                                       couplings.all(),
+                                                       spaces.choice.method !=
+                                                         SolverMethod::direct},
+                                    run.comm);
     system.coupling.constrain(system.nodal->levels().front().constrained);
     const auto n_levels = system.nodal->levels().size();
     stage.details(std::to_string(n_levels) +
@@ -221,12 +239,8 @@ namespace mortise
                                 load);
     if (prescribed_columns.m() > 0)
       {
-        const auto &numbering = spaces.fields.displacement.numbering;
-        Vector      g(numbering.owned(), run.comm);
-        for (const auto &[dof, value] : load.prescribed)
-          if (numbering.owned().is_element(dof))
-            g[dof] = -value;
-        g.compress(VectorOperation::insert);
+        Vector g = prescribed_vector(load);
+        g *= -1.;
         prescribed_columns.vmult(load.rhs.multiplier, g);
       }
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
@@ -288,8 +302,33 @@ namespace mortise
   Discretisation::solutions(const SceneLoad    &load,
                             const SystemVector &solution) const
   {
-    return body_solutions(
-      spaces.bodies, spaces.fields, system, load, solution);
+    return body_solutions(spaces.bodies, spaces.fields, system, load, solution);
+  }
+
+  Vector
+  Discretisation::prescribed_vector(const SceneLoad &load) const
+  {
+    const IndexSet &owned = spaces.fields.displacement.numbering.owned();
+    Vector          result(owned, run.comm);
+    for (const auto &[dof, value] : load.prescribed)
+      if (owned.is_element(dof))
+        result[dof] = value;
+    result.compress(VectorOperation::insert);
+    return result;
+  }
+
+  TraceDisplacement
+  Discretisation::trace_displacement(
+    const SceneLoad                 &load,
+    const std::vector<BodySolution> &solutions) const
+  {
+    const auto &numbering = spaces.fields.displacement.numbering;
+    Vector      all(numbering.owned(), run.comm);
+    for (unsigned int b = 0; b < solutions.size(); ++b)
+      for (const auto dof : solutions[b].displacement.locally_owned_elements())
+        all[numbering(b, dof)] = solutions[b].displacement(dof);
+    all.compress(VectorOperation::insert);
+    return {std::move(all), prescribed_vector(load)};
   }
 
   SystemVector
@@ -345,9 +384,9 @@ namespace mortise
            statistics.degree_max,
            body->dof_handler.n_dofs()});
       }
-    const auto n_pressures  = spaces.fields.pressure.numbering.size();
-    step.dofs.displacement  = spaces.fields.displacement.numbering.size();
-    step.dofs.total         = step.dofs.displacement + n_pressures;
+    const auto n_pressures = spaces.fields.pressure.numbering.size();
+    step.dofs.displacement = spaces.fields.displacement.numbering.size();
+    step.dofs.total        = step.dofs.displacement + n_pressures;
     if (n_pressures > 0)
       step.dofs.pressure = n_pressures;
     if (!couplings.all().empty())

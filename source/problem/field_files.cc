@@ -96,6 +96,9 @@ namespace mortise
           write_interface_fields(*bodies[slave],
                                  coupling,
                                  fields.tractions[i],
+                                 fields.contact.empty() ?
+                                   std::vector<std::vector<double>>() :
+                                   fields.contact[i],
                                  fields.solutions[slave].displacement,
                                  directory + "/" +
                                    file_name(coupling.interface->name(), step));

@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/mortar/shared_displacements.h>
+#include <mortise/mortar/slave_normals.h>
 #include <mortise/problem/rigid_motions.h>
 #include <mortise/problem/scene_couplings.h>
 #include <mortise/problem/weak_ties.h>
@@ -16,7 +17,7 @@ namespace mortise
 
   std::vector<bool>
   SceneCouplings::blocked_dofs(const unsigned int       b,
-                           const std::vector<bool> &taken) const
+                               const std::vector<bool> &taken) const
   {
     const auto       &numbering = spaces.fields.displacement.numbering;
     std::vector<bool> blocked;
@@ -35,8 +36,8 @@ namespace mortise
     const std::string name    = couplings[i].interface->name();
     const auto       &rows    = couplings[i].multipliers->rows();
     unsigned int      n_fixed = 0, n_covered = 0;
-    const bool slides = couplings[i].directions == TiedDirections::normal;
-    std::string       lost;
+    const bool  slides = couplings[i].directions == TiedDirections::normal;
+    std::string lost;
     for (unsigned int s = 0; s < states.size(); ++s)
       if (states[s].cover != Cover::none)
         for (unsigned int c = 0; c < (slides ? 1 : dim); ++c)
@@ -62,17 +63,19 @@ namespace mortise
             lost = text.str();
           }
     if (slides)
-      if (const auto place = find_sharp_edge(*spaces.bodies[interfaces[i].slave.body],
-                                             couplings[i].interface->slave()))
+      if (const auto place =
+            find_sharp_edge(*spaces.bodies[interfaces[i].slave.body],
+                            couplings[i].interface->slave()))
         {
           std::ostringstream text;
-          text << "Interface " << name << ": bodies slide across an edge of "
-               << spaces.bodies[interfaces[i].slave.body]->name << ": "
-               << interfaces[i].slave.boundary << " at " << *place
-               << ", where the surface has no normal: the edge ends within a smooth "
-                  "patch. Make what lies on either side of it boundaries, and "
-                  "interfaces, of their own, or refine a mesh that is too "
-                  "coarse for a round surface";
+          text
+            << "Interface " << name << ": bodies slide across an edge of "
+            << spaces.bodies[interfaces[i].slave.body]->name << ": "
+            << interfaces[i].slave.boundary << " at " << *place
+            << ", where the surface has no normal: the edge ends within a smooth "
+               "patch. Make what lies on either side of it boundaries, and "
+               "interfaces, of their own, or refine a mesh that is too "
+               "coarse for a round surface";
           lost = text.str();
         }
     throw_if_any(lost, run.comm);
@@ -80,11 +83,12 @@ namespace mortise
     n_covered = Utilities::MPI::sum(n_covered, run.comm);
     if (n_covered == 0)
       run.log.warning("interface " + name +
-                  ": the surfaces hardly meet; nothing is tied");
+                      ": the surfaces hardly meet; nothing is tied");
     else if (n_fixed == n_covered)
-      run.log.warning("interface " + name +
-                  ": no multipliers are left, since every displacement of both "
-                  "surfaces is prescribed; nothing is tied");
+      run.log.warning(
+        "interface " + name +
+        ": no multipliers are left, since every displacement of both "
+        "surfaces is prescribed; nothing is tied");
   }
 
   void
@@ -100,12 +104,14 @@ namespace mortise
         const SideParameters &slave    = interfaces[i].slave;
         const Body           &body     = *spaces.bodies[slave.body];
         Coupling             &coupling = couplings[i];
-        coupling.multipliers           = std::make_unique<MultiplierSpace>(
-          body,
-          coupling.interface->slave(),
-          states[i],
-          blocked_dofs(slave.body, shared.taken()),
-          coupling.directions);
+        coupling.multipliers =
+          std::make_unique<MultiplierSpace>(body,
+                                            coupling.interface->slave(),
+                                            states[i],
+                                            blocked_dofs(slave.body,
+                                                         shared.taken()),
+                                            coupling.directions,
+                                            coupling.is_contact);
         shared.take(i);
       }
     types::global_dof_index mine = 0, first = 0, total = 0;
@@ -134,14 +140,13 @@ namespace mortise
     for (unsigned int i = 0; i < couplings.size(); ++i)
       {
         const InterfaceReport &report = couplings[i].interface->report();
-        ties.push_back(
-          {couplings[i].interface->name(),
-           interfaces[i].slave.body,
-           interfaces[i].master.body,
-           multiplier_moments(couplings[i], owned, run.comm),
-           report.covered_area / report.slave_area,
-           couplings[i].directions,
-           {}});
+        ties.push_back({couplings[i].interface->name(),
+                        interfaces[i].slave.body,
+                        interfaces[i].master.body,
+                        multiplier_moments(couplings[i], owned, run.comm),
+                        report.covered_area / report.slave_area,
+                        couplings[i].directions,
+                        {}});
         const BodySurface &slave = couplings[i].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
           {
@@ -150,9 +155,7 @@ namespace mortise
                                 std::pow(slave.faces[s].size, 2);
             for (const unsigned int v : face->vertex_indices())
               ties.back().places.push_back(
-                {face->vertex(v),
-                 area,
-                 slave.faces[s].vertex_normals[v]});
+                {face->vertex(v), area, slave.faces[s].vertex_normals[v]});
           }
       }
     return ties;
@@ -169,9 +172,11 @@ namespace mortise
       {
         const unsigned int   i     = weak[k++];
         InterfaceParameters &given = interfaces[i];
-        const auto &master = run.parameters.bodies[given.master.body].boundaries;
-        const auto  side   = master.find(given.master.boundary);
-        if (tried[i] || is_patch(i) || (side != master.end() && side->second.displacement))
+        const auto          &master =
+          run.parameters.bodies[given.master.body].boundaries;
+        const auto side = master.find(given.master.boundary);
+        if (tried[i] || is_patch(i) ||
+            (side != master.end() && side->second.displacement))
           continue;
         tried[i] = true;
         std::swap(given.slave, given.master);
@@ -181,12 +186,13 @@ namespace mortise
         std::swap(couplings[i], other);
         number_multipliers();
         const auto other_ties = tie_supports();
-        const auto still      = weak_ties(spaces.bodies, spaces.dirichlet, other_ties);
+        const auto still =
+          weak_ties(spaces.bodies, spaces.dirichlet, other_ties);
         if (still.size() < weak.size())
           {
             run.log.line("  interface " + given.name +
-                     ": slave and master exchanged, since too few "
-                     "displacements of the slave are left for multipliers");
+                         ": slave and master exchanged, since too few "
+                         "displacements of the slave are left for multipliers");
             ties = other_ties;
             weak = still;
             k    = 0;
@@ -202,12 +208,14 @@ namespace mortise
     for (unsigned int i = 0; i < couplings.size(); ++i)
       check_constants(i, states[i]);
     check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
+    if (have_contact())
+      supports = std::move(ties);
   }
 
   void
   SceneCouplings::check_held(const std::vector<bool> &active) const
   {
-    auto         ties  = tie_supports();
+    auto         ties  = supports;
     unsigned int first = 0;
     for (TieSupport &tie : ties)
       {
@@ -248,8 +256,7 @@ namespace mortise
     for (unsigned int i = 0; i < counts.size(); ++i)
       if (counts[i] > 0)
         names += (names.empty() ? "" : ", ") + couplings[i].interface->name() +
-                 " (" +
-                 std::to_string(counts[i]) + ")";
+                 " (" + std::to_string(counts[i]) + ")";
     return names;
   }
 } // namespace mortise

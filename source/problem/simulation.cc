@@ -61,10 +61,9 @@ namespace mortise
     options.max_iterations = given.max_iterations;
     options.max_gathered   = given.max_gathered;
     // with contact each set is solved from the one before
-    options.successive =
-      context.parameters.steps.given()                ? 4 :
-      discretisation->interfaces().have_contact() ? 1 :
-                                                    0;
+    options.successive = context.parameters.steps.given()            ? 4 :
+                         discretisation->interfaces().have_contact() ? 1 :
+                                                                       0;
     if (given.print_iterations)
       options.monitor = [&](const unsigned int iteration,
                             const double       residual) {
@@ -83,11 +82,8 @@ namespace mortise
   void
   Simulation::restore(const std::string &directory)
   {
-    const Checkpoint checkpoint =
-      read_checkpoint(directory,
-                      bodies,
-                      discretisation->interfaces().all(),
-                      context.comm);
+    const Checkpoint checkpoint = read_checkpoint(
+      directory, bodies, discretisation->interfaces().all(), context.comm);
     const SceneData data(context.parameters, state.time, field_checks);
     const SceneLoad load = discretisation->load(data);
     state.solution       = discretisation->system_vector(checkpoint, load);
@@ -182,7 +178,11 @@ namespace mortise
     StepFields fields;
     {
       const auto       stage = context.log.stage(context.timers, "postprocess");
-      const SolvedStep solved{data, load, next.solution};
+      const SolvedStep solved{data,
+                              load,
+                              next.solution,
+                              contact ? contact->undecided() :
+                                        std::vector<bool>()};
       fields = step_fields(context, *discretisation, solved);
       summary.steps.push_back(summarise(solved, fields));
     }
@@ -198,8 +198,8 @@ namespace mortise
   Simulation::write_results(const StepFields &fields)
   {
     if (steps.output_due() || !report.converged)
-      for (const OutputError &error : files.write(
-             steps.n_done(), steps.time(), *discretisation, fields))
+      for (const OutputError &error :
+           files.write(steps.n_done(), steps.time(), *discretisation, fields))
         unwritten.push_back(error);
     const unsigned int every = context.parameters.output.checkpoint_every;
     if (every > 0 && report.converged &&
@@ -210,8 +210,8 @@ namespace mortise
   void
   Simulation::write_checkpoint(const StepFields &fields)
   {
-    const auto        stage = context.log.stage(context.timers, "checkpoint");
-    const Parameters &parameters = context.parameters;
+    const auto          stage = context.log.stage(context.timers, "checkpoint");
+    const Parameters   &parameters = context.parameters;
     const RunCheckpoint checkpoint{
       std::filesystem::absolute(parameters.file).string(),
       parameters.assignments,
@@ -222,12 +222,13 @@ namespace mortise
       files.written()};
     try
       {
-        mortise::write_checkpoint(
-          parameters.output.directory,
-          {to_text(checkpoint), fields.solutions, fields.multipliers},
-          bodies,
-          discretisation->interfaces().all(),
-          context.comm);
+        mortise::write_checkpoint(parameters.output.directory,
+                                  {to_text(checkpoint),
+                                   fields.solutions,
+                                   fields.multipliers},
+                                  bodies,
+                                  discretisation->interfaces().all(),
+                                  context.comm);
       }
     catch (const OutputError &error)
       {
@@ -241,15 +242,14 @@ namespace mortise
   Simulation::print_progress()
   {
     const double share = steps.share(), seconds = context.timers.total();
-    const double left  = (seconds - clock.seconds) / (share - clock.share) *
-                        (1. - share);
+    const double left =
+      (seconds - clock.seconds) / (share - clock.share) * (1. - share);
     if (clock.seconds == 0.)
       clock = {share, seconds}; // the first step made the preconditioner, too
-    context.log.line("  " + RunLog::number(100. * share) + " % done in " +
-                     RunLog::number(seconds) + " s" +
-                     (steps.finished() ?
-                        "" :
-                        ", about " + RunLog::number(left) + " s left"));
+    context.log.line(
+      "  " + RunLog::number(100. * share) + " % done in " +
+      RunLog::number(seconds) + " s" +
+      (steps.finished() ? "" : ", about " + RunLog::number(left) + " s left"));
   }
 
   void

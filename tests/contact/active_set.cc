@@ -108,6 +108,7 @@ main(int argc, char *argv[])
     {
       const Problem problem = draw(number);
       ActiveSet     set(std::vector<bool>(end - first, true),
+                    std::vector<double>(end - first, 1.),
                     first,
                     MPI_COMM_WORLD);
       if (number % 2 == 1)
@@ -149,6 +150,7 @@ main(int argc, char *argv[])
   const bool mine = me == 0;
   ActiveSet  set(mine ? std::vector<bool>{true, true, true, false} :
                        std::vector<bool>(),
+                std::vector<double>(mine ? 4 : 0, 1.),
                 mine ? 0 : 4,
                 MPI_COMM_WORLD);
   const double pressures[] = {1., -1e-12, -1., -1.}, gaps[] = {0., 0., 0., 0.};

@@ -113,12 +113,14 @@ namespace mortise::testing
   {
   public:
     /// The slave, body 0, and the master, body 1. @p nodal: with B in values at
-    /// nodes, as for solvers without a matrix.
+    /// nodes, as for solvers without a matrix. @p presses_only: multipliers along normals
+    /// that have the sign of the pressure.
     TiedScene(const TiedBody       &slave,
               const TiedBody       &master,
-              const MPI_Comm        comm  = MPI_COMM_WORLD,
-              const bool            nodal = false,
-              const MultiplierBasis basis = MultiplierBasis::standard)
+              const MPI_Comm        comm         = MPI_COMM_WORLD,
+              const bool            nodal        = false,
+              const MultiplierBasis basis        = MultiplierBasis::standard,
+              const bool            presses_only = false)
       : comm(comm)
       , given{slave, master}
     {
@@ -132,7 +134,7 @@ namespace mortise::testing
       field.constraints = scene_constraints(field.numbering, constraints);
       if (nodal)
         spaces = make_nodal_spaces({bodies[0].get(), bodies[1].get()}, comm);
-      create_coupling(basis);
+      create_coupling(basis, presses_only);
     }
 
     dealii::types::boundary_id
@@ -241,20 +243,22 @@ namespace mortise::testing
     }
 
     void
-    create_coupling(const MultiplierBasis basis)
+    create_coupling(const MultiplierBasis basis, const bool presses_only)
     {
       const auto side = [&](const unsigned int b) {
-        return extract_surface(
-          *bodies[b],
-          boundary_faces(*bodies[b], surface(b)),
-          field.numbering,
-          field.constraints,
-          spaces);
+        return extract_surface(*bodies[b],
+                               boundary_faces(*bodies[b], surface(b)),
+                               field.numbering,
+                               field.constraints,
+                               spaces);
       };
       couplings.emplace_back();
       Coupling &coupling = couplings[0];
       coupling.interface = std::make_unique<InterfaceHandler>(
         "glue", side(0), side(1), InterfaceOptions(), comm);
+      coupling.is_contact = presses_only;
+      coupling.directions =
+        presses_only ? TiedDirections::normal : TiedDirections::all;
       coupling.local = integrate_coupling(*coupling.interface, true, basis);
       states         = partner_states(couplings)[0];
 
@@ -264,7 +268,7 @@ namespace mortise::testing
                           !bodies[0]->conformity.is_constrained(dof));
       const BodySurface &slave = coupling.interface->slave();
       coupling.multipliers     = std::make_unique<MultiplierSpace>(
-        *bodies[0], slave, states, blocked);
+        *bodies[0], slave, states, blocked, coupling.directions, presses_only);
       const auto counts =
         dealii::Utilities::MPI::all_gather(comm,
                                            coupling.multipliers->n_owned());

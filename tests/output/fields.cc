@@ -301,6 +301,7 @@ namespace mortise::testing
     write_interface_fields(*scene.bodies[0],
                            scene.coupling(),
                            multiplier_on_faces(scene.coupling(), lambda, comm),
+                           {},
                            interpolate(*scene.bodies[0], Polynomial{1}),
                            directory() +
                              (comm == MPI_COMM_SELF ? "/alone" : "") +

@@ -4,29 +4,13 @@
 // cannot be done is said. The same on any number of ranks.
 #include <mortise/base/error.h>
 
-#include "scene.h"
-#include "scenes.h"
+#include "contact_scene.h"
 
 using namespace mortise;
 using namespace mortise::testing;
 
 namespace
 {
-  const Settings contact = {"Interface glue/Law=contact"};
-
-  const ContactSummary &
-  contact_of(const StepSummary &step)
-  {
-    return *step.interfaces.front().contact;
-  }
-
-  Settings
-  degrees(const std::string &a, const std::string &b, const unsigned int p)
-  {
-    return {"Body " + a + "/Degree=" + std::to_string(p),
-            "Body " + b + "/Degree=" + std::to_string(p)};
-  }
-
   /// No node pulls, none overlaps, and all that is known of the set.
   void
   check_signs(const std::string &what, const StepSummary &step)
@@ -34,26 +18,6 @@ namespace
     const ContactSummary &of = contact_of(step);
     verdict(what + ": nothing overlaps", -of.gap_min, 1e-10);
     verdict(what + ": active sets", *step.solver->active_sets, 8);
-  }
-
-  /// Two blocks of 1 x 1, heights 1 and 0.5, sides free, a gap between them,
-  /// the upper one pushed down.
-  std::string
-  two_blocks()
-  {
-    return tied("lower, upper", "lower: zmax", "upper: zmin") +
-           "subsection Body lower\n  subsection Mesh\n    set Extent = 0, 0, 0, 1, 1, 1\n"
-           "    set Subdivisions = 3, 3, 2\n  end\n"
-           "  subsection Material\n    set Young modulus = 900\n    set Poisson ratio = 0.3\n  end\n"
-           "  subsection Boundary zmin\n    set Displacement = -, -, 0\n  end\n"
-           "  subsection Boundary xmin\n    set Displacement = 0, -, -\n  end\n"
-           "  subsection Boundary ymin\n    set Displacement = -, 0, -\n  end\nend\n"
-           "subsection Body upper\n  subsection Mesh\n    set Extent = 0, 0, 1.001, 1, 1, 1.501\n"
-           "    set Subdivisions = 4, 4, 1\n  end\n"
-           "  subsection Material\n    set Young modulus = 300\n    set Poisson ratio = 0.1\n  end\n"
-           "  subsection Boundary zmax\n    set Displacement = -, -, -0.011\n  end\n"
-           "  subsection Boundary xmin\n    set Displacement = 0, -, -\n  end\n"
-           "  subsection Boundary ymin\n    set Displacement = -, 0, -\n  end\nend\n";
   }
 
   void
@@ -248,6 +212,41 @@ namespace
             1e-8);
   }
 
+  /// Faces of all sizes, sides that are held, hanging nodes, degrees,
+  /// triangles.
+  void
+  check_pairings()
+  {
+    const auto divide = [](const std::string &a, const std::string &b) {
+      return Settings{"Body lower/Mesh/Subdivisions=" + a,
+                      "Body upper/Mesh/Subdivisions=" + b};
+    };
+    for (const unsigned int p : {1, 2, 3, 5})
+      {
+        const Settings    equal = degrees("lower", "upper", p);
+        const std::string of    = ", degree " + std::to_string(p);
+        check_constant("sides held" + of, equal + sides_held);
+        check_constant(
+          "hanging nodes" + of,
+          equal + Settings{"Body lower/Mesh/Refine near=0, 0, 1, 0.4, 1"});
+      }
+    for (const unsigned int p : {1, 2})
+      check_triangles(p);
+    const Settings linear = degrees("lower", "upper", 1),
+                   square = degrees("lower", "upper", 2);
+    check_constant("degree 1 on 5", linear + Settings{"Body upper/Degree=5"});
+    check_constant("degree 5 on 1", linear + Settings{"Body lower/Degree=5"});
+    check_constant("7 on 11", square + divide("7, 7, 1", "11, 11, 1"));
+    check_constant("1 on 20", square + divide("1, 1, 1", "20, 20, 1"));
+    check_constant("20 on 1", square + divide("20, 20, 1", "1, 1, 1"));
+    for (const std::string slave : {"lower", "upper"})
+      {
+        for (const unsigned int p : {2, 3, 5})
+          check_bending("hexahedra", slave, p);
+        check_bending("tetrahedra", slave, 2);
+      }
+  }
+
   void
   check_message(const std::string &what,
                 const std::string &text,
@@ -276,6 +275,7 @@ main(int argc, char *argv[])
   check_part();
   check_steps();
   check_units();
+  check_pairings();
   check_message("contact that is lost",
                 two_blocks(),
                 contact + Settings{"Body upper/Boundary zmax/Displacement=",
@@ -289,9 +289,4 @@ main(int argc, char *argv[])
                            "Body upper/Boundary zmax/Displacement=-, -, -0.02",
                            "Interface glue/Search distance=0.02"},
                 "would go unseen");
-  check_message("triangles of degree 2",
-                two_blocks(),
-                contact + degrees("lower", "upper", 2) +
-                  Settings{"Body lower/Mesh/Cells=tetrahedra"},
-                "pressures at nodes");
 }

@@ -7,6 +7,7 @@
 #include <deal.II/base/types.h>
 
 #include <cstdint>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -15,9 +16,10 @@ namespace mortise
   class ActiveSet
   {
   public:
-    /// @p one_sided: by owned multiplier, may it press only? All start active; the others stay so. @p first: the number
-    /// of the first owned one. Collective.
+    /// By owned multiplier: @p one_sided, may it press only? All start active; the others stay so.
+    /// @p stiffness: what makes a pressure of a gap. @p first: the number of the first owned one. Collective.
     ActiveSet(std::vector<bool>               one_sided,
+              std::vector<double>             stiffness,
               dealii::types::global_dof_index first,
               MPI_Comm                        comm);
 
@@ -49,13 +51,24 @@ namespace mortise
     /// multipliers that pull open, gaps that are negative close. When a set
     /// comes back, from then on only the first of these does, which ends
     /// whatever the gaps' matrix is, as long as its
-    /// principal minors are positive. Source: Murty (1974). @p multiplier: by owned one, a pressure; @p gap: a length; @p length: what gaps are
-    /// small against; @p accuracy: of both, relative to the largest. Collective.
+    /// principal minors are positive. Source: Murty (1974).
+    ///
+    /// @p multiplier: by owned one, a pressure; @p gap: a length; @p length: what rounding of gaps is
+    /// relative to; @p accuracy: of both, relative to the largest pressure. @p extend: may add to those
+    /// that turn; not asked where one does. Collective.
     Change
-    advance(const double *multiplier,
-            const double *gap,
-            double        length,
-            double        accuracy);
+    advance(const double                                        *multiplier,
+            const double                                        *gap,
+            double                                               length,
+            double                                               accuracy,
+            const std::function<void(std::vector<bool> &turns)> &extend = {});
+
+    /// By owned multiplier: was it among Change::undecided the last time?
+    const std::vector<bool> &
+    undecided() const
+    {
+      return unclear;
+    }
 
     /// Has a set come back since the start?
     bool
@@ -73,9 +86,10 @@ namespace mortise
     fingerprint() const;
 
     std::vector<bool>               one_sided;
+    std::vector<double>             stiffness;
     dealii::types::global_dof_index first;
     MPI_Comm                        comm;
-    std::vector<bool>               now;
+    std::vector<bool>               now, unclear;
     std::set<std::uint64_t>         seen; ///< fingerprints
     bool                            one_by_one = false;
   };

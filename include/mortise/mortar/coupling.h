@@ -48,7 +48,8 @@ namespace mortise
                       const CouplingPartition     &partition,
                       SparseMatrix                &coupling);
 
-  /// The same, displacements being values at nodes, which the partition numbers: the traces have
+  /// The same, displacements being values at nodes, which the partition
+  /// numbers: the traces have
   /// them. @p with_frames: bodies slide or hang on springs. Collective.
   CouplingMatrix
   assemble_by_node(const std::vector<Coupling> &couplings,
@@ -63,9 +64,9 @@ namespace mortise
     const std::vector<std::vector<dealii::Tensor<1, dim>>>     &normals,
     Coupling                                                   &coupling);
 
-  /// C with B u - C lambda = g: int psi K^{-1} psi of springs, K their stiffness;
-  /// lumped where multipliers are dual, which is as good as these are. Rows of
-  /// ties are zero. Collective.
+  /// C with B u - C lambda = g: int psi K^{-1} psi of springs, K their
+  /// stiffness; lumped where multipliers are dual, which is as good as these
+  /// are. Rows of ties are zero. Collective.
   void
   assemble_compliance(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition,
@@ -136,6 +137,14 @@ namespace mortise
   resultant_errors(const Coupling &coupling,
                    const Vector   &multiplier,
                    MPI_Comm        comm);
+
+  /// By slave face of this rank and row of MultiplierSpace::rows(), the value
+  /// of what
+  /// has @p multiplier for coefficients; zero where nothing is coupled. Collective.
+  std::vector<std::vector<double>>
+  values_by_row(const Coupling &coupling,
+                const Vector   &multiplier,
+                MPI_Comm        comm);
 
   /// Coefficients of the multiplier on the slave faces of this rank, those of
   /// psi_k, by slave face: entry c (degree + 1)^2 + k. Collective.

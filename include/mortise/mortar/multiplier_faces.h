@@ -30,6 +30,7 @@ namespace mortise
     std::array<bool, dim>
       can_follow{}; ///< by component: some displacement there is free, of
                     ///< the slave or of the master
+    bool has_dual = false; ///< multipliers are dual: see LocalCoupling
   };
 
   /// A slave face of an owned or ghost cell. Vertices and edges are numbered as

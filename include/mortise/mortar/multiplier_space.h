@@ -47,11 +47,19 @@ namespace mortise
   public:
     using Index = dealii::types::global_dof_index;
 
+    /// A multiplier that is the coefficient of a function on a face.
+    struct Coefficient
+    {
+      Index               index;
+      unsigned int        direction; ///< component, 0 along normals
+      std::vector<double> of_values; ///< what gives it from those at the nodes
+    };
+
     /// Multipliers on one face: value_c(xi) = sum_k psi_k(xi) sum_j weight_j
     /// lambda_index_j with row = c (degree + 1)^2 + k, k the nodes of the face,
-    /// psi as in LocalCoupling. Most nodes have a multiplier of their own. Along
-    /// normals, value_c(xi) = sum_k psi_k(xi) n_kc sum_j weight_j lambda_index_j
-    /// with row = k.
+    /// psi as in LocalCoupling. Most nodes have a multiplier of their own.
+    /// Along normals, value_c(xi) = sum_k psi_k(xi) n_kc sum_j weight_j
+    /// lambda_index_j with row = k.
     struct FaceRows
     {
       std::vector<unsigned int> begin;
@@ -60,12 +68,11 @@ namespace mortise
       /// By entry: has an earlier component a multiplier there whose row of B
       /// has the same entries?
       std::vector<bool> is_represented;
-      /// Those that are coefficients of hierarchical functions instead: their
-      /// row, numbered as those of values, and multiplier.
-      std::vector<std::pair<unsigned int, Index>> hierarchical;
+      /// Those that are no value at a node, but a coefficient.
+      std::vector<Coefficient> coefficients;
       /// By component, that along the normal being the first: is there a
-      /// multiplier that is one on the whole face? If not, constant tractions do
-      /// not pass.
+      /// multiplier that is one on the whole face? If not, constant tractions
+      /// do not pass.
       std::array<bool, dim> hold_constants{};
       /// Of nodes, where bodies slide; else empty.
       std::vector<dealii::Tensor<1, dim>> normals;
@@ -92,12 +99,15 @@ namespace mortise
     /// Decide which multipliers there are. @p blocked: whether a locally owned displacement dof
     /// (position in the owned range) is prescribed by a boundary condition or
     /// belongs to an
-    /// earlier interface. @p partners: by face of @p slave. Collective.
+    /// earlier interface. @p partners: by face of @p slave. @p presses_only: multipliers
+    /// have the sign of the pressure: values at nodes where they are dual, else
+    /// Bernstein coefficients of the same polynomials. Collective.
     MultiplierSpace(const Body                      &body,
                     const BodySurface               &slave,
                     const std::vector<PartnerState> &partners,
                     const std::vector<bool>         &blocked,
-                    TiedDirections directions = TiedDirections::all);
+                    TiedDirections directions   = TiedDirections::all,
+                    bool           presses_only = false);
 
     /// Multipliers owned by this rank.
     unsigned int
@@ -173,10 +183,13 @@ namespace mortise
 
     const Body                                      &body;
     std::vector<std::vector<dealii::Tensor<1, dim>>> normals; ///< by face
-    unsigned int n_directions; ///< dim, or 1: along the normals
-    std::vector<Index>                               owned_dofs;
-    std::vector<bool>                                at_vertices; ///< by owned multiplier
-    /// By owned multiplier: the dof of the first component there, its component.
+    unsigned int       n_directions; ///< dim, or 1: along the normals
+    bool               presses_only;
+    std::vector<bool>  has_dual; ///< by face
+    std::vector<Index> owned_dofs;
+    std::vector<bool>  at_vertices; ///< by owned multiplier
+    /// By owned multiplier: the dof of the first component there, its
+    /// component.
     std::vector<std::pair<Index, unsigned int>> places;
     dealii::AffineConstraints<double>
           reduction; ///< in the body's numbering; closed

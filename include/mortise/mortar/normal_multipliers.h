@@ -8,18 +8,20 @@
 
 namespace mortise
 {
-  /// One multiplier: the pressure at a node of the slave.
+  /// One multiplier: the pressure at a node of the slave, or a coefficient of
+  /// it that has its sign.
   struct NormalMultiplier
   {
     double                 area = 0.; ///< int psi
+    dealii::Point<dim>     place;     ///< int psi x over it
     dealii::Tensor<1, dim> normal;    ///< int psi n
     dealii::Tensor<1, dim> moment;    ///< int psi x cross n, about the origin
     /// int psi n . (x_master - x_slave) of the meshes: a volume, negative where
     /// they overlap.
     double gap = 0.;
-    /// Is its value that of the pressure somewhere, or a mean of such values,
-    /// so that its sign is that of the pressure?
-    bool has_sign = true;
+    /// Pressure by gap that is worth as much, about E / h of the softer side,
+    /// force per volume.
+    double stiffness = 0.;
   };
 
   /// By owned multiplier of @p coupling, whose directions are normal. Collective.

@@ -14,7 +14,7 @@ namespace mortise
     bool displacement = false; ///< length
     bool stress       = false; ///< force per area: tensor and von Mises
     bool pressure     = false; ///< mean pressure, -tr(stress) / 3
-    bool traction     = false; ///< on slave surfaces: traction and gap
+    bool traction     = false; ///< on slave surfaces: traction, gap, contact
   };
 
   /// @p file (.vtu) with displacement, stress and pressure of one body;
@@ -29,11 +29,13 @@ namespace mortise
   /// @p file (.vtu) with the traction that the slave side bears (force per
   /// area), the displacement, and the gap (x_master - x_slave before
   /// deformation, a length) on the slave surface. @p coefficients as of
-  /// multiplier_on_faces(). Collective.
+  /// multiplier_on_faces(). @p contact: by face, coefficients of pressure, gap that is left and status of
+  /// a contact, which are written in place of that gap; else empty. Collective.
   void
   write_interface_fields(const Body                             &slave_body,
                          const Coupling                         &coupling,
                          const std::vector<std::vector<double>> &coefficients,
+                         const std::vector<std::vector<double>> &contact,
                          const BodyVector                       &displacement,
                          const std::string                      &file);
 } // namespace mortise

@@ -22,12 +22,21 @@ namespace mortise
     MPI_Comm    comm;
   };
 
+  /// What write_interface_fields() writes of contact.
+  inline std::vector<std::string>
+  contact_field_names()
+  {
+    return {"pressure", "gap", "status"};
+  }
+
   /// As write_interface_fields(), for triangles; @p multiplier and @p gap by face: coefficients
-  /// [c n_functions + k], empty where there are none. Collective.
+  /// [c n_functions + k], empty where there are none. @p is_contact: the components of the gap
+  /// are contact_field_names(). Collective.
   void
   write_triangles(const FieldFile                        &file,
                   const BodySurface                      &surface,
                   const std::vector<std::vector<double>> &multiplier,
                   const std::vector<std::vector<double>> &gap,
+                  bool                                    is_contact,
                   const BodyVector                       &displacement);
 } // namespace mortise

@@ -47,30 +47,32 @@ namespace mortise
   /// What is in contact at the nodes of the slave.
   struct ContactSummary
   {
-    double              area = 0.; ///< that presses
-    std::vector<double> force, moment; ///< on the slave, about the origin
+    double              area = 0.;          ///< that presses
+    std::vector<double> force, moment;      ///< on the slave, about the origin
     double              pressure_mean = 0.; ///< over that area, positive
     double              pressure_max  = 0.;
     double              gap_min       = 0.; ///< of all nodes
+    double        penetration_max     = 0.; ///< at quadrature points, a length
     std::uint64_t active = 0, inactive = 0;
+    std::uint64_t undecided = 0; ///< among these: neither pressure nor gap
   };
 
   struct InterfaceSummary
   {
-    std::string           name;
-    std::uint64_t         slave_faces       = 0;
-    std::uint64_t         master_faces      = 0;
-    std::uint64_t         candidate_pairs   = 0;
-    std::uint64_t         pairs             = 0;
-    std::uint64_t         integration_cells = 0;
-    std::uint64_t         quadrature_points = 0;
-    double                slave_area        = 0.;
-    double                covered_area      = 0.;
-    std::optional<double> worst_face_coverage_error;
-    std::optional<double> partition_of_unity_error;
-    std::optional<double> force_residual;
-    std::optional<double> moment_residual;
-    std::optional<double> linear_completeness_error;
+    std::string                   name;
+    std::uint64_t                 slave_faces       = 0;
+    std::uint64_t                 master_faces      = 0;
+    std::uint64_t                 candidate_pairs   = 0;
+    std::uint64_t                 pairs             = 0;
+    std::uint64_t                 integration_cells = 0;
+    std::uint64_t                 quadrature_points = 0;
+    double                        slave_area        = 0.;
+    double                        covered_area      = 0.;
+    std::optional<double>         worst_face_coverage_error;
+    std::optional<double>         partition_of_unity_error;
+    std::optional<double>         force_residual;
+    std::optional<double>         moment_residual;
+    std::optional<double>         linear_completeness_error;
     std::optional<ContactSummary> contact; ///< with that law
   };
 
@@ -80,7 +82,7 @@ namespace mortise
     std::optional<std::string>   preconditioner;
     std::optional<std::uint64_t> iterations;
     double                       relative_residual = 0.;
-    std::optional<std::uint64_t> active_sets; ///< with contact
+    std::optional<std::uint64_t> active_sets;       ///< with contact
     std::optional<std::uint64_t> linear_iterations; ///< of all of these
   };
 
@@ -96,8 +98,8 @@ namespace mortise
 
   struct StepSummary
   {
-    unsigned int step = 0; ///< from 1 on, or 0 in a scene without steps
-    unsigned int                  cycle = 0;
+    unsigned int step  = 0; ///< from 1 on, or 0 in a scene without steps
+    unsigned int cycle = 0;
     std::optional<double>         time; ///< in a scene with steps
     std::vector<BodySummary>      bodies;
     DofSummary                    dofs;

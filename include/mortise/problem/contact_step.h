@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mortise/contact/active_set.h>
+#include <mortise/contact/contact_edge.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/solvers/linear_solver.h>
@@ -38,6 +39,13 @@ namespace mortise
       return sets;
     }
 
+    /// Likewise, by owned multiplier: neither pressure nor gap.
+    const std::vector<bool> &
+    undecided() const
+    {
+      return unclear;
+    }
+
     /// Likewise, of all sets.
     unsigned int
     linear_iterations() const
@@ -60,13 +68,19 @@ namespace mortise
     solve_set(const SceneLoad &load, double tolerance, SystemVector &x);
     bool
     differs_from_shown() const;
+    /// Let preconditioners see the set.
+    void
+    show();
 
     const RunContext &run;
     Discretisation   &discretisation;
     LinearSolver     &solver;
     ActiveSet         set;
+    ContactEdge       edge;
     unsigned int      sets = 0, iterations = 0;
     std::vector<bool> shown; ///< the active ones that coarse levels see
+    std::vector<bool> unclear;
     bool              is_shown = false;
+    std::uint64_t     n_shown  = 0; ///< as ActiveSet::n_active()
   };
 } // namespace mortise

@@ -1,8 +1,9 @@
-// A scene on given meshes as a linear system: spaces, interfaces and operators, which
-// stand while loads change. Other meshes need another one.
+// A scene on given meshes as a linear system: spaces, interfaces and operators,
+// which stand while loads change. Other meshes need another one.
 #pragma once
 
 #include <mortise/mortar/normal_multipliers.h>
+#include <mortise/mortar/penetration.h>
 #include <mortise/output/checkpoint.h>
 #include <mortise/problem/scene_couplings.h>
 #include <mortise/problem/scene_spaces.h>
@@ -50,6 +51,10 @@ namespace mortise
     std::vector<bool>
     one_sided() const;
 
+    /// By owned multiplier: NormalMultiplier::stiffness, or zero.
+    std::vector<double>
+    gap_stiffness() const;
+
     /// By owned multiplier, where that is of contact: the gap that @p x leaves, a length. @p load: of the same
     /// time. Collective.
     Vector
@@ -58,6 +63,11 @@ namespace mortise
     /// The solution by body. Collective.
     std::vector<BodySolution>
     solutions(const SceneLoad &load, const SystemVector &solution) const;
+
+    /// What @p solutions, of the time of @p load, are on surfaces.
+    TraceDisplacement
+    trace_displacement(const SceneLoad                 &load,
+                       const std::vector<BodySolution> &solutions) const;
 
     /// The unknowns in a checkpoint of the time of @p load. Collective.
     SystemVector
@@ -111,14 +121,17 @@ namespace mortise
     create_bulk();
     void
     find_free_pressures();
+    /// In the numbering of the scene, zero where nothing is prescribed.
+    Vector
+    prescribed_vector(const SceneLoad &load) const;
 
-    const RunContext          &run;
-    SceneSpaces                spaces;
-    SceneCouplings             couplings;
-    BlockSystem                system;
-    SparseMatrix               prescribed_columns; ///< of B, if there are any
-    std::vector<FreePressure>  free_pressures;
-    std::vector<InterfaceSummary> interface_summaries;
+    const RunContext         &run;
+    SceneSpaces               spaces;
+    SceneCouplings            couplings;
+    BlockSystem               system;
+    SparseMatrix              prescribed_columns; ///< of B, if there are any
+    std::vector<FreePressure> free_pressures;
+    std::vector<InterfaceSummary>              interface_summaries;
     std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;
   };
 } // namespace mortise

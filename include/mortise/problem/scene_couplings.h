@@ -22,8 +22,9 @@ namespace mortise
     couple();
 
     /// The multipliers, with slave and master exchanged where other interfaces
-    /// and prescribed displacements leave too few to hold the bodies together. Throws InputError where a body can move or
-    /// constant tractions do not pass. Collective.
+    /// and prescribed displacements leave too few to hold the bodies together.
+    /// Throws InputError where a body can move or constant tractions do not
+    /// pass. Collective.
     void
     choose_multipliers();
 
@@ -118,7 +119,8 @@ namespace mortise
                   const std::string               &name,
                   const std::vector<BoundaryFace> &slave) const;
     std::vector<BoundaryFace>
-    faces_of(const InterfaceParameters &given, const SideParameters &side) const;
+    faces_of(const InterfaceParameters &given,
+             const SideParameters      &side) const;
     /// That of patch @p k; no body and no interface has it.
     std::string
     patch_name(const InterfaceParameters &given, unsigned int k) const;
@@ -155,5 +157,6 @@ namespace mortise
     std::vector<InterfaceParameters> interfaces;
     std::vector<Coupling>            couplings;
     dealii::IndexSet                 owned;
+    std::vector<TieSupport>          supports; ///< by interface, with contact
   };
 } // namespace mortise

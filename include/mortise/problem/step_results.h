@@ -16,6 +16,8 @@ namespace mortise
       tractions; ///< by interface and slave face, see multiplier_on_faces()
     std::vector<std::vector<std::vector<double>>>
       multipliers; ///< likewise, see multiplier_coefficients()
+    /// Likewise, see contact_fields(); empty in a scene without contact.
+    std::vector<std::vector<std::vector<double>>> contact;
   };
 
   struct SolvedStep
@@ -23,6 +25,9 @@ namespace mortise
     const SceneData    &data;
     const SceneLoad    &load;
     const SystemVector &solution;
+    /// By owned multiplier: pressure and gap are zero but for rounding; empty
+    /// in a scene without contact.
+    const std::vector<bool> undecided;
   };
 
   /// Collective.

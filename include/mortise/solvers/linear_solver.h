@@ -20,8 +20,8 @@ namespace mortise
     virtual ~LinearSolver() = default;
 
     /// Make preconditioner or factorisation from the numbers that the system
-    /// holds now; the first solve() does it, later ones need it after every change of
-    /// them. Collective.
+    /// holds now; the first solve() does it, later ones need it after every
+    /// change of them. Collective.
     void
     update();
 
@@ -31,11 +31,12 @@ namespace mortise
     void
     update_active();
 
-    /// What later solves go on to, in place of SolverOptions::tolerance.
+    /// How far later solves go on, in place of what SolverOptions have.
     void
-    set_tolerance(const double tolerance)
+    set_limits(const double tolerance, const unsigned int max_iterations)
     {
-      options.tolerance = tolerance;
+      options.tolerance      = tolerance;
+      options.max_iterations = max_iterations;
     }
 
     /// Solve for @p rhs = (f, h, g); what @p x held is not used.
@@ -80,9 +81,9 @@ namespace mortise
         bool                is_zero,
         SolveReport        &report) = 0;
 
-    const BlockSystem  &system;
-    SolverOptions       options;
-    std::string         description; ///< what set_up() made, in words
+    const BlockSystem &system;
+    SolverOptions      options;
+    std::string        description; ///< what set_up() made, in words
     std::unique_ptr<ScaledResidual> residual;
 
   private:
@@ -91,9 +92,9 @@ namespace mortise
 
     const std::string   method;
     SuccessiveSolutions earlier;
-    bool                valid   = false;
-    bool                selects = false; ///< did the last update() know active ones?
-    double setup_seconds      = 0.; ///< of update(), until it is reported
+    bool                valid = false;
+    bool   selects       = false; ///< did the last update() know active ones?
+    double setup_seconds = 0.;    ///< of update(), until it is reported
   };
 
   /// The power of two that brings the largest entry of @p rhs between 1/2 and 1; 1 if all are

@@ -1,0 +1,529 @@
+// See signed_multipliers.h.
+#include "signed_multipliers.h"
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <mortise/body/elements/legendre_basis.h>
+#include <mortise/mortar/nodal_block.h>
+
+#include <cmath>
+#include <utility>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Combinations = std::vector<Combination>;
+
+    /// binomial(n, k) a^k b^(n - k)
+    double
+    binomial_term(const unsigned int n,
+                  const unsigned int k,
+                  const double       a,
+                  const double       b)
+    {
+      double result = 1.;
+      for (unsigned int i = 0; i < k; ++i)
+        result *= a * (n - i) / (i + 1.);
+      return result * std::pow(b, n - k);
+    }
+
+    /// Bernstein coefficients of a polynomial on an edge from those of the
+    /// functions of evaluate_lobatto(), and back.
+    struct LineTransform
+    {
+      FullMatrix<double> to_bernstein, to_modes;
+    };
+
+    const LineTransform &
+    line_transform(const unsigned int degree)
+    {
+      static std::map<unsigned int, LineTransform> known;
+      LineTransform                               &result = known[degree];
+      const unsigned int                           n      = degree + 1;
+      if (result.to_modes.m() > 0)
+        return result;
+      FullMatrix<double> modes(n, n), bernstein(n, n), inverse(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const double x = double(i) / degree;
+          evaluate_lobatto(degree, x, &modes(i, 0));
+          for (unsigned int j = 0; j < n; ++j)
+            bernstein(i, j) = binomial_term(degree, j, x, 1. - x);
+        }
+      result.to_bernstein.reinit(n, n);
+      result.to_modes.reinit(n, n);
+      inverse.invert(bernstein);
+      inverse.mmult(result.to_bernstein, modes);
+      inverse.invert(modes);
+      inverse.mmult(result.to_modes, bernstein);
+      return result;
+    }
+
+    /// Of a polynomial on an edge.
+    void
+    elevate(Combinations &coefficients, const unsigned int degree)
+    {
+      while (coefficients.size() <= degree)
+        {
+          const unsigned int n = coefficients.size();
+          Combinations       higher(n + 1);
+          for (unsigned int i = 0; i <= n; ++i)
+            {
+              if (i > 0)
+                add(higher[i], double(i) / n, coefficients[i - 1]);
+              if (i < n)
+                add(higher[i], 1. - double(i) / n, coefficients[i]);
+            }
+          coefficients = std::move(higher);
+        }
+    }
+
+    /// Places of the Bernstein coefficients of a face: quadrilaterals (i, j,
+    /// 0), i first, triangles by barycentric coordinates.
+    class Lattice
+    {
+    public:
+      using Place = std::array<unsigned int, 3>;
+
+      Lattice(const FaceShape shape, const std::array<unsigned int, 2> degree)
+        : shape(shape)
+        , degree(degree)
+      {
+        for (unsigned int j = 0; j <= degree[1]; ++j)
+          for (unsigned int i = 0; i + (is_triangle() ? j : 0) <= degree[0];
+               ++i)
+            {
+              numbers[{i, j}] = places.size();
+              places.push_back({i, j, is_triangle() ? degree[0] - i - j : 0});
+            }
+      }
+
+      /// Coefficient @p k of edge @p e from its first end on.
+      unsigned int
+      on_edge(const TraceBasis  &basis,
+              const unsigned int e,
+              const unsigned int k) const
+      {
+        if (!is_triangle())
+          {
+            const unsigned int side = (e % 2) * degree[1 - e / 2];
+            return e / 2 == 0 ? numbers.at({k, side}) : numbers.at({side, k});
+          }
+        Place      barycentric{};
+        const auto ends      = basis.edge_vertices(e);
+        barycentric[ends[0]] = degree[0] - k;
+        barycentric[ends[1]] = k;
+        return of_barycentric(barycentric);
+      }
+
+      bool
+      is_inside(const Place &place) const
+      {
+        return place[0] > 0 && place[1] > 0 &&
+               (is_triangle() ? place[2] > 0 :
+                                place[0] < degree[0] && place[1] < degree[1]);
+      }
+
+      /// The mean of the ruled surfaces between opposite, on triangles
+      /// adjacent,
+      /// edges at @p place, in coefficients of edges: exact where these are
+      /// linear.
+      Combination
+      mean_of_ruled(const Place &place, const Combinations &all) const
+      {
+        Combination result;
+        if (!is_triangle())
+          for (unsigned int a = 0; a < 2; ++a)
+            {
+              Place low = place, high = place;
+              low[a]         = 0;
+              high[a]        = degree[a];
+              const double t = double(place[a]) / degree[a];
+              add(result, (1. - t) / 2., all[numbers.at({low[0], low[1]})]);
+              add(result, t / 2., all[numbers.at({high[0], high[1]})]);
+            }
+        else
+          for (unsigned int v = 0; v < 3; ++v)
+            {
+              // barycentric, vertex 0 first
+              const Place        b{place[2], place[0], place[1]};
+              const unsigned int u = (v + 1) % 3, w = (v + 2) % 3,
+                                 sum = b[u] + b[w];
+              Place at_u{}, at_w{};
+              at_u[v] = at_w[v] = b[v];
+              at_u[u] = at_w[w] = sum;
+              add(result, b[u] / (3. * sum), all[of_barycentric(at_u)]);
+              add(result, b[w] / (3. * sum), all[of_barycentric(at_w)]);
+            }
+        return result;
+      }
+
+      /// Of the function at @p place.
+      double
+      value(const Place &place, const Point<2> &x) const
+      {
+        if (!is_triangle())
+          return binomial_term(degree[0], place[0], x[0], 1. - x[0]) *
+                 binomial_term(degree[1], place[1], x[1], 1. - x[1]);
+        return binomial_term(degree[0], place[0], x[0], 1.) *
+               binomial_term(degree[0] - place[0],
+                             place[1],
+                             x[1],
+                             1. - x[0] - x[1]);
+      }
+
+      std::vector<Place> places;
+
+    private:
+      bool
+      is_triangle() const
+      {
+        return shape == FaceShape::triangle;
+      }
+
+      /// @p barycentric: of vertices 0, 1, 2.
+      unsigned int
+      of_barycentric(const Place &barycentric) const
+      {
+        return numbers.at({barycentric[1], barycentric[2]});
+      }
+
+      const FaceShape                                     shape;
+      const std::array<unsigned int, 2>                   degree;
+      std::map<std::array<unsigned int, 2>, unsigned int> numbers;
+    };
+
+    /// (node, coefficient) of a face of @p basis.
+    FullMatrix<double>
+    bernstein_at_nodes(const TraceBasis &basis, const Lattice &lattice)
+    {
+      const auto         nodes = face_nodes(basis.shape, basis.degree);
+      FullMatrix<double> result(nodes.size(), lattice.places.size());
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        for (unsigned int i = 0; i < lattice.places.size(); ++i)
+          result(k, i) = lattice.value(lattice.places[i], nodes[k]);
+      return result;
+    }
+
+    /// How far a node is from the first to the second end of edge @p e.
+    double
+    along_edge(const TraceBasis  &basis,
+               const unsigned int e,
+               const Point<2>    &node)
+    {
+      const auto         ends = basis.edge_vertices(e);
+      const Point<2>     from(ends[0] % 2, ends[0] / 2);
+      const Tensor<1, 2> edge = Point<2>(ends[1] % 2, ends[1] / 2) - from;
+      return (node - from) * edge / edge.norm_square();
+    }
+
+    /// Calls visit(place among functions, mode) for the modes of edge @p e from 2 on.
+    template <typename Visit>
+    void
+    for_each_mode(const TraceBasis  &basis,
+                  const unsigned int e,
+                  const Visit       &visit)
+    {
+      for (unsigned int mode = 2; mode <= basis.degree; ++mode)
+        for (unsigned int k = 0; k < basis.size(); ++k)
+          if (const auto &f = basis.functions[k];
+              f.dimension == 1 && f.entity == e && f.degree == mode)
+            visit(k, mode);
+    }
+
+    std::vector<unsigned int>
+    functions_of_edge(const TraceBasis &basis, const unsigned int e)
+    {
+      std::vector<unsigned int> result;
+      for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
+        result.push_back(k);
+      });
+      return result;
+    }
+
+    std::vector<unsigned int>
+    functions_inside(const TraceBasis &basis)
+    {
+      std::vector<unsigned int> result;
+      for (unsigned int k = 0; k < basis.size(); ++k)
+        if (basis.functions[k].dimension == 2)
+          result.push_back(k);
+      return result;
+    }
+  } // namespace
+
+  SignedMultipliers::SignedMultipliers(
+    const AffineConstraints<double> &reduction,
+    const Choice                    &has_coefficients)
+    : reduction(reduction)
+    , has_coefficients(has_coefficients)
+  {}
+
+  /// The one that takes the place of @p dof, which is itself unless degrees
+  /// meet; none where it is dropped or hangs.
+  std::optional<SignedMultipliers::Index>
+  SignedMultipliers::multiplier_at(const Index dof) const
+  {
+    if (!reduction.is_constrained(dof))
+      return dof;
+    const auto &entries = *reduction.get_constraint_entries(dof);
+    if (entries.size() == 1 && entries[0].second == 1.)
+      return entries[0].first;
+    return {};
+  }
+
+  std::optional<SignedMultipliers::Edge>
+  SignedMultipliers::own_edge(const TraceBasis  &basis,
+                              const Dofs        &dofs,
+                              const unsigned int e) const
+  {
+    Edge edge;
+    bool hangs = !has_coefficients(functions_of_edge(basis, e), dofs);
+    for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
+      if (hangs)
+        return;
+      if (const auto multiplier = multiplier_at(dofs[k]))
+        edge.multipliers.push_back(*multiplier);
+      else
+        hangs |= !reduction.get_constraint_entries(dofs[k])->empty();
+    });
+    if (hangs)
+      return {};
+    const auto ends = basis.edge_vertices(e);
+    for (unsigned int i = 0; i < 2; ++i)
+      edge.ends[i] = dofs[basis.vertex_function(ends[i])];
+    return edge;
+  }
+
+  void
+  SignedMultipliers::add_face(const TraceBasis &basis, const Dofs &dofs)
+  {
+    for (unsigned int e = 0; e < basis.n_edges(); ++e)
+      if (const auto edge = own_edge(basis, dofs, e))
+        for (unsigned int k = 0; k < edge->multipliers.size(); ++k)
+          modes.emplace(edge->multipliers[k], std::make_pair(*edge, k));
+  }
+
+  /// What the coefficient of a hierarchical function is.
+  Combination
+  SignedMultipliers::expand(const Index dof) const
+  {
+    Combination result;
+    if (reduction.is_constrained(dof))
+      for (const auto &[other, weight] : *reduction.get_constraint_entries(dof))
+        add(result, weight, expand(other));
+    else if (const auto found = modes.find(dof); found != modes.end())
+      {
+        const auto &[edge, place]  = found->second;
+        const Combinations of_edge = coefficients(edge);
+        for (unsigned int j = 0; j < of_edge.size(); ++j)
+          add(result,
+              line_transform(of_edge.size() - 1).to_modes(place + 2, j),
+              of_edge[j]);
+      }
+    else
+      result = {{dof, 1.}};
+    return result;
+  }
+
+  std::vector<Combination>
+  SignedMultipliers::coefficients(const Edge &edge) const
+  {
+    Combinations result = {expand(edge.ends[0])};
+    for (const Index multiplier : edge.multipliers)
+      result.push_back({{multiplier, 1.}});
+    result.push_back(expand(edge.ends[1]));
+    return result;
+  }
+
+  std::vector<Combination>
+  SignedMultipliers::coefficients(const TraceBasis  &basis,
+                                  const Dofs        &dofs,
+                                  const unsigned int e) const
+  {
+    if (const auto edge = own_edge(basis, dofs, e))
+      return coefficients(*edge);
+    Combinations hierarchical;
+    for (const unsigned int v : basis.edge_vertices(e))
+      hierarchical.push_back(expand(dofs[basis.vertex_function(v)]));
+    for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
+      hierarchical.push_back(expand(dofs[k]));
+    });
+    while (hierarchical.size() > 2 && hierarchical.back().empty())
+      hierarchical.pop_back();
+    const unsigned int n = hierarchical.size();
+    Combinations       result(n);
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        for (unsigned int m = 0; m < n; ++m)
+          add(result[j],
+              line_transform(n - 1).to_bernstein(j, m),
+              hierarchical[m]);
+        // a subdivision has no negative weights but by rounding
+        constexpr double rounding = 1e-11;
+        result[j].erase(std::remove_if(result[j].begin(),
+                                       result[j].end(),
+                                       [](const auto &entry) {
+                                         return std::fabs(entry.second) <
+                                                rounding;
+                                       }),
+                        result[j].end());
+      }
+    return result;
+  }
+
+  SignedMultipliers::Coefficients
+  SignedMultipliers::coefficients(const TraceBasis &basis,
+                                  const Dofs       &dofs) const
+  {
+    const bool   is_triangle = basis.shape == FaceShape::triangle;
+    Coefficients result{{{1, 1}}, {}, {}};
+    const auto   raise = [&](const unsigned int a, const unsigned int degree) {
+      for (unsigned int b = 0; b < 2; ++b)
+        if (is_triangle || a == b)
+          result.degree[b] = std::max(result.degree[b], degree);
+    };
+    std::vector<Combinations> edges;
+    for (unsigned int e = 0; e < basis.n_edges(); ++e)
+      {
+        edges.push_back(coefficients(basis, dofs, e));
+        raise(e / 2, edges[e].size() - 1);
+      }
+    std::vector<unsigned int> inside; // functions
+    for (unsigned int k = 0; k < basis.size(); ++k)
+      if (const auto &f = basis.functions[k];
+          f.dimension == 2 && multiplier_at(dofs[k]))
+        {
+          inside.push_back(k);
+          raise(0, is_triangle ? f.degree : f.modes[0]);
+          raise(1, is_triangle ? f.degree : f.modes[1]);
+        }
+
+    const Lattice lattice(basis.shape, result.degree);
+    result.all.resize(lattice.places.size());
+    for (unsigned int e = 0; e < basis.n_edges(); ++e)
+      {
+        const unsigned int degree = result.degree[is_triangle ? 0 : e / 2];
+        elevate(edges[e], degree);
+        for (unsigned int k = 0; k <= degree; ++k)
+          result.all[lattice.on_edge(basis, e, k)] = edges[e][k];
+      }
+    auto next = inside.begin();
+    for (unsigned int i = 0; i < lattice.places.size(); ++i)
+      if (const auto &place = lattice.places[i]; lattice.is_inside(place))
+        {
+          const auto has_place = [&](const unsigned int k) {
+            const auto &modes = basis.functions[k].modes;
+            return modes[0] == place[0] + 1 && modes[1] == place[1] + 1;
+          };
+          const auto found =
+            is_triangle ? next :
+                          std::find_if(inside.begin(), inside.end(), has_place);
+          if (found == inside.end())
+            result.all[i] = lattice.mean_of_ruled(place, result.all);
+          else
+            {
+              result.inside.emplace_back(i, *multiplier_at(dofs[*found]));
+              result.all[i] = {{result.inside.back().second, 1.}};
+              next += is_triangle ? 1 : 0;
+            }
+        }
+    return result;
+  }
+
+  std::vector<Combination>
+  SignedMultipliers::values_at_nodes(const TraceBasis &basis,
+                                     const Dofs       &dofs) const
+  {
+    constexpr double rounding = 1e-14;
+    Combinations     result(basis.size());
+    const auto       nodes = face_nodes(basis.shape, basis.degree);
+    for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+      result[basis.vertex_function(v)] = expand(dofs[basis.vertex_function(v)]);
+    for (unsigned int e = 0; e < basis.n_edges(); ++e)
+      {
+        const auto edge = functions_of_edge(basis, e);
+        if (edge.empty())
+          continue;
+        if (!has_coefficients(edge, dofs))
+          {
+            for (const unsigned int k : edge)
+              result[k] = {{dofs[k], 1.}};
+            continue;
+          }
+        const Combinations all = coefficients(basis, dofs, e);
+        for (const unsigned int k : edge)
+          {
+            const double t = along_edge(basis, e, nodes[k]);
+            for (unsigned int j = 0; j < all.size(); ++j)
+              add(result[k],
+                  binomial_term(all.size() - 1, j, t, 1. - t),
+                  all[j]);
+          }
+      }
+    const auto inside = functions_inside(basis);
+    if (inside.empty())
+      return result;
+    if (!has_coefficients(inside, dofs))
+      {
+        for (const unsigned int k : inside)
+          result[k] = {{dofs[k], 1.}};
+        return result;
+      }
+    const Coefficients       of_face = coefficients(basis, dofs);
+    const FullMatrix<double> values =
+      bernstein_at_nodes(basis, Lattice(basis.shape, of_face.degree));
+    for (const unsigned int k : inside)
+      for (unsigned int i = 0; i < values.n(); ++i)
+        if (values(k, i) > rounding)
+          add(result[k], values(k, i), of_face.all[i]);
+    return result;
+  }
+
+  std::vector<std::pair<SignedMultipliers::Index, std::vector<double>>>
+  SignedMultipliers::from_values(const TraceBasis &basis,
+                                 const Dofs       &dofs) const
+  {
+    std::vector<std::pair<Index, std::vector<double>>> result;
+    const FullMatrix<double>                          &functions =
+      face_nodal_basis(basis.shape, basis.degree).functions;
+    for (unsigned int e = 0; e < basis.n_edges(); ++e)
+      if (const auto edge = own_edge(basis, dofs, e))
+        {
+          std::vector<unsigned int> rows;
+          for (const unsigned int v : basis.edge_vertices(e))
+            rows.push_back(basis.vertex_function(v));
+          for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
+            rows.push_back(k);
+          });
+          const unsigned int n = edge->multipliers.size() + 2;
+          for (unsigned int j = 1; j + 1 < n; ++j)
+            {
+              std::vector<double> weights(basis.size());
+              for (unsigned int m = 0; m < n; ++m)
+                for (unsigned int k = 0; k < basis.size(); ++k)
+                  weights[k] += line_transform(n - 1).to_bernstein(j, m) *
+                                functions(rows[m], k);
+              result.emplace_back(edge->multipliers[j - 1], weights);
+            }
+        }
+    const auto inside = functions_inside(basis);
+    if (inside.empty() || !has_coefficients(inside, dofs))
+      return result;
+    const Coefficients of_face = coefficients(basis, dofs);
+    if (of_face.inside.empty())
+      return result;
+    FullMatrix<double> coefficients;
+    coefficients.left_invert(
+      bernstein_at_nodes(basis, Lattice(basis.shape, of_face.degree)));
+    for (const auto &[place, multiplier] : of_face.inside)
+      result.emplace_back(multiplier,
+                          std::vector<double>(&coefficients(place, 0),
+                                              &coefficients(place, 0) +
+                                                basis.size()));
+    return result;
+  }
+} // namespace mortise

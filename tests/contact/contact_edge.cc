@@ -1,0 +1,125 @@
+// Proves that contact opens up to its true edge, but for three rows of nodes,
+// where it pulls as it does beside an edge that is too far out; neither beyond
+// it, nor on other surfaces, nor around a spot that pulls inside. The nodes are
+// dealt out to the ranks.
+#include <mortise/contact/contact_edge.h>
+#include <verdict.h>
+
+#include <cmath>
+#include <iostream>
+
+using namespace mortise;
+using dealii::Point;
+
+namespace
+{
+  /// Nodes 0 <= x <= 1 in rows of distance @p h, which are three wide, and what
+  /// of them is active and pulls.
+  struct Strip
+  {
+    Strip(const double h, const MPI_Comm comm, const unsigned int surface = 0)
+    {
+      const unsigned int n_ranks =
+                           dealii::Utilities::MPI::n_mpi_processes(comm),
+                         me = dealii::Utilities::MPI::this_mpi_process(comm);
+      for (unsigned int k = 0; k * h < 1. + h / 2.; ++k)
+        for (unsigned int j = 0; j < 3; ++j)
+          if ((3 * k + j) % n_ranks == me)
+            {
+              places.emplace_back(k * h, j * h, 0.);
+              surfaces.push_back(surface);
+            }
+    }
+
+    std::vector<Point<3>>     places;
+    std::vector<unsigned int> surfaces;
+  };
+
+  /// What is opened, as the least x: bodies are held together up to x = 0.8,
+  /// where they should part at @p edge.
+  double
+  opened_from(const double h, const double edge)
+  {
+    const Strip       strip(h, MPI_COMM_WORLD);
+    std::vector<bool> active, turns;
+    for (const Point<3> &place : strip.places)
+      {
+        const double s = 0.8 + h / 2. - place[0], d = 0.8 - edge;
+        active.push_back(s > 0.);
+        turns.push_back(s > 0. && std::sqrt(s) - d / 2. / std::sqrt(s) < 0.);
+      }
+    ContactEdge(strip.places, strip.surfaces, MPI_COMM_WORLD)
+      .extend(active, turns);
+    double least = 1.;
+    for (unsigned int i = 0; i < turns.size(); ++i)
+      if (turns[i])
+        least = std::min(least, strip.places[i][0]);
+    return dealii::Utilities::MPI::min(least, MPI_COMM_WORLD);
+  }
+
+  /// How many more turn where those do that have a place in @p pulls.
+  template <typename Pulls>
+  unsigned int
+  n_more(const Strip &strip, const Pulls &pulls)
+  {
+    std::vector<bool> active, turns;
+    for (unsigned int i = 0; i < strip.places.size(); ++i)
+      {
+        active.push_back(strip.places[i][0] < 0.8);
+        turns.push_back(active[i] && pulls(i));
+      }
+    const std::vector<bool> before = turns;
+    ContactEdge(strip.places, strip.surfaces, MPI_COMM_WORLD)
+      .extend(active, turns);
+    unsigned int n = 0;
+    for (unsigned int i = 0; i < turns.size(); ++i)
+      n += turns[i] != before[i] ? 1 : 0;
+    return dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD);
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0)
+    std::cout.setstate(std::ios_base::failbit); // one rank prints
+  for (const double h : {0.04, 0.02, 0.01})
+    for (const double edge : {0.4, 0.6, 0.7})
+      {
+        const double      from = opened_from(h, edge);
+        const std::string what =
+          "rows of " + std::to_string(h) + ", edge at " + std::to_string(edge);
+        verdict(what + ": not too far", edge - from, 1e-9);
+        verdict(what + ": far enough, in rows", (from - edge) / h, 3.001);
+      }
+  const Strip strip(0.02, MPI_COMM_WORLD);
+  verdict("nothing pulls",
+          n_more(strip, [](const unsigned int) { return false; }),
+          0);
+  verdict("a spot inside",
+          n_more(strip,
+                 [&](const unsigned int i) {
+                   return std::fabs(strip.places[i][0] - 0.3) < 0.03;
+                 }),
+          0);
+  Strip       both = strip;
+  const Strip other(0.02, MPI_COMM_WORLD, 1);
+  both.places.insert(both.places.end(),
+                     other.places.begin(),
+                     other.places.end());
+  both.surfaces.insert(both.surfaces.end(),
+                       other.surfaces.begin(),
+                       other.surfaces.end());
+  verdict("another surface goes on",
+          double(n_more(both,
+                        [&](const unsigned int i) {
+                          return both.surfaces[i] == 0 &&
+                                 both.places[i][0] > 0.7;
+                        })) -
+            double(n_more(strip,
+                          [&](const unsigned int i) {
+                            return strip.places[i][0] > 0.7;
+                          })),
+          0);
+}
