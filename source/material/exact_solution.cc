@@ -105,6 +105,7 @@ namespace mortise
         , b(layer.outer_radius)
         , offset(layer.offset_inside)
         , compliance(layer.compliance_inside)
+        , contact(layer.contact_inside)
         , d(d)
       {
         const double E  = layer.material.young_modulus,
@@ -138,19 +139,22 @@ namespace mortise
       }
 
       double       a, b, offset, compliance;
+      bool         contact;
       unsigned int d;
       double       one_by_k, one_by_s, ratio;
     };
 
-    /// Pressures at all radii, from the inside out. The unknowns are the
+    /// Pressures at all radii, from the inside out, those at the radii of @p open being
+    /// zero. The unknowns are the
     /// pressures where layers meet, so that contrast in stiffness never enters
     /// a difference: the equations (displacements of both sides that differ by
     /// the offset, and by what a spring gives) are tridiagonal and diagonally
     /// dominant for each sign.
     std::vector<double>
-    interface_pressures(const std::vector<Response> &responses,
-                        const double                 pressure_inside,
-                        const double                 pressure_outside)
+    pressures_at_radii(const std::vector<Response> &responses,
+                       const std::vector<bool>     &open,
+                       const double                 pressure_inside,
+                       const double                 pressure_outside)
     {
       const unsigned int  n = responses.size();
       std::vector<double> pressures(n + 1, 0.), diagonal(n + 1, 1.),
@@ -161,6 +165,8 @@ namespace mortise
       // offset.
       for (unsigned int i = 1; i < n; ++i)
         {
+          if (open[i])
+            continue; // p_i = 0
           const Response &below = responses[i - 1], &above = responses[i];
           const double    lower  = below.displacement(below.b, 1., 0.);
           const double    middle = below.displacement(below.b, 0., 1.) -
@@ -175,6 +181,37 @@ namespace mortise
         pressures[i] =
           (pressures[i] - upper[i] * pressures[i + 1]) / diagonal[i];
       return pressures;
+    }
+
+    /// The same where layers part that would pull: from the inside out, the
+    /// first that has the wrong sign turns, which ends.
+    std::vector<double>
+    interface_pressures(const std::vector<Response> &responses,
+                        const double                 pressure_inside,
+                        const double                 pressure_outside)
+    {
+      const unsigned int n = responses.size();
+      std::vector<bool>  open(n, false);
+      while (true)
+        {
+          const auto p        = pressures_at_radii(responses,
+                                            open,
+                                            pressure_inside,
+                                            pressure_outside);
+          const auto is_wrong = [&](const unsigned int i) {
+            const Response &below = responses[i - 1], &above = responses[i];
+            const double    gap = above.offset +
+                               above.displacement(above.a, p[i], p[i + 1]) -
+                               below.displacement(below.b, p[i - 1], p[i]);
+            return above.contact && (open[i] ? gap < 0. : p[i] < 0.);
+          };
+          unsigned int first = 1;
+          while (first < n && !is_wrong(first))
+            ++first;
+          if (first >= n)
+            return p;
+          open[first] = !open[first];
+        }
     }
   } // namespace
 

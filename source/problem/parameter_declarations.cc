@@ -72,7 +72,7 @@ namespace mortise
       section.add("Law",
                   interface.law,
                   "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
-                  "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those of the start. spring: a thin layer or glue of the stiffnesses below.",
+                  "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those within Search distance at the start. spring: a thin layer or glue of the stiffnesses below.",
                   Allowed::one_of({"tie", "slide", "contact", "spring"}));
       section.add("Normal stiffness",
                   interface.normal_stiffness,

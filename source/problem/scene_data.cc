@@ -104,6 +104,7 @@ namespace mortise
           LameSolution::Layer &outer = a.inner_radius < b.inner_radius ? b : a;
           outer.offset_inside =
             constant_along(parameters, time, interface, "Offset", interface.offset);
+          outer.contact_inside = interface.law == "contact";
           if (interface.normal_stiffness)
             outer.compliance_inside = 1. / constant_along(parameters,
                                                           time,

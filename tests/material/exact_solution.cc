@@ -42,7 +42,7 @@ namespace
   {
     const LinearElastic material{1000., nu};
     const LameSolution  two(geometry,
-                            {{1.5, 2., material}, {1., 1.5, material}},
+                           {{1.5, 2., material}, {1., 1.5, material}},
                            1.);
     const LameSolution  one(geometry, {{1., 2., material}}, 1.);
     double              error = 0.;
@@ -126,7 +126,7 @@ namespace
                                                   {1., 0.45},
                                                   {30., -0.3}};
     const LameSolution               solution(geometry,
-                                              {{1., 1.5, materials[0]},
+                                {{1., 1.5, materials[0]},
                                                {1.5, 2., materials[1]},
                                                {2., 2.2, materials[2]}},
                                 1.,
@@ -259,8 +259,8 @@ namespace
       {material},
       Expression("cos(2*x)*sin(y + z)"));
     const Point<3> p(0.3, 0.4, 0.5);
-    const auto     stress = solution.stress(p, 0);
-    const double   mean   = std::cos(0.6) * std::sin(0.9);
+    const auto     stress   = solution.stress(p, 0);
+    const double   mean     = std::cos(0.6) * std::sin(0.9);
     const auto     gradient = solution.gradient(p, 0);
     at_most("incompressible: mean pressure",
             std::fabs(-trace(stress) / 3. - mean),
@@ -327,6 +327,55 @@ namespace
     std::cout << (good ? "OK  " : "FAILED ") << "refused: " << what
               << (good ? "" : ": got " + message) << std::endl;
   }
+
+  /// Parts 1..2 (E = 1000, nu = 0.3) and 2..3 (500, 0.25) with a gap: it closes
+  /// under the published pressure inside, and what presses then; an
+  /// interference opens under the published tension.
+  void
+  check_contact(const std::string           &what,
+                const LameSolution::Geometry geometry,
+                const double                 closes,
+                const double                 at_60,
+                const double                 opens)
+  {
+    const auto solve =
+      [&](const double offset, const double inside, const double outside) {
+        LameSolution::Layer outer{2., 3., {500., 0.25}};
+        outer.offset_inside  = offset;
+        outer.contact_inside = true;
+        return LameSolution(geometry,
+                            {{1., 2., {1000., 0.3}}, outer},
+                            inside,
+                            outside);
+      };
+    at_most(what + ", open just below",
+            std::fabs(
+              solve(0.01, closes * (1. - 1e-9), 0.).radial_stress(2., 1)),
+            0.);
+    at_most(what + ", closed just above",
+            std::fabs(
+              solve(0.01, closes * (1. + 1e-9), 0.).radial_stress(2., 1)) > 0. ?
+              0. :
+              1.,
+            0.);
+    at_most(what + ", gap just below",
+            std::fabs(
+              solve(0.01, closes * (1. - 1e-9), 0.).radial_displacement(2., 0) -
+              0.01),
+            1e-10);
+    at_most(what + ", inflated",
+            relative(-solve(0.01, 60., 0.).radial_stress(2., 1), at_60),
+            1e-9);
+    at_most(what + ", pulled open",
+            std::fabs(
+              solve(-0.01, 0., -opens * (1. + 1e-9)).radial_stress(2., 0)),
+            0.);
+    at_most(what + ", pulled nearly open",
+            -solve(-0.01, 0., -opens * (1. - 1e-9)).radial_stress(2., 0) > 0. ?
+              0. :
+              1.,
+            0.);
+  }
 } // namespace
 
 int
@@ -356,6 +405,10 @@ main()
   check_lame("cylinder of three layers", cylinder);
   check_contrast("sphere", sphere);
   check_contrast("cylinder", cylinder);
+  check_contact(
+    "cylinders in contact", cylinder, 8.241758242, 4.738430584, 0.7407407407);
+  check_contact(
+    "spheres in contact", sphere, 33.33333333, 1.455938697, 1.563786008);
   check_expressions();
   check_incompressible();
   check_mixed();

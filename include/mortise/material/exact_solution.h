@@ -58,7 +58,7 @@ namespace mortise
   };
 
   /// Lame's thick sphere, or thick cylinder in plane strain, of one or more
-  /// concentric layers under pressure inside and outside; displacement and
+  /// concentric layers under pressure inside and outside; displacement, but for gaps, and
   /// radial stress are continuous where two layers meet. u_r = A r + B /
   /// r^(d-1) with d = 3 (sphere) or 2 (cylinder) in each layer. Source:
   /// Timoshenko and Goodier, Theory of Elasticity, chapters 4 and 12.
@@ -79,6 +79,8 @@ namespace mortise
       /// Between this layer and the one inside: the gap that is left (negative:
       /// an interference), a length, and how much tension of one opens it.
       double offset_inside = 0., compliance_inside = 0.;
+      /// May these two part, where they would pull?
+      bool contact_inside = false;
     };
 
     /// Layer i is body i; layers may come in any order of radius. The centre
