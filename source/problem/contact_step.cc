@@ -20,6 +20,12 @@ namespace mortise
     /// Of solves on the way to the set: doc/contact.md.
     constexpr double loose = 1e-2;
 
+    /// Then the edge is where extending does not find it.
+    constexpr unsigned int max_overshoots = 3;
+
+    /// Signs are not known any better.
+    constexpr double least_accuracy = 1e-10;
+
     /// Of it, from one to the next where signs are not known yet.
     constexpr double finer = 1e-2;
 
@@ -170,6 +176,31 @@ namespace mortise
                  (set.cycles() ? ", one by one since sets came back" : ""));
   }
 
+  ContactStep::Next
+  ContactStep::advance(const SceneLoad    &load,
+                       const SystemVector &x,
+                       const double        tolerance,
+                       const bool          extends)
+  {
+    const Vector gaps = discretisation.gaps(load, x);
+    Next         next{set, {}, ""};
+    next.change =
+      next.set.advance(x.multiplier.begin(),
+                       gaps.begin(),
+                       std::max(gaps.linfty_norm(),
+                                x.displacement.linfty_norm()),
+                       // what a linear solve leaves is no reason to turn
+                       std::max(least_accuracy, tolerance),
+                       [&](std::vector<bool> &turns) {
+                         if (extends)
+                           edge.extend(set.active(), turns);
+                       });
+    unclear = next.set.undecided();
+    if (next.change.any())
+      next.free = free_motions(next.set.active());
+    return next;
+  }
+
   SolveReport
   ContactStep::solve(const SceneLoad    &load,
                      const SystemVector &last,
@@ -181,11 +212,12 @@ namespace mortise
                          asked :
                          std::max(loose, asked);
     start(load, last);
-    SolveReport report;
-    double      setup_seconds = 0., solve_seconds = 0.;
-    bool        extends = true, extended = false;
-    iterations = 0;
-    sets       = 1;
+    SolveReport  report;
+    double       setup_seconds = 0., solve_seconds = 0.;
+    bool         extends = true, extended = false;
+    unsigned int overshoots = 0;
+    iterations              = 0;
+    sets                    = 1;
     while (true)
       {
         report = solve_set(load, tolerance, x);
@@ -195,46 +227,31 @@ namespace mortise
         report.converged = report.converged && sets <= max_sets;
         if (!report.converged)
           break;
-        const Vector gaps = discretisation.gaps(load, x);
-        const double length =
-          std::max(gaps.linfty_norm(), x.displacement.linfty_norm());
-        // what a linear solve leaves is no reason to open or close
-        const double            accuracy = std::max(1e-10, tolerance);
-        ActiveSet               next     = set;
-        const ActiveSet::Change change =
-          next.advance(x.multiplier.begin(),
-                       gaps.begin(),
-                       length,
-                       accuracy,
-                       [&](std::vector<bool> &turns) {
-                         if (tolerance > asked && extends)
-                           edge.extend(set.active(), turns);
-                       });
-        unclear = next.undecided();
-        print(set.n_active(), change, report.iterations);
-        extends  = extends && !(extended && change.closed > 0);
-        extended = extended || change.opened > 0;
-        const std::string free =
-          change.any() ? free_motions(next.active()) : "";
-        if (tolerance == asked)
-          {
-            if (!change.any())
-              break;
-            if (!free.empty())
-              throw InputError("Contact is lost: where it pulls it opens, and "
-                               "what still presses holds no longer. " +
-                               free);
-          }
-        else if (!change.any() || !free.empty() || next.cycles())
+        Next next = advance(load, x, tolerance, extends && tolerance > asked);
+        print(set.n_active(), next.change, report.iterations);
+        // sets that close again may have opened beyond the edge
+        if (extends && extended && next.change.closed > 0)
+          ++overshoots;
+        extended = extended || next.change.opened > 0;
+        extends  = overshoots < max_overshoots &&
+                  !(extended && next.change.closed > 0) && !next.set.cycles();
+        if (tolerance == asked && !next.change.any())
+          break;
+        if (tolerance == asked && !next.free.empty())
+          throw InputError("Contact is lost: where it pulls it opens, and what "
+                           "still presses holds no longer. " +
+                           next.free);
+        if (tolerance > asked &&
+            (!next.change.any() || !next.free.empty() || next.set.cycles()))
           {
             // and ask again; what is open until the end costs more there
-            extends = extends && !next.cycles();
-            tolerance =
-              change.undecided > 0 ? std::max(asked, finer * tolerance) : asked;
+            tolerance = next.change.undecided > 0 ?
+                          std::max(asked, finer * tolerance) :
+                          asked;
             set.start_from(set.active());
             continue;
           }
-        set = std::move(next);
+        set = std::move(next.set);
         ++sets;
       }
     report.setup_seconds = setup_seconds;

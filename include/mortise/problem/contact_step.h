@@ -64,6 +64,18 @@ namespace mortise
     print(std::uint64_t            n_active,
           const ActiveSet::Change &change,
           unsigned int             n_iterations) const;
+    struct Next
+    {
+      ActiveSet         set;
+      ActiveSet::Change change;
+      std::string       free; ///< motions that it leaves, in words
+    };
+    /// What follows from @p x. @p extends: up to where the edge of the contact is.
+    Next
+    advance(const SceneLoad    &load,
+            const SystemVector &x,
+            double              tolerance,
+            bool                extends);
     SolveReport
     solve_set(const SceneLoad &load, double tolerance, SystemVector &x);
     bool
