@@ -243,6 +243,22 @@ namespace mortise
       const HierarchicalMultipliers   &hierarchical;
       const SignedMultipliers         *with_signs;
     };
+    /// Dofs become multipliers. @p numbers: by dof, from one on, less than zero where another
+    /// multiplier has the same entries.
+    void
+    to_numbers(const ByDof &numbers, MultiplierSpace::FaceRows &rows)
+    {
+      const auto number = [&](const Index dof) {
+        return static_cast<Index>(std::fabs(numbers(dof))) - 1;
+      };
+      for (Index &index : rows.index)
+        {
+          rows.is_represented.push_back(numbers(index) < 0.);
+          index = number(index);
+        }
+      for (auto &coefficient : rows.coefficients)
+        coefficient.index = number(coefficient.index);
+    }
   } // namespace
 
   MultiplierSpace::Rows
@@ -299,23 +315,12 @@ namespace mortise
     shared.exchange();
     result.owned = shared.rows(first);
 
-    // from one on, less than zero where another has the same entries
     for (unsigned int i = 0; i < owned_dofs.size(); ++i)
       numbers(owned_dofs[i]) =
         (result.owned[i].entries == first + i ? 1. : -1.) * (1. + first + i);
     numbers.update_ghost_values();
     for (FaceRows &rows : result.by_face)
-      {
-        for (Index &index : rows.index)
-          {
-            const double number = numbers(index);
-            index               = static_cast<Index>(std::fabs(number)) - 1;
-            rows.is_represented.push_back(number < 0.);
-          }
-        for (auto &coefficient : rows.coefficients)
-          coefficient.index =
-            static_cast<Index>(std::fabs(numbers(coefficient.index))) - 1;
-      }
+      to_numbers(numbers, rows);
     return result;
   }
 

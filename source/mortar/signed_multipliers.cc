@@ -326,9 +326,10 @@ namespace mortise
     const Coefficients of_face = coefficients(basis, dofs);
     if (of_face.inside.empty())
       return result;
-    FullMatrix<double> coefficients;
-    coefficients.left_invert(
-      BernsteinLattice(basis.shape, of_face.degree).at_nodes(basis));
+    const FullMatrix<double> values =
+      BernsteinLattice(basis.shape, of_face.degree).at_nodes(basis);
+    FullMatrix<double> coefficients(values.n(), values.m());
+    coefficients.left_invert(values);
     for (const auto &[place, multiplier] : of_face.inside)
       result.emplace_back(multiplier,
                           std::vector<double>(&coefficients(place, 0),

@@ -17,8 +17,8 @@
 
 namespace mortise
 {
-  /// Of one component, in the space of @p reduction. Edges and insides with coefficients have the degree of the
-  /// highest mode that is kept there, the
+  /// Of one component, in the space of @p reduction. Edges and insides with
+  /// coefficients have the degree of the highest mode that is kept there, the
   /// multiplier at the dof of mode k being the coefficient k - 1 of the edge.
   /// All that follows from others has weights that are not negative and add up
   /// to one: subdivision where nodes hang, elevation where degrees meet or are
