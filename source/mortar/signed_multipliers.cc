@@ -30,27 +30,16 @@ namespace mortise
       return (node - from) * edge / edge.norm_square();
     }
 
-    /// Calls visit(place among functions, mode) for the modes of edge @p e from 2 on.
-    template <typename Visit>
-    void
-    for_each_mode(const TraceBasis  &basis,
-                  const unsigned int e,
-                  const Visit       &visit)
-    {
-      for (unsigned int mode = 2; mode <= basis.degree; ++mode)
-        for (unsigned int k = 0; k < basis.size(); ++k)
-          if (const auto &f = basis.functions[k];
-              f.dimension == 1 && f.entity == e && f.degree == mode)
-            visit(k, mode);
-    }
-
+    /// Those of the modes of edge @p e from 2 on, in this order.
     std::vector<unsigned int>
     functions_of_edge(const TraceBasis &basis, const unsigned int e)
     {
       std::vector<unsigned int> result;
-      for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
-        result.push_back(k);
-      });
+      for (unsigned int mode = 2; mode <= basis.degree; ++mode)
+        for (unsigned int k = 0; k < basis.size(); ++k)
+          if (const auto &f = basis.functions[k];
+              f.dimension == 1 && f.entity == e && f.degree == mode)
+            result.push_back(k);
       return result;
     }
 
@@ -90,18 +79,15 @@ namespace mortise
                               const Dofs        &dofs,
                               const unsigned int e) const
   {
+    const auto functions = functions_of_edge(basis, e);
+    if (!has_coefficients(functions, dofs))
+      return {};
     Edge edge;
-    bool hangs = !has_coefficients(functions_of_edge(basis, e), dofs);
-    for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
-      if (hangs)
-        return;
+    for (const unsigned int k : functions)
       if (const auto multiplier = multiplier_at(dofs[k]))
         edge.multipliers.push_back(*multiplier);
-      else
-        hangs |= !reduction.get_constraint_entries(dofs[k])->empty();
-    });
-    if (hangs)
-      return {};
+      else if (!reduction.get_constraint_entries(dofs[k])->empty())
+        return {};
     const auto ends = basis.edge_vertices(e);
     for (unsigned int i = 0; i < 2; ++i)
       edge.ends[i] = dofs[basis.vertex_function(ends[i])];
@@ -159,9 +145,8 @@ namespace mortise
     Combinations hierarchical;
     for (const unsigned int v : basis.edge_vertices(e))
       hierarchical.push_back(expand(dofs[basis.vertex_function(v)]));
-    for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
+    for (const unsigned int k : functions_of_edge(basis, e))
       hierarchical.push_back(expand(dofs[k]));
-    });
     while (hierarchical.size() > 2 && hierarchical.back().empty())
       hierarchical.pop_back();
     const unsigned int n = hierarchical.size();
@@ -203,10 +188,10 @@ namespace mortise
         raise(e / 2, edges[e].size() - 1);
       }
     std::vector<unsigned int> inside; // functions
-    for (unsigned int k = 0; k < basis.size(); ++k)
-      if (const auto &f = basis.functions[k];
-          f.dimension == 2 && multiplier_at(dofs[k]))
+    for (const unsigned int k : functions_inside(basis))
+      if (multiplier_at(dofs[k]))
         {
+          const auto &f = basis.functions[k];
           inside.push_back(k);
           raise(0, is_triangle ? f.degree : f.modes[0]);
           raise(1, is_triangle ? f.degree : f.modes[1]);
@@ -306,9 +291,8 @@ namespace mortise
           std::vector<unsigned int> rows;
           for (const unsigned int v : basis.edge_vertices(e))
             rows.push_back(basis.vertex_function(v));
-          for_each_mode(basis, e, [&](const unsigned int k, unsigned int) {
+          for (const unsigned int k : functions_of_edge(basis, e))
             rows.push_back(k);
-          });
           const unsigned int n = edge->multipliers.size() + 2;
           for (unsigned int j = 1; j + 1 < n; ++j)
             {

@@ -20,12 +20,6 @@ namespace mortise
 
   namespace
   {
-    std::vector<double>
-    entries(const Tensor<1, dim> &value)
-    {
-      return {value[0], value[1], value[2]};
-    }
-
     /// Of all interfaces, by owned multiplier.
     struct ContactState
     {
@@ -81,8 +75,8 @@ namespace mortise
       result.pressure_mean = result.area > 0. ? work / result.area : 0.;
       result.pressure_max  = Utilities::MPI::max(result.pressure_max, comm);
       result.gap_min       = Utilities::MPI::min(least, comm);
-      result.force         = entries(Utilities::MPI::sum(force, comm));
-      result.moment        = entries(Utilities::MPI::sum(moment, comm));
+      result.force         = components(Utilities::MPI::sum(force, comm));
+      result.moment        = components(Utilities::MPI::sum(moment, comm));
       for (std::uint64_t *count :
            {&result.active, &result.inactive, &result.undecided})
         *count = Utilities::MPI::sum(*count, comm);
@@ -167,7 +161,6 @@ namespace mortise
                   "Search distance, or smaller displacements";
       throw_if_any(text.str(), run.comm);
     }
-
   } // namespace
 
   void

@@ -23,7 +23,9 @@ namespace mortise
         fields.multipliers.push_back(
           multiplier_coefficients(coupling, multiplier, run.comm));
       }
-    if (discretisation.interfaces().have_contact())
+    const auto &asked = run.parameters.output.fields;
+    if (discretisation.interfaces().have_contact() &&
+        std::find(asked.begin(), asked.end(), "traction") != asked.end())
       fields.contact = contact_fields(run, discretisation, solved);
     return fields;
   }
@@ -56,11 +58,6 @@ namespace mortise
       return result;
     }
 
-    std::vector<double>
-    components(const Tensor<1, dim> &value)
-    {
-      return {value[0], value[1], value[2]};
-    }
   } // namespace
 
   void

@@ -16,7 +16,8 @@ namespace mortise
       tractions; ///< by interface and slave face, see multiplier_on_faces()
     std::vector<std::vector<std::vector<double>>>
       multipliers; ///< likewise, see multiplier_coefficients()
-    /// Likewise, see contact_fields(); empty in a scene without contact.
+    /// Likewise, see contact_fields(); empty without contact, or where
+    /// tractions are no field of the output.
     std::vector<std::vector<std::vector<double>>> contact;
   };
 
@@ -29,6 +30,13 @@ namespace mortise
     /// in a scene without contact.
     const std::vector<bool> undecided;
   };
+
+  /// As the summary has vectors.
+  inline std::vector<double>
+  components(const dealii::Tensor<1, dim> &value)
+  {
+    return {value[0], value[1], value[2]};
+  }
 
   /// Collective.
   StepFields
