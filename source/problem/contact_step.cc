@@ -20,6 +20,13 @@ namespace mortise
     /// Of solves on the way to the set: doc/contact.md.
     constexpr double loose = 1e-2;
 
+    /// Likewise, the root of the energy of the error beside that of the
+    /// solution, as a multiple of the tolerance.
+    constexpr double loose_energy = 3.;
+
+    /// As many as fields of load with factors of their own.
+    constexpr unsigned int max_increments = 4;
+
     /// Then the edge is where extending does not find it.
     constexpr unsigned int max_overshoots = 3;
 
@@ -39,29 +46,29 @@ namespace mortise
       return owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
     }
 
-    ContactEdge
-    make_edge(const Discretisation &discretisation, const MPI_Comm comm)
+    MultiplierPlaces
+    multiplier_places(const Discretisation &discretisation)
     {
-      std::vector<Point<dim>>   places;
-      std::vector<unsigned int> surfaces; // 0: no contact
-      const auto               &all = discretisation.interfaces().all();
+      MultiplierPlaces places;
+      const auto      &all = discretisation.interfaces().all();
       for (unsigned int i = 0; i < all.size(); ++i)
         {
           const auto &pressing = discretisation.pressing()[i];
           for (unsigned int k = 0; k < all[i].multipliers->n_owned(); ++k)
             {
-              surfaces.push_back(pressing.empty() ? 0 : 1 + i);
-              places.push_back(pressing.empty() ? Point<dim>() :
-                                                  pressing[k].place);
+              places.surfaces.push_back(pressing.empty() ? 0 : 1 + i);
+              places.points.push_back(pressing.empty() ? Point<dim>() :
+                                                         pressing[k].place);
             }
         }
-      return {std::move(places), std::move(surfaces), comm};
+      return places;
     }
   } // namespace
 
-  ContactStep::ContactStep(const RunContext &run,
-                           Discretisation   &discretisation,
-                           LinearSolver     &solver)
+  ContactStep::ContactStep(const RunContext           &run,
+                           Discretisation             &discretisation,
+                           LinearSolver               &solver,
+                           std::optional<ActivePlaces> start)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
@@ -69,13 +76,25 @@ namespace mortise
           discretisation.gap_stiffness(),
           first_multiplier(discretisation.linear_system()),
           run.comm)
-    , edge(make_edge(discretisation, run.comm))
+    , places(multiplier_places(discretisation))
+    , edge(places, run.comm)
+    , first(std::move(start))
+    , increments(max_increments)
   {}
+
+  ActivePlaces
+  ContactStep::active_places() const
+  {
+    return {places, set.active(), run.comm};
+  }
 
   bool
   ContactStep::differs_from_shown() const
   {
-    return Utilities::MPI::max(shown == set.active() ? 0 : 1, run.comm) == 1;
+    std::uint64_t n = 0;
+    for (unsigned int i = 0; i < shown.size(); ++i)
+      n += shown[i] != set.active()[i] ? 1 : 0;
+    return 4 * Utilities::MPI::sum(n, run.comm) > set.n_active();
   }
 
   std::string
@@ -93,25 +112,70 @@ namespace mortise
   }
 
   void
-  ContactStep::start(const SceneLoad &load, const SystemVector &last)
+  ContactStep::remember(Solved now)
+  {
+    if (!run.parameters.steps.given())
+      return;
+    if (!residual)
+      residual = std::make_unique<ScaledResidual>(discretisation.linear_system());
+    SystemVector rhs = now.rhs, x = now.x;
+    if (last)
+      {
+        if (Utilities::MPI::max(now.active == last->active ? 0 : 1, run.comm) == 1)
+          increments = SuccessiveSolutions(max_increments);
+        add_scaled(rhs, -1., last->rhs);
+        add_scaled(x, -1., last->x);
+      }
+    increments.add(rhs, x, *residual);
+    last = std::move(now);
+  }
+
+  void
+  ContactStep::resume(const SceneLoad &load, const SystemVector &x)
+  {
+    std::vector<bool> active = discretisation.one_sided();
+    for (unsigned int i = 0; i < active.size(); ++i)
+      active[i] = !active[i] || x.multiplier.begin()[i] > 0.;
+    remember({load.rhs, x, active});
+  }
+
+  void
+  ContactStep::start(const SceneLoad &load, SystemVector &x)
   {
     const std::vector<bool> contact = discretisation.one_sided();
-    std::vector<bool>       all(contact.size(), true), pressing(all);
-    const bool              is_first = last.displacement.size() == 0;
-    const SystemVector     &x =
-      is_first ? discretisation.linear_system().zero_vector() : last;
-    const Vector gaps = discretisation.gaps(load, x);
-    double       area = 0.;
+    const std::vector<bool> all(contact.size(), true);
+    std::vector<bool>       pressing = all;
+    if (last)
+      {
+        x                = last->x;
+        SystemVector rhs = load.rhs;
+        add_scaled(rhs, -1., last->rhs);
+        if (!increments.empty())
+          add_scaled(x, 1., increments.start(rhs, *residual));
+      }
+    double area = 0.;
     for (const auto &multipliers : discretisation.pressing())
       for (const NormalMultiplier &multiplier : multipliers)
         area += multiplier.area;
     // what rounding leaves between meshes that touch is closed
     const double closed =
       1e-10 * std::sqrt(Utilities::MPI::sum(area, run.comm));
-    for (unsigned int i = 0; i < contact.size(); ++i)
-      pressing[i] = !contact[i] || (is_first ? gaps.begin()[i] <= closed :
-                                               x.multiplier.begin()[i] > 0.);
-    set.start_from(free_motions(pressing).empty() ? pressing : all);
+    const Vector gaps =
+      discretisation.gaps(load,
+                          last ? x : discretisation.linear_system().zero_vector());
+    if (!last && first)
+      pressing = first->nearest(places);
+    else
+      for (unsigned int i = 0; i < contact.size(); ++i)
+        pressing[i] = !contact[i] || (last && last->active[i] ?
+                                        x.multiplier.begin()[i] > 0. :
+                                        gaps.begin()[i] <= (last ? -closed : closed));
+    const auto holds = [this](const std::vector<bool> &active) {
+      return free_motions(active).empty();
+    };
+    set.start_from(holds(pressing)              ? pressing :
+                   last && holds(last->active) ? last->active :
+                                                 all);
   }
 
   SolveReport
@@ -130,22 +194,25 @@ namespace mortise
       show();
     else
       solver.update_active();
-    const auto run_from = [&](const SystemVector &start,
-                              const unsigned int  max_iterations) {
-      solver.set_limits(tolerance, max_iterations);
-      if (start.multiplier.size() > 0)
-        solver.remember(load.rhs, start);
-      return solver.solve(load.rhs, x);
-    };
-    if (x.multiplier.size() > 0)
+    const bool goes_on = x.displacement.size() > 0;
+    if (goes_on)
       discretisation.linear_system().clear_inactive(x.multiplier.begin());
+    const auto run_solver = [&](const unsigned int max_iterations) {
+      solver.set_limits(tolerance,
+                        is_last ? SolverOptions().energy_share : loose_energy,
+                        max_iterations);
+      return goes_on ? solver.solve_from(load.rhs, x) :
+                       solver.solve(load.rhs, x);
+    };
+    if (shows)
+      return run_solver(most);
     const SystemVector start = x;
-    const SolveReport  first =
-      run_from(start, shows ? most : std::min(most, few_iterations));
-    if (first.converged || shows)
+    const SolveReport  first = run_solver(std::min(most, few_iterations));
+    if (first.converged)
       return first;
     show();
-    SolveReport report = run_from(start, most);
+    x                  = start;
+    SolveReport report = run_solver(most);
     report.iterations += first.iterations;
     report.setup_seconds += first.setup_seconds;
     report.solve_seconds += first.solve_seconds;
@@ -202,16 +269,14 @@ namespace mortise
   }
 
   SolveReport
-  ContactStep::solve(const SceneLoad    &load,
-                     const SystemVector &last,
-                     SystemVector       &x)
+  ContactStep::solve(const SceneLoad &load, SystemVector &x)
   {
     const double asked = run.parameters.solver.tolerance;
     // a factorisation gives all digits at once
     double tolerance = discretisation.choice().method == SolverMethod::direct ?
                          asked :
                          std::max(loose, asked);
-    start(load, last);
+    start(load, x);
     SolveReport  report;
     double       setup_seconds = 0., solve_seconds = 0.;
     bool         extends = true, extended = false;
@@ -254,6 +319,8 @@ namespace mortise
         set = std::move(next.set);
         ++sets;
       }
+    if (report.converged)
+      remember({load.rhs, x, set.active()});
     report.setup_seconds = setup_seconds;
     report.solve_seconds = solve_seconds;
     return report;

@@ -3,6 +3,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
 #include <mortise/output/checkpoint.h>
+#include <mortise/problem/contact_start.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/result_checks.h>
 #include <mortise/problem/run_table.h>
@@ -51,6 +52,9 @@ namespace mortise
   {
     create_meshes();
     const SceneData data(context.parameters, steps.next(), field_checks);
+    std::optional<ActivePlaces> pressing;
+    if (restart.empty())
+      pressing = contact_start(context, steps.next(), bodies);
     discretisation  = std::make_unique<Discretisation>(context, data, bodies);
     summary.balance = discretisation->interfaces().balance();
 
@@ -60,10 +64,10 @@ namespace mortise
     options.tolerance      = given.tolerance;
     options.max_iterations = given.max_iterations;
     options.max_gathered   = given.max_gathered;
-    // with contact each set is solved from the one before
-    options.successive = context.parameters.steps.given()            ? 4 :
-                         discretisation->interfaces().have_contact() ? 1 :
-                                                                       0;
+    // steps of contact know themselves where to start
+    if (context.parameters.steps.given() &&
+        !discretisation->interfaces().have_contact())
+      options.successive = 4;
     if (given.print_iterations)
       options.monitor = [&](const unsigned int iteration,
                             const double       residual) {
@@ -72,8 +76,10 @@ namespace mortise
       };
     solver = make_linear_solver(discretisation->linear_system(), options);
     if (discretisation->interfaces().have_contact())
-      contact =
-        std::make_unique<ContactStep>(context, *discretisation, *solver);
+      contact = std::make_unique<ContactStep>(context,
+                                              *discretisation,
+                                              *solver,
+                                              std::move(pressing));
     // a factorisation gives one of many answers and does not tell
     if (options.method == SolverMethod::direct)
       discretisation->check_multipliers();
@@ -87,7 +93,10 @@ namespace mortise
     const SceneData data(context.parameters, state.time, field_checks);
     const SceneLoad load = discretisation->load(data);
     state.solution       = discretisation->system_vector(checkpoint, load);
-    solver->remember(load.rhs, state.solution);
+    if (contact)
+      contact->resume(load, state.solution);
+    else
+      solver->remember(load.rhs, state.solution);
     context.log.line("continued from t = " + RunLog::number(state.time));
   }
 
@@ -95,7 +104,7 @@ namespace mortise
   Simulation::solve(const SceneLoad &load)
   {
     SystemVector solution;
-    report = contact ? contact->solve(load, state.solution, solution) :
+    report = contact ? contact->solve(load, solution) :
                        solver->solve(load.rhs, solution);
     if (!discretisation->choice().reason.empty())
       report.preconditioner += "; " + discretisation->choice().reason;

@@ -75,14 +75,30 @@ namespace mortise
   {
     if (!residual)
       update();
+    const bool is_zero = earlier.empty() || largest_entry(rhs) == 0.;
+    x = is_zero ? system.zero_vector() : earlier.start(rhs, *residual);
+    return solve(rhs, x, is_zero);
+  }
+
+  SolveReport
+  LinearSolver::solve_from(const SystemVector &rhs, SystemVector &x)
+  {
+    if (!residual)
+      update();
+    return solve(rhs, x, false);
+  }
+
+  SolveReport
+  LinearSolver::solve(const SystemVector &rhs,
+                      SystemVector       &x,
+                      const bool          is_zero)
+  {
     announce_stage("solve");
     const Timer timer;
     SolveReport report;
     report.method         = method;
     report.preconditioner = description;
 
-    const bool is_zero = earlier.empty() || largest_entry(rhs) == 0.;
-    x = is_zero ? system.zero_vector() : earlier.start(rhs, *residual);
     const double factor = unit_scale(rhs);
     SystemVector scaled = rhs;
     scale(scaled, factor);

@@ -1,7 +1,8 @@
 // Proves that contact opens up to its true edge, but for three rows of nodes,
 // where it pulls as it does beside an edge that is too far out; neither beyond
-// it, nor on other surfaces, nor around a spot that pulls inside. The nodes are
-// dealt out to the ranks.
+// it, nor on other surfaces, nor around a spot that pulls inside; and that
+// nodes of other meshes find what the nearest is. The nodes are dealt out to
+// the ranks.
 #include <mortise/contact/contact_edge.h>
 #include <verdict.h>
 
@@ -17,7 +18,7 @@ namespace
   /// of them is active and pulls.
   struct Strip
   {
-    Strip(const double h, const MPI_Comm comm, const unsigned int surface = 0)
+    Strip(const double h, const MPI_Comm comm, const unsigned int surface = 1)
     {
       const unsigned int n_ranks =
                            dealii::Utilities::MPI::n_mpi_processes(comm),
@@ -26,13 +27,12 @@ namespace
         for (unsigned int j = 0; j < 3; ++j)
           if ((3 * k + j) % n_ranks == me)
             {
-              places.emplace_back(k * h, j * h, 0.);
-              surfaces.push_back(surface);
+              places.points.emplace_back(k * h, j * h, 0.);
+              places.surfaces.push_back(surface);
             }
     }
 
-    std::vector<Point<3>>     places;
-    std::vector<unsigned int> surfaces;
+    MultiplierPlaces places;
   };
 
   /// What is opened, as the least x: bodies are held together up to x = 0.8,
@@ -42,18 +42,18 @@ namespace
   {
     const Strip       strip(h, MPI_COMM_WORLD);
     std::vector<bool> active, turns;
-    for (const Point<3> &place : strip.places)
+    for (const Point<3> &place : strip.places.points)
       {
         const double s = 0.8 + h / 2. - place[0], d = 0.8 - edge;
         active.push_back(s > 0.);
         turns.push_back(s > 0. && std::sqrt(s) - d / 2. / std::sqrt(s) < 0.);
       }
-    ContactEdge(strip.places, strip.surfaces, MPI_COMM_WORLD)
+    ContactEdge(strip.places, MPI_COMM_WORLD)
       .extend(active, turns);
     double least = 1.;
     for (unsigned int i = 0; i < turns.size(); ++i)
       if (turns[i])
-        least = std::min(least, strip.places[i][0]);
+        least = std::min(least, strip.places.points[i][0]);
     return dealii::Utilities::MPI::min(least, MPI_COMM_WORLD);
   }
 
@@ -63,13 +63,13 @@ namespace
   n_more(const Strip &strip, const Pulls &pulls)
   {
     std::vector<bool> active, turns;
-    for (unsigned int i = 0; i < strip.places.size(); ++i)
+    for (unsigned int i = 0; i < strip.places.points.size(); ++i)
       {
-        active.push_back(strip.places[i][0] < 0.8);
+        active.push_back(strip.places.points[i][0] < 0.8);
         turns.push_back(active[i] && pulls(i));
       }
     const std::vector<bool> before = turns;
-    ContactEdge(strip.places, strip.surfaces, MPI_COMM_WORLD)
+    ContactEdge(strip.places, MPI_COMM_WORLD)
       .extend(active, turns);
     unsigned int n = 0;
     for (unsigned int i = 0; i < turns.size(); ++i)
@@ -100,26 +100,45 @@ main(int argc, char *argv[])
   verdict("a spot inside",
           n_more(strip,
                  [&](const unsigned int i) {
-                   return std::fabs(strip.places[i][0] - 0.3) < 0.03;
+                   return std::fabs(strip.places.points[i][0] - 0.3) < 0.03;
                  }),
           0);
   Strip       both = strip;
-  const Strip other(0.02, MPI_COMM_WORLD, 1);
-  both.places.insert(both.places.end(),
-                     other.places.begin(),
-                     other.places.end());
-  both.surfaces.insert(both.surfaces.end(),
-                       other.surfaces.begin(),
-                       other.surfaces.end());
+  const Strip other(0.02, MPI_COMM_WORLD, 2);
+  both.places.points.insert(both.places.points.end(),
+                            other.places.points.begin(),
+                            other.places.points.end());
+  both.places.surfaces.insert(both.places.surfaces.end(),
+                              other.places.surfaces.begin(),
+                              other.places.surfaces.end());
   verdict("another surface goes on",
           double(n_more(both,
                         [&](const unsigned int i) {
-                          return both.surfaces[i] == 0 &&
-                                 both.places[i][0] > 0.7;
+                          return both.places.surfaces[i] == 1 &&
+                                 both.places.points[i][0] > 0.7;
                         })) -
             double(n_more(strip,
                           [&](const unsigned int i) {
-                            return strip.places[i][0] > 0.7;
+                            return strip.places.points[i][0] > 0.7;
                           })),
           0);
+
+  // up to 0.41 on the first surface, up to 0.81 on the second
+  std::vector<bool> active;
+  for (unsigned int i = 0; i < both.places.points.size(); ++i)
+    active.push_back(both.places.points[i][0] <
+                     (both.places.surfaces[i] == 1 ? 0.41 : 0.81));
+  const ActivePlaces known(both.places, active, MPI_COMM_WORLD);
+  for (const unsigned int surface : {1, 2})
+    {
+      const Strip  finer(0.007, MPI_COMM_WORLD, surface);
+      const auto   found = known.nearest(finer.places);
+      unsigned int wrong = 0;
+      for (unsigned int i = 0; i < found.size(); ++i)
+        wrong += found[i] != (finer.places.points[i][0] < 0.4 * surface + 0.01);
+      verdict("as the nearest on surface " + std::to_string(surface) +
+                ": not so",
+              dealii::Utilities::MPI::sum(wrong, MPI_COMM_WORLD),
+              0);
+    }
 }

@@ -2,8 +2,7 @@
 // beside its edge, on any mesh, says where the edge goes.
 #pragma once
 
-#include <deal.II/base/mpi.h>
-#include <deal.II/base/point.h>
+#include <mortise/contact/multiplier_places.h>
 
 #include <vector>
 
@@ -18,10 +17,8 @@ namespace mortise
   class ContactEdge
   {
   public:
-    /// @p places: of the owned multipliers; @p surfaces: a number for the surface of each. Collective.
-    ContactEdge(std::vector<dealii::Point<3>> places,
-                std::vector<unsigned int>     surfaces,
-                MPI_Comm                      comm);
+    /// Collective.
+    ContactEdge(MultiplierPlaces places, MPI_Comm comm);
 
     /// Add to @p turns, the multipliers whose sign is wrong, active ones no farther from these than
     /// these are wide from the edge on. Both by owned multiplier. Collective.
@@ -29,9 +26,8 @@ namespace mortise
     extend(const std::vector<bool> &active, std::vector<bool> &turns) const;
 
   private:
-    const std::vector<dealii::Point<3>> places;
-    const std::vector<unsigned int>     surfaces;
-    const unsigned int                  n_surfaces;
-    const MPI_Comm                      comm;
+    const MultiplierPlaces places;
+    const unsigned int     n_surfaces;
+    const MPI_Comm         comm;
   };
 } // namespace mortise

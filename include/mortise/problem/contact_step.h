@@ -9,6 +9,8 @@
 #include <mortise/solvers/linear_solver.h>
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,20 +19,28 @@ namespace mortise
   class ContactStep
   {
   public:
-    /// All must live on. Collective.
-    ContactStep(const RunContext &run,
-                Discretisation   &discretisation,
-                LinearSolver     &solver);
+    /// All must live on. @p start: what presses first in the first step, if that is known. Collective.
+    ContactStep(const RunContext           &run,
+                Discretisation             &discretisation,
+                LinearSolver               &solver,
+                std::optional<ActivePlaces> start);
 
-    /// Solve for @p load, first with the multipliers that press in @p last, the
-    /// solution of the last step, or where it has no size with those whose gap
-    /// is closed before anything moves; with all where these do not hold the
-    /// bodies. On the way linear solves are as loose as the choice
+    /// Solve for @p load. The first set is what presses as the last steps go on, in the first step what
+    /// the constructor was told, or where the gap is closed before anything
+    /// moves; all where these do not hold the bodies. On the way linear solves are as loose as the choice
     /// of the next set allows. The report is that of the last one, its seconds
     /// those of all; not converged after 100 sets. Throws InputError that names
     /// body and motion where contact is lost. Collective.
     SolveReport
-    solve(const SceneLoad &load, const SystemVector &last, SystemVector &x);
+    solve(const SceneLoad &load, SystemVector &x);
+
+    /// Go on from @p x, a solution for @p load that was found before. Collective.
+    void
+    resume(const SceneLoad &load, const SystemVector &x);
+
+    /// What presses now. Collective.
+    ActivePlaces
+    active_places() const;
 
     /// Of the last solve().
     unsigned int
@@ -54,8 +64,19 @@ namespace mortise
     }
 
   private:
+    /// Of the last step that was solved.
+    struct Solved
+    {
+      SystemVector      rhs, x;
+      std::vector<bool> active;
+    };
+
+    /// What @p load should come to, where @p x, if it has a size, is where to
+    /// start.
     void
-    start(const SceneLoad &load, const SystemVector &last);
+    start(const SceneLoad &load, SystemVector &x);
+    void
+    remember(Solved now);
     /// Those that the multipliers leave, in words; nothing where they hold the
     /// bodies.
     std::string
@@ -78,6 +99,7 @@ namespace mortise
             bool                extends);
     SolveReport
     solve_set(const SceneLoad &load, double tolerance, SystemVector &x);
+    /// By more than a quarter of what presses.
     bool
     differs_from_shown() const;
     /// Let preconditioners see the set.
@@ -88,7 +110,14 @@ namespace mortise
     Discretisation   &discretisation;
     LinearSolver     &solver;
     ActiveSet         set;
+    MultiplierPlaces  places;
     ContactEdge       edge;
+
+    std::optional<ActivePlaces>     first; ///< what presses in the first step
+    std::optional<Solved>           last;  ///< with steps
+    SuccessiveSolutions             increments; ///< from step to step, with the set of the last one
+    std::unique_ptr<ScaledResidual> residual;   ///< their product
+
     unsigned int      sets = 0, iterations = 0;
     std::vector<bool> shown; ///< the active ones that coarse levels see
     std::vector<bool> unclear;

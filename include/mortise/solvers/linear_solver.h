@@ -33,9 +33,12 @@ namespace mortise
 
     /// How far later solves go on, in place of what SolverOptions have.
     void
-    set_limits(const double tolerance, const unsigned int max_iterations)
+    set_limits(const double       tolerance,
+               const double       energy_share,
+               const unsigned int max_iterations)
     {
       options.tolerance      = tolerance;
+      options.energy_share   = energy_share;
       options.max_iterations = max_iterations;
     }
 
@@ -49,6 +52,10 @@ namespace mortise
     /// precision are far from their limits.
     SolveReport
     solve(const SystemVector &rhs, SystemVector &x);
+
+    /// As solve(), from what @p x holds. Collective.
+    SolveReport
+    solve_from(const SystemVector &rhs, SystemVector &x);
 
     /// Later solves may start from @p x, which solves the system for @p rhs, as from what this
     /// solver found itself since the last update(). Collective.
@@ -89,6 +96,8 @@ namespace mortise
   private:
     void
     update(const std::function<bool()> &set_up_part);
+    SolveReport
+    solve(const SystemVector &rhs, SystemVector &x, bool is_zero);
 
     const std::string   method;
     SuccessiveSolutions earlier;

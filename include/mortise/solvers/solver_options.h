@@ -32,13 +32,15 @@ namespace mortise
     /// SuccessiveSolutions.
     unsigned int successive = 0;
 
+    double energy_share = 0.03; ///< of it, see energy_tolerance()
+
     /// Iterative solvers go on until the root of the estimated energy of the
     /// error, too, is below this fraction of the solution's: on fine meshes a
     /// small residual alone says little.
     double
     energy_tolerance() const
     {
-      return std::max(0.03 * tolerance, 1e-12); // what rounding leaves
+      return std::max(energy_share * tolerance, 1e-12); // what rounding leaves
     }
 
     /// Called on every rank after each iteration with its number and the

@@ -1,0 +1,69 @@
+// Places of multipliers, sorted by what they are.
+#pragma once
+
+#include <deal.II/numerics/rtree.h>
+
+#include <mortise/contact/multiplier_places.h>
+
+#include <array>
+#include <limits>
+#include <vector>
+
+namespace mortise
+{
+  class PlaceTree
+  {
+  public:
+    explicit PlaceTree(const std::vector<dealii::Point<3>> &points)
+      : tree(dealii::pack_rtree(points))
+    {}
+
+    bool
+    empty() const
+    {
+      return tree.empty();
+    }
+
+    /// Of those that there are, at least one.
+    dealii::Point<3>
+    nearest(const dealii::Point<3> &to) const
+    {
+      dealii::Point<3> result;
+      tree.query(boost::geometry::index::nearest(to, 1), &result);
+      return result;
+    }
+
+    /// To the nearest; infinite where there is none.
+    double
+    distance(const dealii::Point<3> &from) const
+    {
+      return empty() ? std::numeric_limits<double>::infinity() :
+                       nearest(from).distance(from);
+    }
+
+  private:
+    dealii::RTree<dealii::Point<3>> tree;
+  };
+
+  /// Places on one surface, of all ranks, by @p kind(i) < n_kinds. Collective.
+  template <std::size_t n_kinds, typename Kind>
+  std::vector<PlaceTree>
+  place_trees(const MultiplierPlaces &places,
+              const unsigned int      surface,
+              const Kind             &kind,
+              const MPI_Comm          comm)
+  {
+    std::array<std::vector<dealii::Point<3>>, n_kinds> own, all;
+    for (unsigned int i = 0; i < places.points.size(); ++i)
+      if (places.surfaces[i] == surface)
+        own[kind(i)].push_back(places.points[i]);
+    for (const auto &of_rank : dealii::Utilities::MPI::all_gather(comm, own))
+      for (unsigned int k = 0; k < n_kinds; ++k)
+        all[k].insert(all[k].end(), of_rank[k].begin(), of_rank[k].end());
+    return std::vector<PlaceTree>(all.begin(), all.end());
+  }
+
+  /// The largest of the numbers of surfaces. Collective.
+  unsigned int
+  last_surface(const MultiplierPlaces &places, MPI_Comm comm);
+} // namespace mortise

@@ -1,0 +1,123 @@
+// See contact_start.h.
+#include <mortise/base/error.h>
+#include <mortise/problem/contact_start.h>
+#include <mortise/problem/contact_step.h>
+#include <mortise/problem/formulation.h>
+
+#include <algorithm>
+#include <ostream>
+#include <utility>
+#include <vector>
+
+namespace mortise
+{
+  namespace
+  {
+    /// Of the pressures: sets need no more.
+    constexpr double accuracy = 1e-4;
+
+    /// Half of all degrees; the same where they are lowest.
+    Parameters
+    halved(Parameters parameters)
+    {
+      for (BodyParameters &body : parameters.bodies)
+        {
+          const unsigned int lowest = is_mixed(body) ? 2 : 1;
+          const auto         halve  = [&](unsigned int &degree) {
+            degree = std::max(lowest, degree / 2);
+          };
+          halve(body.degree);
+          for (auto &region : body.degree_by_region)
+            halve(region.second);
+        }
+      return parameters;
+    }
+
+    bool
+    same_degrees(const Parameters &a, const Parameters &b)
+    {
+      return std::equal(a.bodies.begin(),
+                        a.bodies.end(),
+                        b.bodies.begin(),
+                        [](const BodyParameters &x, const BodyParameters &y) {
+                          return x.degree == y.degree &&
+                                 x.degree_by_region == y.degree_by_region;
+                        });
+    }
+
+    struct Found
+    {
+      std::optional<ActivePlaces> pressing;
+      unsigned int                n_sets = 0;
+    };
+
+    Found
+    solve(const RunContext           &run,
+          const double                time,
+          Bodies                     &bodies,
+          std::optional<ActivePlaces> start)
+    {
+      FieldChecks     checks; // the scene itself tells
+      const SceneData data(run.parameters, time, checks);
+      Discretisation  discretisation(run, data, bodies);
+      SolverOptions   options;
+      options.method       = discretisation.choice().method;
+      options.max_gathered = run.parameters.solver.max_gathered;
+      const auto solver =
+        make_linear_solver(discretisation.linear_system(), options);
+      ContactStep  step(run, discretisation, *solver, std::move(start));
+      SystemVector x;
+      if (!step.solve(discretisation.load(data), x).converged)
+        return {};
+      return {step.active_places(), step.n_sets()};
+    }
+  } // namespace
+
+  std::optional<ActivePlaces>
+  contact_start(const RunContext &run, const double time, Bodies &bodies)
+  {
+    const auto &interfaces = run.parameters.interfaces;
+    if (std::none_of(interfaces.begin(), interfaces.end(), [](const auto &i) {
+          return i.law == "contact";
+        }))
+      return {};
+    std::vector<Parameters> all;
+    Parameters              lower = halved(run.parameters);
+    lower.steps                   = {};
+    lower.solver.tolerance = std::max(accuracy, lower.solver.tolerance);
+    while (!same_degrees(lower, all.empty() ? run.parameters : all.back()))
+      {
+        all.push_back(lower);
+        lower = halved(std::move(lower));
+      }
+    if (all.empty())
+      return {};
+
+    auto         stage = run.log.stage(run.timers, "contact_start");
+    std::ostream silent(nullptr);
+    RunLog       log(silent, run.comm);
+    Timers       timers;
+    std::optional<ActivePlaces> pressing;
+    std::string                 n_sets;
+    try
+      {
+        while (!all.empty())
+          {
+            Found found =
+              solve({all.back(), log, timers, run.comm}, time, bodies, pressing);
+            if (!found.pressing)
+              break;
+            pressing = std::move(found.pressing);
+            n_sets += (n_sets.empty() ? "" : ", ") + std::to_string(found.n_sets);
+            all.pop_back();
+            if (found.n_sets == 1)
+              break; // the guess holds
+          }
+      }
+    catch (const InputError &)
+      {}
+    stage.details(n_sets.empty() ? "no contact found" :
+                                   "active sets of lower degrees: " + n_sets);
+    return pressing;
+  }
+} // namespace mortise
