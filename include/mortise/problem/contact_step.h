@@ -99,9 +99,6 @@ namespace mortise
             bool                extends);
     SolveReport
     solve_set(const SceneLoad &load, double tolerance, SystemVector &x);
-    /// By more than a quarter of what presses.
-    bool
-    differs_from_shown() const;
     /// Let preconditioners see the set.
     void
     show();
@@ -119,9 +116,8 @@ namespace mortise
     std::unique_ptr<ScaledResidual> residual;   ///< their product
 
     unsigned int      sets = 0, iterations = 0;
-    std::vector<bool> shown; ///< the active ones that coarse levels see
     std::vector<bool> unclear;
     bool              is_shown = false;
-    std::uint64_t     n_shown  = 0; ///< as ActiveSet::n_active()
+    std::uint64_t     n_shown  = 0; ///< of the set that coarse levels see
   };
 } // namespace mortise
