@@ -39,7 +39,8 @@ namespace mortise
   Body::create_space(
     const unsigned int                            degree,
     const std::map<types::material_id, unsigned> &degree_by_region,
-    const std::string                            &where)
+    const std::string                            &where,
+    const std::vector<Ball>                      &degree_near)
   {
     for (const auto &region : degree_by_region)
       if (mesh.names.materials.count(region.first) == 0)
@@ -56,9 +57,23 @@ namespace mortise
     std::set<unsigned int> used = {degree};
     for (const auto &region : degree_by_region)
       used.insert(region.second);
+    for (const Ball &ball : degree_near)
+      {
+        unsigned int touched = 0;
+        for (const auto &cell : dof_handler.active_cell_iterators())
+          touched = touched || (cell->is_locally_owned() && ball.touches(cell));
+        if (Utilities::MPI::max(touched, triangulation().get_communicator()) == 0)
+          fail_untouched(ball, where + ": Degree near");
+        used.insert(ball.number);
+      }
     distribute_legendre_dofs(
       used,
       [&](const CellIterator &cell) {
+        const auto ball = std::find_if(degree_near.rbegin(),
+                                       degree_near.rend(),
+                                       [&](const Ball &b) { return b.touches(cell); });
+        if (ball != degree_near.rend())
+          return ball->number;
         const auto region = degree_by_region.find(cell->material_id());
         return region == degree_by_region.end() ? degree : region->second;
       },

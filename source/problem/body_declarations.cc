@@ -100,6 +100,17 @@ namespace mortise
         set_degrees_by_region(body, value);
       });
     section.add(
+      "Degree near",
+      "",
+      "Other degrees for cells with their centre or any vertex in a ball; the last one that has a "
+      "cell holds, before Degree by region.",
+      {"entries \"x, y, z, radius, degree\" separated by ';', degrees from " +
+       std::to_string(min_degree) + " to " + std::to_string(max_degree)},
+      [&body](const ParameterValue &value) {
+        body.degree_near =
+          parse_balls(value.text, value.where, "degree", max_degree);
+      });
+    section.add(
       "Formulation",
       body.formulation,
       "Unknowns: the displacement, or (mixed) displacement and pressure, one degree lower, "

@@ -20,6 +20,9 @@ namespace mortise
 
   namespace
   {
+    /// Beside how far sides move: a user should know.
+    constexpr double large_penetration = 0.1;
+
     /// Of all interfaces, by owned multiplier.
     struct ContactState
     {
@@ -127,22 +130,32 @@ namespace mortise
       std::array<double, dim> most{{-none, -none, -none}};
     };
 
+    /// How far the sides of interface @p i move against each other at most. Collective.
+    double
+    relative_motion(const RunContext     &run,
+                    const Discretisation &discretisation,
+                    const unsigned int    i,
+                    const StepFields     &fields)
+    {
+      const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
+      MotionRange                range;
+      for (const SideParameters *side : {&sides.slave, &sides.master})
+        range.add(*discretisation.bodies()[side->body],
+                  fields.solutions[side->body].displacement,
+                  *side);
+      return range.width(run.comm);
+    }
+
     /// Throws InputError where a face without a partner could have met one.
     void
     check_partners(const RunContext     &run,
                    const Discretisation &discretisation,
                    const unsigned int    i,
-                   const StepFields     &fields)
+                   const double          moved)
     {
       const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
       const InterfaceHandler    &interface =
         *discretisation.interfaces().all()[i].interface;
-      MotionRange range;
-      for (const SideParameters *side : {&sides.slave, &sides.master})
-        range.add(*discretisation.bodies()[side->body],
-                  fields.solutions[side->body].displacement,
-                  *side);
-      const double       moved = range.width(run.comm);
       std::ostringstream text;
       for (unsigned int s = 0; s < interface.coverage().size(); ++s)
         if (const SurfaceFace &face = interface.slave().faces[s];
@@ -179,7 +192,9 @@ namespace mortise
       {
         if (interfaces[i].is_contact)
           {
-            check_partners(run, discretisation, i, fields);
+            const double moved =
+              relative_motion(run, discretisation, i, fields);
+            check_partners(run, discretisation, i, moved);
             ContactSummary contact =
               contact_summary(interfaces[i],
                               discretisation.pressing()[i],
@@ -195,6 +210,13 @@ namespace mortise
                                   {solved.data.offset(given),
                                    given.mesh_gap == "real"},
                                   run.comm);
+            if (contact.penetration_max > large_penetration * moved)
+              run.log.warning(
+                "interface " + given.name + ": the bodies overlap by up to " +
+                RunLog::number(contact.penetration_max) +
+                " between nodes, of " + RunLog::number(moved) +
+                " by which its sides move; contact there is smaller than the faces of the "
+                "slave, which finer ones would see");
             summary.interfaces[i].contact = contact;
           }
         first += interfaces[i].multipliers->n_owned();

@@ -29,6 +29,8 @@ namespace mortise
           halve(body.degree);
           for (auto &region : body.degree_by_region)
             halve(region.second);
+          for (Ball &ball : body.degree_near)
+            halve(ball.number);
         }
       return parameters;
     }
@@ -36,13 +38,20 @@ namespace mortise
     bool
     same_degrees(const Parameters &a, const Parameters &b)
     {
-      return std::equal(a.bodies.begin(),
-                        a.bodies.end(),
-                        b.bodies.begin(),
-                        [](const BodyParameters &x, const BodyParameters &y) {
-                          return x.degree == y.degree &&
-                                 x.degree_by_region == y.degree_by_region;
-                        });
+      return std::equal(
+        a.bodies.begin(),
+        a.bodies.end(),
+        b.bodies.begin(),
+        [](const BodyParameters &x, const BodyParameters &y) {
+          return x.degree == y.degree &&
+                 x.degree_by_region == y.degree_by_region &&
+                 std::equal(x.degree_near.begin(),
+                            x.degree_near.end(),
+                            y.degree_near.begin(),
+                            [](const Ball &c, const Ball &d) {
+                              return c.number == d.number;
+                            });
+        });
     }
 
     struct Found

@@ -22,6 +22,8 @@ namespace mortise
       unsigned int least = body.degree;
       for (const auto &region : body.degree_by_region)
         least = std::min(least, region.second);
+      for (const Ball &ball : body.degree_near)
+        least = std::min(least, ball.number);
       return least;
     }
 
@@ -87,7 +89,9 @@ namespace mortise
           "displacement or auto for a Poisson ratio of 0 or less");
       if (least_degree(body) < 2)
         parameters.fail(section +
-                          (body.degree < 2 ? "/Degree" : "/Degree by region"),
+                          (body.degree < 2            ? "/Degree" :
+                           body.degree_near.empty() ? "/Degree by region" :
+                                                      "/Degree near"),
                         "degree 1 in mixed form" + with_nu.str(),
                         "degrees from 2 to " + std::to_string(max_degree) +
                           " (the pressure has one less, and is continuous)");

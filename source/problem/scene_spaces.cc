@@ -133,7 +133,8 @@ namespace mortise
         const BodyParameters &given = run.parameters.bodies[body->index];
         body->create_space(given.degree,
                            given.degree_by_region,
-                           "Body " + body->name);
+                           "Body " + body->name,
+                           given.degree_near);
         handlers.push_back(&body->dof_handler);
         if (locks(given))
           run.log.warning(

@@ -101,7 +101,7 @@ main(int argc, char **argv)
                  q.cells       = "tetrahedra";
                  q.refine_near = "0, 0, 0, 1, 1";
                },
-               {"cannot be refined locally", "Degree by region"});
+               {"cannot be refined locally", "Degree near"});
   refused_with(box,
                [](auto &q) { q.cells = "hexahedron"; },
                {"did you mean 'hexahedra'"});

@@ -5,6 +5,7 @@
 #include <mortise/body/body.h>
 
 #include <iostream>
+#include <set>
 #include <sstream>
 
 using namespace mortise;
@@ -64,6 +65,21 @@ namespace
               << ": other degrees give the spaces of a new body\n"
               << (describe(again) == first ? "OK  " : "FAILED  ") << cells
               << ": the first degrees give the first spaces\n";
+    // the second ball is inside the first one
+    const Ball wide{{1., 0., 0.}, 0.9, 3}, narrow{{1., 0., 0.}, 0.2, 4};
+    again.create_space(2, {{1, 5}}, "", {wide, narrow});
+    bool good = true;
+    std::set<unsigned int> found;
+    for (const auto &cell : again.dof_handler.active_cell_iterators())
+      {
+        found.insert(again.degree(cell));
+        good = good && again.degree(cell) == (narrow.touches(cell) ? 4u :
+                                              wide.touches(cell)   ? 3u :
+                                              cell->material_id() == 1 ? 5u :
+                                                                         2u);
+      }
+    std::cout << (good && found.size() > 2 ? "OK  " : "FAILED  ") << cells
+              << ": the last ball that touches a cell gives its degree\n";
   }
 } // namespace
 

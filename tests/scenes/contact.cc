@@ -153,6 +153,105 @@ namespace
       }
   }
 
+  /// Where the edge of the contact is far from the first guess lower degrees
+  /// find it, steps under loads that grow know where they go, and a low degree
+  /// at the edge does.
+  void
+  check_starts()
+  {
+    const Settings tipped = {
+      "Body upper/Mesh/Extent=0, 0, 1, 1, 1, 1.5",
+      "Body upper/Boundary zmax/Displacement=-, -, 0.01*t*(x - 0.6)",
+      "Body lower/Mesh/Subdivisions=8, 2, 4",
+      "Body upper/Mesh/Subdivisions=7, 3, 2",
+      "Steps/End time=1"};
+    for (const unsigned int p : {2, 4, 7})
+      {
+        const std::string of = ", degree " + std::to_string(p);
+        const auto        steps =
+          run_scene(two_blocks(),
+                    contact + degrees("lower", "upper", p) + tipped +
+                      Settings{"Steps/Step=0.25"})
+            .steps;
+        verdict("tipped" + of + ": active sets", *steps[0].solver->active_sets, 4);
+        for (unsigned int k = 1; k < steps.size(); ++k)
+          verdict("tipped further" + of + ": iterations of all",
+                  *steps[k].solver->linear_iterations,
+                  1);
+        verdict("tipped further" + of + ": pressure",
+                std::fabs(contact_of(steps[3]).pressure_max /
+                            (4. * contact_of(steps[0]).pressure_max) -
+                          1.),
+                1e-8);
+      }
+    const auto low = run_scene(
+      two_blocks(),
+      contact + degrees("lower", "upper", 5) + tipped +
+        Settings{"Steps/Step=1",
+                 "Body lower/Degree near=0.6, 0.5, 1, 0.2, 2; 0.6, 0, 0.9, 0.2, 1",
+                 "Body upper/Degree near=0.6, 0.5, 1, 0.2, 2"})
+                       .steps.back();
+    verdict("tipped, low degrees at the edge: lowest",
+            std::fabs(double(low.bodies[0].degree_min) - 1.) +
+              std::fabs(double(low.bodies[1].degree_min) - 2.),
+            0.);
+    check_signs("tipped, low degrees at the edge", low);
+  }
+
+  /// Blocks whose meshes overlap by a tenth of a face, with nothing else that
+  /// presses.
+  void
+  check_overlap()
+  {
+    for (const unsigned int p : {1, 2, 4})
+      {
+        const double      overlap = 0.1 / 3.;
+        const StepSummary step =
+          run_scene(two_blocks(),
+                    contact + degrees("lower", "upper", p) +
+                      Settings{"Body upper/Mesh/Extent=0, 0, " +
+                                 number(1. - overlap) + ", 1, 1, " +
+                                 number(1.5 - overlap),
+                               "Body upper/Boundary zmax/Displacement=-, -, 0"})
+            .steps.back();
+        verdict("meshes that overlap, degree " + std::to_string(p),
+                std::fabs(contact_of(step).pressure_max /
+                            (overlap / (1. / 900. + 0.5 / 300.)) -
+                          1.),
+                1e-8);
+      }
+  }
+
+  /// An edge that the middle of a face cannot see.
+  void
+  check_edge()
+  {
+    const auto settings = [](const unsigned int n) {
+      return contact + degrees("lower", "upper", 2) +
+             Settings{"Body upper/Mesh/Extent=-0.3, -0.3, -0.3, 0.3, 0.3, 0.3",
+                      "Body upper/Mesh/Rotate=45, 0, 0",
+                      "Body upper/Mesh/Translate=0.5, 0.5, 1.4242",
+                      "Body upper/Mesh/Subdivisions=4, 4, 4",
+                      "Body upper/Boundary zmax/Displacement=0, 0, -0.01",
+                      "Body upper/Boundary xmin/Displacement=",
+                      "Body upper/Boundary ymin/Displacement=",
+                      "Body lower/Mesh/Subdivisions=3, " + std::to_string(n) + ", 2"};
+    };
+    std::vector<std::string> warnings;
+    const Summary coarse = run_scene(two_blocks(), settings(3), MPI_COMM_WORLD, &warnings);
+    verdict("an edge on a face: nothing presses",
+            contact_of(coarse.steps.back()).active,
+            0);
+    bool told = false;
+    for (const std::string &warning : warnings)
+      told = told || warning.find("overlap by up to") != std::string::npos;
+    verdict("an edge on a face: told", told ? 0. : 1., 0.);
+    const Summary fine = run_scene(two_blocks(), settings(32));
+    verdict("an edge on finer faces: presses",
+            contact_of(fine.steps.back()).active > 0 ? 0. : 1.,
+            0.);
+  }
+
   /// Pushed, pulled apart and pushed again: nothing remembers.
   void
   check_steps()
@@ -249,9 +348,8 @@ namespace
             1e-8);
   }
 
-  /// In units of 1e-3 for lengths and 1e9 for moduli, and the slave above.
   void
-  check_units()
+  check_units(const double unit, const double modulus)
   {
     const auto part = [](const double unit, const double modulus) {
       const auto box = [&](const std::vector<double> &corners) {
@@ -273,15 +371,18 @@ namespace
                 number(0.6 * unit) + ")"})
           .steps.back());
     };
-    const ContactSummary one = part(1., 1.), other = part(1e-3, 1e9);
-    verdict("other units: force",
-            std::fabs(other.force[2] / (1e3 * one.force[2]) - 1.),
+    const ContactSummary one = part(1., 1.), other = part(unit, modulus);
+    const std::string    what =
+      "lengths by " + number(unit) + ", moduli by " + number(modulus);
+    verdict(what + ": force",
+            std::fabs(other.force[2] / (unit * unit * modulus * one.force[2]) -
+                      1.),
             1e-8);
-    verdict("other units: active",
+    verdict(what + ": active",
             std::fabs(double(one.active) - double(other.active)),
             0.);
-    verdict("other units: largest pressure",
-            std::fabs(other.pressure_max / (1e9 * one.pressure_max) - 1.),
+    verdict(what + ": largest pressure",
+            std::fabs(other.pressure_max / (modulus * one.pressure_max) - 1.),
             1e-8);
   }
 
@@ -347,7 +448,11 @@ main(int argc, char *argv[])
   check_fits();
   check_part();
   check_steps();
-  check_units();
+  check_starts();
+  check_overlap();
+  check_edge();
+  check_units(1e-3, 1e9);
+  check_units(1e6, 1.);
   check_rotation();
   check_pairings();
   check_message("contact that is lost",

@@ -42,15 +42,16 @@ namespace mortise
                 const std::set<std::string> &interfaces = {});
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
-    /// of a cell; mapping of the largest degree on curved meshes; conformity
+    /// of a cell, or the last of @p degree_near that touches it; mapping of the largest degree on curved meshes; conformity
     /// constraints; pressures if the material is mixed, which needs degrees
     /// above one. Replaces those of an earlier call. Collective; throws
-    /// InputError for a region that the mesh does not have.
+    /// InputError for a region that the mesh does not have and for a ball that touches no cell.
     void
     create_space(
       unsigned int                                          degree,
       const std::map<dealii::types::material_id, unsigned> &degree_by_region,
-      const std::string                                    &where);
+      const std::string                                    &where,
+      const std::vector<Ball>                              &degree_near = {});
 
     const dealii::parallel::DistributedTriangulationBase<dim> &
     triangulation() const

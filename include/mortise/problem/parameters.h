@@ -54,6 +54,7 @@ namespace mortise
     std::string                          name;
     unsigned int                         degree = 1;
     std::map<unsigned int, unsigned int> degree_by_region; ///< by material id
+    std::vector<Ball>                    degree_near;      ///< the last one holds
     Formulation                          formulation = Formulation::automatic;
     MeshParameters                       mesh;
     MaterialParameters                   material;

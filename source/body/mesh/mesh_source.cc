@@ -155,40 +155,24 @@ namespace mortise
       return mesh;
     }
 
-    /// Refine @p ball.times times all cells whose centre or any vertex lies within the ball.
+    /// Refine as often as @p ball says all cells that it touches.
     void
-    refine_near(const RefinementBall &ball,
-                HexTriangulation     &triangulation,
-                const std::string    &where)
+    refine_near(const Ball        &ball,
+                HexTriangulation  &triangulation,
+                const std::string &where)
     {
-      for (unsigned int time = 0; time < ball.times; ++time)
+      for (unsigned int time = 0; time < ball.number; ++time)
         {
           unsigned int n_flagged = 0;
           for (const auto &cell : triangulation.active_cell_iterators())
-            if (cell->is_locally_owned())
+            if (cell->is_locally_owned() && ball.touches(cell))
               {
-                bool near = cell->center().distance(ball.centre) <= ball.radius;
-                for (const unsigned int v : cell->vertex_indices())
-                  near = near ||
-                         cell->vertex(v).distance(ball.centre) <= ball.radius;
-                if (near)
-                  {
-                    cell->set_refine_flag();
-                    ++n_flagged;
-                  }
+                cell->set_refine_flag();
+                ++n_flagged;
               }
           if (Utilities::MPI::sum(n_flagged,
                                   triangulation.get_communicator()) == 0)
-            {
-              std::ostringstream message;
-              message
-                << where
-                << ": Refine near finds no cell with its centre or a vertex within "
-                << ball.radius << " of (" << ball.centre
-                << "); allowed: a ball that meets the body where it stands after Rotate and "
-                   "Translate";
-              throw InputError(message.str());
-            }
+            fail_untouched(ball, where + ": Refine near");
           triangulation.execute_coarsening_and_refinement();
         }
     }
@@ -201,14 +185,14 @@ namespace mortise
     {
       auto triangulation = std::make_unique<HexTriangulation>(comm);
       create_coarse_triangulation(mesh, *triangulation);
-      const auto balls = parse_refine_near(parameters.refine_near, where);
+      const auto balls = refinement_balls(parameters, where);
       if (!mesh.shapes.empty() &&
           (parameters.refinements > 0 || !balls.empty()))
         blend_into_cells(*triangulation);
       triangulation->refine_global(parameters.refinements);
       if (mesh.geometry != nullptr)
         mesh.geometry->place_vertices(*triangulation);
-      for (const RefinementBall &ball : balls)
+      for (const Ball &ball : balls)
         {
           refine_near(ball, *triangulation, where);
           if (mesh.geometry != nullptr)
@@ -230,8 +214,8 @@ namespace mortise
       throw InputError(
         where + ": Refine near = " + in_quotes(parameters.refine_near, '\'') +
         " belongs to hexahedra, but " + file_in_quotes(parameters.file, '\'') +
-        " has tetrahedra, which cannot be refined locally; try Degree by "
-        "region, Refinements, or a gmsh file whose mesh size varies");
+        " has tetrahedra, which cannot be refined locally; try Degree "
+        "near, Refinements, or a gmsh file whose mesh size varies");
 
     Mesh mesh;
     mesh.names      = coarse.names;

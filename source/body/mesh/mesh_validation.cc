@@ -254,34 +254,13 @@ namespace mortise
     return names;
   }
 
-  std::vector<RefinementBall>
-  parse_refine_near(const std::string &text, const std::string &where)
+  std::vector<Ball>
+  refinement_balls(const MeshParameters &parameters, const std::string &where)
   {
-    const Checker               check(where);
-    std::vector<RefinementBall> balls;
-    for (const std::string &entry : Utilities::split_string_list(text, ';'))
-      {
-        if (entry.empty())
-          continue;
-        std::vector<double> numbers;
-        for (const std::string &part : Utilities::split_string_list(entry, ','))
-          {
-            const ReadNumber number = read_number(part);
-            numbers.push_back(number.problem.empty() ? number.value :
-                                                       std::nan(""));
-          }
-        check.require(
-          numbers.size() == 5 && all_finite(numbers) && numbers[3] > 0. &&
-            numbers[4] >= 1. && numbers[4] <= 12. &&
-            numbers[4] == std::floor(numbers[4]),
-          "Refine near has the entry " + in_quotes(entry, '\'') +
-            "; allowed: x, y, z, radius, times; with radius > 0 and a whole number "
-            "of times from 1 to 12, entries separated by ';'");
-        balls.push_back({Point<3>(numbers[0], numbers[1], numbers[2]),
-                         numbers[3],
-                         static_cast<unsigned int>(numbers[4])});
-      }
-    return balls;
+    return parse_balls(parameters.refine_near,
+                       where + ": Refine near",
+                       "times",
+                       12);
   }
 
   void
@@ -298,10 +277,10 @@ namespace mortise
     validate_numbers(parameters, check);
     validate_box(parameters, check);
     validate_curved_block(parameters, check);
-    const auto   balls  = parse_refine_near(parameters.refine_near, where);
+    const auto   balls  = refinement_balls(parameters, where);
     unsigned int levels = parameters.refinements;
-    for (const RefinementBall &ball : balls)
-      levels += ball.times;
+    for (const Ball &ball : balls)
+      levels += ball.number;
     check.require(levels <= 14,
                   "Refinements and the times of Refine near make " +
                     std::to_string(levels) + " levels; allowed: 14 in all");
@@ -309,7 +288,7 @@ namespace mortise
       parameters.cells != "tetrahedra" || balls.empty(),
       "Refine near = " + in_quotes(parameters.refine_near, '\'') +
         " belongs to hexahedra, since tetrahedra cannot be refined "
-        "locally; try Degree by region, Refinements, or a gmsh file "
+        "locally; try Degree near, Refinements, or a gmsh file "
         "whose Mesh size varies");
     check.require(all_finite(parameters.rotate) &&
                     all_finite(parameters.translate),

@@ -4,6 +4,7 @@
 
 #include <deal.II/distributed/tria_base.h>
 
+#include <mortise/body/mesh/balls.h>
 #include <mortise/base/rigid_motion.h>
 #include <mortise/base/types.h>
 #include <mortise/body/mesh/coarse_geometry.h>
@@ -76,19 +77,9 @@ namespace mortise
     std::map<dealii::types::material_id, std::string> materials;
   };
 
-  /// One entry of "Refine near": refine @p times times the cells with their centre or any vertex
-  /// within @p radius of @p centre.
-  struct RefinementBall
-  {
-    dealii::Point<3> centre;
-    double           radius;
-    unsigned int     times;
-  };
-
-  /// Entries "x, y, z, radius, times" separated by ';'. Throws InputError for
-  /// anything else.
-  std::vector<RefinementBall>
-  parse_refine_near(const std::string &text, const std::string &where);
+  /// Those of "Refine near": refine Ball::number times the cells that one touches. Throws InputError.
+  std::vector<Ball>
+  refinement_balls(const MeshParameters &parameters, const std::string &where);
 
   /// Names that "Source" accepts.
   std::vector<std::string>
