@@ -1,5 +1,8 @@
 // See contact_start.h.
+#include <deal.II/base/mpi.h>
+
 #include <mortise/base/error.h>
+#include <mortise/body/boundary_faces.h>
 #include <mortise/problem/contact_start.h>
 #include <mortise/problem/contact_step.h>
 #include <mortise/problem/formulation.h>
@@ -15,6 +18,29 @@ namespace mortise
   {
     /// Of the pressures: sets need no more.
     constexpr double accuracy = 1e-4;
+
+    /// With fewer no first guess is far from the edge.
+    constexpr unsigned int few_nodes = 128;
+
+    /// On the slaves of contact, about. Collective.
+    unsigned int
+    n_nodes(const RunContext &run, const Bodies &bodies)
+    {
+      unsigned int n = 0;
+      for (const InterfaceParameters &interface : run.parameters.interfaces)
+        if (interface.law == "contact")
+          {
+            const Body        &body   = *bodies[interface.slave.body];
+            const unsigned int degree = run.parameters.bodies[body.index].degree;
+            for (const BoundaryFace &face :
+                 boundary_faces(body,
+                                body.boundary_id(interface.slave.boundary,
+                                                 "Interface " +
+                                                   interface.name)))
+              n += face.cell->is_locally_owned() ? degree * degree : 0;
+          }
+      return dealii::Utilities::MPI::sum(n, run.comm);
+    }
 
     /// Half of all degrees; the same where they are lowest.
     Parameters
@@ -85,10 +111,7 @@ namespace mortise
   std::optional<ActivePlaces>
   contact_start(const RunContext &run, const double time, Bodies &bodies)
   {
-    const auto &interfaces = run.parameters.interfaces;
-    if (std::none_of(interfaces.begin(), interfaces.end(), [](const auto &i) {
-          return i.law == "contact";
-        }))
+    if (n_nodes(run, bodies) < few_nodes)
       return {};
     std::vector<Parameters> all;
     Parameters              lower = halved(run.parameters);
