@@ -270,7 +270,8 @@ namespace mortise
     start(load, x);
     SolveReport  report;
     double       setup_seconds = 0., solve_seconds = 0.;
-    bool         extends = true, extended = false;
+    // from lower degrees and from step to step the edge is near already
+    bool         extends = !first && !last, extended = false;
     unsigned int overshoots = 0;
     iterations              = 0;
     sets                    = 1;

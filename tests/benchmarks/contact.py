@@ -109,6 +109,26 @@ def lines(mortise):
                f"{step['solver']['linear_iterations']} |")
 
 
+def hertz_beside_peers(mortise, peers):
+    """Force on four quarters, two cores; Mortise all stages but mesh, postprocess and output, NGSolve all but mesh and import."""
+    rows = []
+    for p, size in ((1, 0.3), (2, 0.4), (2, 0.3), (3, 0.4), (3, 0.3)):
+        summary = run(mortise, "hertz_solid", *of_bodies("ball", "block", Degree=p), f"Body ball/Mesh/Mesh size={size}", f"Body block/Mesh/Mesh size={0.75 * size}", ranks=2)
+        rows.append((f"Mortise, p = {p}", last(summary)["dofs"]["total"], abs(4 * contact_of(last(summary))["force"][2]),
+                     sum(summary["timings_s"].get(stage, 0) for stage in STAGES)))
+    for order in (1, 2) if peers else []:
+        with tempfile.TemporaryDirectory() as work:
+            result = subprocess.run([sys.executable, os.path.abspath(os.path.join(peers, "ngsolve_hertz.py")), "--order", str(order)], capture_output=True, text=True,
+                                    cwd=work)
+        if result.returncode == 0:
+            numbers = json.loads(result.stdout.strip().splitlines()[-1])
+            rows.append((f"NGSolve, penalty, p = {order}", numbers["ndof"], abs(numbers["F"]), numbers["wall"] - numbers["mesh"]))
+    best = abs(4 * contact_of(last(run(mortise, "hertz_solid", *of_bodies("ball", "block", Degree=4), "Body ball/Mesh/Mesh size=0.25",
+                                       "Body block/Mesh/Mesh size=0.2", ranks=2)))["force"][2])
+    for name, dofs, force, seconds in rows:
+        yield f"| {name} | {dofs} | {force:.4f} | {force / best - 1:+.1e} | {seconds:.2f} |"
+
+
 def hertz(mortise):
     modulus, radius = 1000 / (2 * (1 - 0.3**2)), 1.
     for p, refinements in ((1, 0), (1, 1), (1, 2), (2, 0), (3, 0), (4, 0)):
@@ -127,8 +147,8 @@ def graded(times):
     return "; ".join(f"0.3333, 0.125, 0, {0.5 / 2**k}, 1" for k in range(times))
 
 
-def wave(mortise, p, lower, upper, near):
-    return last(run(mortise, "wavy_surface", *of_bodies("lower", "upper", Degree=p, Mesh__Refine_near=near), f"Body lower/Mesh/Subdivisions={lower}",
+def wave(mortise, p, lower, upper, near, low=""):
+    return last(run(mortise, "wavy_surface", *of_bodies("lower", "upper", Degree=p, Mesh__Refine_near=near, Degree_near=low), f"Body lower/Mesh/Subdivisions={lower}",
                     f"Body upper/Mesh/Subdivisions={upper}", "Output/Points=top: upper: 0.5, 0.125, 4"))
 
 
@@ -137,8 +157,9 @@ def waves(mortise):
     meshes = [("same cells", p, f"{6 * k}, {max(1, k * 3 // 2)}, {24 * k}", f"{6 * k - 1}, {max(1, k * 3 // 2)}, {24 * k}", "")
               for p, ks in ((1, (1, 2, 4)), (2, (1, 2)), (4, (1,))) for k in ks]
     meshes += [("graded", p, "6, 1, 16", "5, 1, 16", graded(k)) for p in (2, 3, 4) for k in (1, 2, 3)]
-    steps = [wave(mortise, p, lower, upper, near) for _, p, lower, upper, near in meshes]
-    top = dict(wave(mortise, 6, "6, 1, 16", "5, 1, 16", graded(4))["quantities"])["top"][2]
+    meshes += [("graded, 1 at the edge", p, "6, 1, 16", "5, 1, 16", graded(k), f"0.3333, 0.125, 0, {1 / 2**k}, 1") for p in (3, 4) for k in (1, 2, 3, 4)]
+    steps = [wave(mortise, *mesh) for _, *mesh in meshes]
+    top = dict(wave(mortise, 6, "6, 1, 16", "5, 1, 16", graded(5))["quantities"])["top"][2]
     for (kind, p, *_), step in zip(meshes, steps):
         contact = contact_of(step)
         moved = dict(step["quantities"])["top"][2]
@@ -259,7 +280,8 @@ def main():
     arguments = parser.parse_args()
     mortise = os.path.abspath(arguments.mortise)
     tables = []
-    for rows in (lambda m: against_error(m, arguments.peers), costs, press_fits, hertz, waves, others, flange):
+    for rows in (lambda m: against_error(m, arguments.peers), lambda m: hertz_beside_peers(m, arguments.peers), costs, press_fits, hertz, lines, waves,
+                 others, flange):
         tables.append([])
         for row in rows(mortise):
             tables[-1].append(row)
@@ -287,6 +309,12 @@ NGSolve (penalty) all but mesh and import; medians of 3 in turn, best of several
 |---|---|---|---|
 {0}
 
+`prm/hertz_solid.prm` (half a ball of radius 1 on a block, E = 200, pressed by 0.02, tetrahedra) on the same machine: force of the whole beside that with p = 4 on a finer mesh.
+
+| program | unknowns | force | error | seconds |
+|---|---|---|---|---|
+{1}
+
 ## What it costs
 
 At 1e-8, set up and solve on one core beside the same scene tied, medians of 3 in turn; peak memory of the whole run beside the tie's.
@@ -294,7 +322,7 @@ At 1e-8, set up and solve on one core beside the same scene tied, medians of 3 i
 
 | scene | p | dofs | nodes that press | sets | iterations of all | of the tie | seconds | of the tie | ratio | memory |
 |---|---|---|---|---|---|---|---|---|---|---|
-{1}
+{2}
 
 The next set follows from a solve to 1e-2 that starts from the last one; where no sign changes and some are not known yet the tolerance is a hundredth. The set that stays is solved to
 the end with coarse levels that see it. Where bodies are held together too far out by d, the pressure pulls for half of d only, so that sets that open just that
@@ -307,7 +335,7 @@ those of `slide`, where nothing could open; error of the mean pressure; active s
 
 | scene | p | L2 | energy | pressure, L2 | mean pressure | sets |
 |---|---|---|---|---|---|---|
-{2}
+{3}
 
 ## A ball on a block
 
@@ -317,7 +345,13 @@ that is a circle is not Hertz's parabola: (a/R)^2 is 0.01. The radius is known t
 
 | p | refinements | dofs | nodes that press | radius - 1 | largest pressure - 1 | penetration | sets | iterations of all |
 |---|---|---|---|---|---|---|---|---|
-{3}
+{4}
+
+The same with a cylinder, in plane strain, of length 0.05, halved around the line of contact: half-width and largest pressure beside those of Hertz for the force.
+
+| scene | p | times halved | dofs | nodes that press | half-width - 1 | largest pressure - 1 | penetration | sets | iterations of all |
+|---|---|---|---|---|---|---|---|---|---|
+{5}
 
 ## A wavy surface
 
@@ -326,7 +360,7 @@ energy error by how far the load moves, against p = 6, halved 4 times.
 
 | mesh | p | dofs | largest pressure - 1 | half-width - 1 | energy error | sets | iterations of all |
 |---|---|---|---|---|---|---|---|
-{4}
+{6}
 
 ## A punch, and a layer that recedes
 
@@ -335,7 +369,7 @@ pressed at its middle: it lifts off beyond 0.857.
 
 | scene | p | dofs | what | computed | exact | sets | iterations of all |
 |---|---|---|---|---|---|---|---|
-{5}
+{7}
 
 ## A flange that leaks
 
@@ -345,7 +379,7 @@ pressed at its middle: it lifts off beyond 0.857.
 
 | t | pressure, MPa | area of the seal, mm^2 | force on it, kN | sets | iterations of all | of the last |
 |---|---|---|---|---|---|---|
-{6}
+{8}
 """
 
 if __name__ == "__main__":
