@@ -271,7 +271,8 @@ namespace mortise
     SolveReport  report;
     double       setup_seconds = 0., solve_seconds = 0.;
     // from lower degrees and from step to step the edge is near already
-    bool         extends = !first && !last, extended = false;
+    const bool   cold    = !first && !last;
+    bool         extends = cold, extended = false;
     unsigned int overshoots = 0;
     iterations              = 0;
     sets                    = 1;
@@ -290,7 +291,7 @@ namespace mortise
         if (extends && extended && next.change.closed > 0)
           ++overshoots;
         extended = extended || next.change.opened > 0;
-        extends  = overshoots < max_overshoots &&
+        extends  = cold && overshoots < max_overshoots &&
                   !(extended && next.change.closed > 0) && !next.set.cycles();
         if (tolerance == asked && !next.change.any())
           break;
