@@ -40,7 +40,8 @@ namespace mortise
     const unsigned int                            degree,
     const std::map<types::material_id, unsigned> &degree_by_region,
     const std::string                            &where,
-    const std::vector<Ball>                      &degree_near)
+    const std::vector<Ball>                      &degree_near,
+    const unsigned int                            least_mapping_degree)
   {
     for (const auto &region : degree_by_region)
       if (mesh.names.materials.count(region.first) == 0)
@@ -62,25 +63,52 @@ namespace mortise
         unsigned int touched = 0;
         for (const auto &cell : dof_handler.active_cell_iterators())
           touched = touched || (cell->is_locally_owned() && ball.touches(cell));
-        if (Utilities::MPI::max(touched, triangulation().get_communicator()) == 0)
+        if (Utilities::MPI::max(touched, triangulation().get_communicator()) ==
+            0)
           fail_untouched(ball, where + ": Degree near");
         used.insert(ball.number);
       }
-    distribute_legendre_dofs(
+    const auto degree_of = [&](const CellIterator &cell) {
+      const auto ball =
+        std::find_if(degree_near.rbegin(),
+                     degree_near.rend(),
+                     [&](const Ball &b) { return b.touches(cell); });
+      if (ball != degree_near.rend())
+        return ball->number;
+      const auto region = degree_by_region.find(cell->material_id());
+      return region == degree_by_region.end() ? degree : region->second;
+    };
+    create_space(used, degree_of, least_mapping_degree);
+  }
+
+  void
+  Body::create_space(const std::vector<unsigned int> &cell_degrees)
+  {
+    std::vector<unsigned int> is_used(mortise::max_degree + 1, 0);
+    for (const auto &cell : triangulation().active_cell_iterators())
+      if (cell->is_locally_owned())
+        is_used[cell_degrees[cell->active_cell_index()]] = 1;
+    Utilities::MPI::max(is_used, triangulation().get_communicator(), is_used);
+    std::set<unsigned int> used;
+    for (unsigned int p = 0; p < is_used.size(); ++p)
+      if (is_used[p] > 0)
+        used.insert(p);
+    create_space(
       used,
       [&](const CellIterator &cell) {
-        const auto ball = std::find_if(degree_near.rbegin(),
-                                       degree_near.rend(),
-                                       [&](const Ball &b) { return b.touches(cell); });
-        if (ball != degree_near.rend())
-          return ball->number;
-        const auto region = degree_by_region.find(cell->material_id());
-        return region == degree_by_region.end() ? degree : region->second;
+        return cell_degrees[cell->active_cell_index()];
       },
-      dim,
-      fe,
-      dof_handler);
-    create_mapping();
+      1);
+  }
+
+  void
+  Body::create_space(
+    const std::set<unsigned int>                            &used,
+    const std::function<unsigned int(const CellIterator &)> &degree_of,
+    const unsigned int least_mapping_degree)
+  {
+    distribute_legendre_dofs(used, degree_of, dim, fe, dof_handler);
+    create_mapping(least_mapping_degree);
 
     degrees = std::make_unique<EntityDegrees>(dof_handler);
     make_conformity_constraints(dof_handler, *degrees, conformity);
@@ -90,9 +118,9 @@ namespace mortise
   }
 
   void
-  Body::create_mapping()
+  Body::create_mapping(const unsigned int least_degree)
   {
-    mapping_degree = mesh.curved ? max_degree() : 1;
+    mapping_degree = mesh.curved ? std::max(least_degree, max_degree()) : 1;
     if (mesh.geometry != nullptr)
       mapping_degree = 2; // what the file has, whatever the displacement
     const auto points = [&](const auto &cell, const auto &unit) {

@@ -121,6 +121,15 @@ namespace mortise
       visit("pressure_l2", errors.pressure_l2);
     }
 
+    template <typename Visit>
+    void
+    visit_members(AdaptivitySummary &adaptivity, const Visit &visit)
+    {
+      visit("target", adaptivity.target);
+      visit("estimate", adaptivity.estimate);
+      visit("effectivity", adaptivity.effectivity);
+    }
+
     using Quantities = std::vector<std::pair<std::string, std::vector<double>>>;
 
     template <typename Visit>
@@ -135,6 +144,7 @@ namespace mortise
       visit("interfaces", step.interfaces);
       visit("solver", step.solver);
       visit("errors", step.errors);
+      visit("adaptivity", step.adaptivity);
       visit("quantities", step.quantities);
     }
 

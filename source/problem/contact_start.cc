@@ -30,8 +30,9 @@ namespace mortise
       for (const InterfaceParameters &interface : run.parameters.interfaces)
         if (interface.law == "contact")
           {
-            const Body        &body   = *bodies[interface.slave.body];
-            const unsigned int degree = run.parameters.bodies[body.index].degree;
+            const Body        &body = *bodies[interface.slave.body];
+            const unsigned int degree =
+              run.parameters.bodies[body.index].degree;
             for (const BoundaryFace &face :
                  boundary_faces(body,
                                 body.boundary_id(interface.slave.boundary,
@@ -57,6 +58,7 @@ namespace mortise
             halve(region.second);
           for (Ball &ball : body.degree_near)
             halve(ball.number);
+          body.least_mapping_degree = 2; // facets meet elsewhere
         }
       return parameters;
     }
@@ -64,20 +66,19 @@ namespace mortise
     bool
     same_degrees(const Parameters &a, const Parameters &b)
     {
-      return std::equal(
-        a.bodies.begin(),
-        a.bodies.end(),
-        b.bodies.begin(),
-        [](const BodyParameters &x, const BodyParameters &y) {
-          return x.degree == y.degree &&
-                 x.degree_by_region == y.degree_by_region &&
-                 std::equal(x.degree_near.begin(),
-                            x.degree_near.end(),
-                            y.degree_near.begin(),
-                            [](const Ball &c, const Ball &d) {
-                              return c.number == d.number;
-                            });
-        });
+      return std::equal(a.bodies.begin(),
+                        a.bodies.end(),
+                        b.bodies.begin(),
+                        [](const BodyParameters &x, const BodyParameters &y) {
+                          return x.degree == y.degree &&
+                                 x.degree_by_region == y.degree_by_region &&
+                                 std::equal(x.degree_near.begin(),
+                                            x.degree_near.end(),
+                                            y.degree_near.begin(),
+                                            [](const Ball &c, const Ball &d) {
+                                              return c.number == d.number;
+                                            });
+                        });
     }
 
     struct Found
@@ -116,7 +117,7 @@ namespace mortise
     std::vector<Parameters> all;
     Parameters              lower = halved(run.parameters);
     lower.steps                   = {};
-    lower.solver.tolerance = std::max(accuracy, lower.solver.tolerance);
+    lower.solver.tolerance        = std::max(accuracy, lower.solver.tolerance);
     while (!same_degrees(lower, all.empty() ? run.parameters : all.back()))
       {
         all.push_back(lower);
@@ -135,12 +136,15 @@ namespace mortise
       {
         while (!all.empty())
           {
-            Found found =
-              solve({all.back(), log, timers, run.comm}, time, bodies, pressing);
+            Found found = solve({all.back(), log, timers, run.comm},
+                                time,
+                                bodies,
+                                pressing);
             if (!found.pressing)
               break;
             pressing = std::move(found.pressing);
-            n_sets += (n_sets.empty() ? "" : ", ") + std::to_string(found.n_sets);
+            n_sets +=
+              (n_sets.empty() ? "" : ", ") + std::to_string(found.n_sets);
             all.pop_back();
             if (found.n_sets == 1)
               break; // the guess holds

@@ -21,8 +21,9 @@ namespace mortise
     constexpr double loose = 1e-2;
 
     /// Likewise, the root of the energy of the error beside that of the
-    /// solution, as a multiple of the tolerance.
-    constexpr double loose_energy = 3.;
+    /// solution, as a multiple of the tolerance: where the first set may be
+    /// the last one, and on the way from a first set that is far from it.
+    constexpr double loose_energy = 0.1, loosest_energy = 3.;
 
     /// As many as fields of load with factors of their own.
     constexpr unsigned int max_increments = 4;
@@ -108,11 +109,13 @@ namespace mortise
     if (!run.parameters.steps.given())
       return;
     if (!residual)
-      residual = std::make_unique<ScaledResidual>(discretisation.linear_system());
+      residual =
+        std::make_unique<ScaledResidual>(discretisation.linear_system());
     SystemVector rhs = now.rhs, x = now.x;
     if (last)
       {
-        if (Utilities::MPI::max(now.active == last->active ? 0 : 1, run.comm) == 1)
+        if (Utilities::MPI::max(now.active == last->active ? 0 : 1, run.comm) ==
+            1)
           increments = SuccessiveSolutions(max_increments);
         add_scaled(rhs, -1., last->rhs);
         add_scaled(x, -1., last->x);
@@ -151,20 +154,20 @@ namespace mortise
     // what rounding leaves between meshes that touch is closed
     const double closed =
       1e-10 * std::sqrt(Utilities::MPI::sum(area, run.comm));
-    const Vector gaps =
-      discretisation.gaps(load,
-                          last ? x : discretisation.linear_system().zero_vector());
+    const Vector gaps = discretisation.gaps(
+      load, last ? x : discretisation.linear_system().zero_vector());
     if (!last && first)
       pressing = first->nearest(places);
     else
       for (unsigned int i = 0; i < contact.size(); ++i)
-        pressing[i] = !contact[i] || (last && last->active[i] ?
-                                        x.multiplier.begin()[i] > 0. :
-                                        gaps.begin()[i] <= (last ? -closed : closed));
+        pressing[i] =
+          !contact[i] || (last && last->active[i] ?
+                            x.multiplier.begin()[i] > 0. :
+                            gaps.begin()[i] <= (last ? -closed : closed));
     const auto holds = [this](const std::vector<bool> &active) {
       return free_motions(active).empty();
     };
-    set.start_from(holds(pressing)              ? pressing :
+    set.start_from(holds(pressing)             ? pressing :
                    last && holds(last->active) ? last->active :
                                                  all);
   }
@@ -191,7 +194,9 @@ namespace mortise
       discretisation.linear_system().clear_inactive(x.multiplier.begin());
     const auto run_solver = [&](const unsigned int max_iterations) {
       solver.set_limits(tolerance,
-                        is_last ? SolverOptions().energy_share : loose_energy,
+                        is_last          ? SolverOptions().energy_share :
+                        cold && sets > 1 ? loosest_energy :
+                                           loose_energy,
                         max_iterations);
       return goes_on ? solver.solve_from(load.rhs, x) :
                        solver.solve(load.rhs, x);
@@ -267,11 +272,11 @@ namespace mortise
     double tolerance = discretisation.choice().method == SolverMethod::direct ?
                          asked :
                          std::max(loose, asked);
+    // from lower degrees and from step to step the edge is near already
+    cold = !first && !last;
     start(load, x);
     SolveReport  report;
     double       setup_seconds = 0., solve_seconds = 0.;
-    // from lower degrees and from step to step the edge is near already
-    const bool   cold    = !first && !last;
     bool         extends = cold, extended = false;
     unsigned int overshoots = 0;
     iterations              = 0;

@@ -13,14 +13,15 @@ namespace mortise
 {
   using namespace dealii;
 
-  Discretisation::Discretisation(const RunContext &run,
-                                 const SceneData  &data,
-                                 Bodies           &bodies)
+  Discretisation::Discretisation(const RunContext  &run,
+                                 const SceneData   &data,
+                                 Bodies            &bodies,
+                                 const CellDegrees &degrees)
     : run(run)
     , spaces(bodies)
     , couplings(run, spaces)
   {
-    create_spaces(run, data, spaces);
+    create_spaces(run, data, degrees, spaces);
     system.communicator       = run.comm;
     system.owned_displacement = spaces.owned_displacement();
     if (spaces.fields.pressure.numbering.size() > 0)
@@ -283,12 +284,6 @@ namespace mortise
     if (system.mixed())
       system.free_pressures.project_residual(load.rhs.pressure);
     return load;
-  }
-
-  void
-  Discretisation::select(const std::vector<bool> &active)
-  {
-    system.active = active;
   }
 
   void

@@ -69,37 +69,43 @@ namespace mortise
                    parameters);
       declare_side(
         section, "Master", interface.master, "The other side.", parameters);
-      section.add("Law",
-                  interface.law,
-                  "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
-                  "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those within Search distance at the start. spring: a thin layer or glue of the stiffnesses below.",
-                  Allowed::one_of({"tie", "slide", "contact", "spring"}));
-      section.add("Normal stiffness",
-                  interface.normal_stiffness,
-                  "Law = spring: traction by opening [force per volume]. A layer of thickness d has its modulus over "
-                  "d.",
-                  {"an expression in x, y, z, positive"});
-      section.add("Tangential stiffness",
-                  interface.tangential_stiffness,
-                  "The same across the normal [force per volume]; 0: it slides.",
-                  {"an expression in x, y, z, positive; or 0"});
-      section.add("Offset",
-                  interface.offset,
-                  "The gap that is left between the bodies on top of that between their meshes, which all laws but contact take for "
-                  "closed; negative: an interference, as of a press fit whose meshes coincide [length].",
-                  {"an expression in x, y, z, t"});
-      section.add("Mesh gap",
-                  interface.mesh_gap,
-                  "Law = contact: what lies between the meshes, or how far they overlap. real: a gap or an "
-                  "interference; ignored: they stand for surfaces that coincide, as facets of different size on one "
-                  "circle do. Offset comes on top of it.",
-                  Allowed::one_of({"real", "ignored"}));
-      section.add("Multiplier",
-                  interface.multiplier,
-                  "Space of the Lagrange multiplier (the traction): standard, the slave's traces, or dual, as many "
-                  "functions biorthogonal to those of the slave's nodes, which are eliminated at no cost; triangles "
-                  "have them at degree 1 only, and get standard ones above.",
-                  Allowed::one_of({"standard", "dual"}));
+      section.add(
+        "Law",
+        interface.law,
+        "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
+        "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those within Search distance at the start. spring: a thin layer or glue of the stiffnesses below.",
+        Allowed::one_of({"tie", "slide", "contact", "spring"}));
+      section.add(
+        "Normal stiffness",
+        interface.normal_stiffness,
+        "Law = spring: traction by opening [force per volume]. A layer of thickness d has its modulus over "
+        "d.",
+        {"an expression in x, y, z, positive"});
+      section.add(
+        "Tangential stiffness",
+        interface.tangential_stiffness,
+        "The same across the normal [force per volume]; 0: it slides.",
+        {"an expression in x, y, z, positive; or 0"});
+      section.add(
+        "Offset",
+        interface.offset,
+        "The gap that is left between the bodies on top of that between their meshes, which all laws but contact take for "
+        "closed; negative: an interference, as of a press fit whose meshes coincide [length].",
+        {"an expression in x, y, z, t"});
+      section.add(
+        "Mesh gap",
+        interface.mesh_gap,
+        "Law = contact: what lies between the meshes, or how far they overlap. real: a gap or an "
+        "interference; ignored: they stand for surfaces that coincide, as facets of different size on one "
+        "circle do. Offset comes on top of it.",
+        Allowed::one_of({"real", "ignored"}));
+      section.add(
+        "Multiplier",
+        interface.multiplier,
+        "Space of the Lagrange multiplier (the traction): standard, the slave's traces, or dual, as many "
+        "functions biorthogonal to those of the slave's nodes, which are eliminated at no cost; triangles "
+        "have them at degree 1 only, and get standard ones above.",
+        Allowed::one_of({"standard", "dual"}));
       section.add(
         "Search distance",
         interface.search_distance,
@@ -188,21 +194,52 @@ namespace mortise
     }
 
     void
+    declare_adaptivity(const ParameterSection &section,
+                       AdaptivityParameters   &adaptivity)
+    {
+      section.add(
+        "Target error",
+        adaptivity.target_error,
+        "Error of the displacements in the energy norm beside their own, as it is estimated, at which the run ends [-]. "
+        "Empty: degrees are those that are given.",
+        {"a number between 0 and 1, both excluded",
+         [](double error) { return error > 0. && error < 1.; }});
+      section.add(
+        "Strategy",
+        adaptivity.strategy,
+        "p: from cycle to cycle the degree rises by one where the error is, on the mesh that is given, from the "
+        "degrees that are given.",
+        Allowed::one_of({"p"}));
+      section.add(
+        "Largest number of unknowns",
+        adaptivity.most_unknowns,
+        "What needs more ends with exit code 3, the last result written.",
+        Allowed::positive_number());
+      section.add("Largest degree",
+                  adaptivity.largest_degree,
+                  "Likewise.",
+                  Allowed::integer(min_degree, max_degree));
+    }
+
+    void
     declare_steps(const ParameterSection &section, StepParameters &steps)
     {
-      section.add("End time",
-                  steps.end_time,
-                  "End of the last step [time]; the first begins at 0. Empty: the last of Step, or 1.",
-                  Allowed::positive_number());
-      section.add("Step",
-                  steps.step,
-                  "Length of all steps, or the times at which they end [time]. Empty: one step.",
-                  {"a positive number, or ascending ones separated by commas",
-                   [](double length) { return length > 0.; }});
-      section.add("Output every",
-                  steps.output_every,
-                  "Fields are written after every so many of these times, and at the end.",
-                  Allowed::integer(1));
+      section.add(
+        "End time",
+        steps.end_time,
+        "End of the last step [time]; the first begins at 0. Empty: the last of Step, or 1.",
+        Allowed::positive_number());
+      section.add(
+        "Step",
+        steps.step,
+        "Length of all steps, or the times at which they end [time]. Empty: one step.",
+        {"a positive number, or ascending ones separated by commas",
+         [](double length) { return length > 0.; }});
+      section.add(
+        "Output every",
+        steps.output_every,
+        "Fields are written after every so many of these times, and at the end.",
+        Allowed::integer(1));
       section.add(
         "Smallest step",
         steps.smallest_step,
@@ -256,11 +293,12 @@ namespace mortise
           for (const std::string &field : output.fields)
             value.choice(field);
         });
-      section.add("Checkpoint every",
-                  output.checkpoint_every,
-                  "After so many steps the state goes to DIRECTORY/checkpoint.bin, from which "
-                  "--restart DIRECTORY goes on. 0: never.",
-                  Allowed::integer(0));
+      section.add(
+        "Checkpoint every",
+        output.checkpoint_every,
+        "After so many steps the state goes to DIRECTORY/checkpoint.bin, from which "
+        "--restart DIRECTORY goes on. 0: never.",
+        Allowed::integer(0));
       section.add(
         "Points",
         "",
@@ -314,6 +352,7 @@ namespace mortise
     declare_exact_solution(scene.subsection("Exact solution"),
                            parameters.exact_solution);
     declare_solver(scene.subsection("Solver"), parameters.solver);
+    declare_adaptivity(scene.subsection("Adaptivity"), parameters.adaptivity);
     declare_steps(scene.subsection("Steps"), parameters.steps);
     declare_output(scene.subsection("Output"), parameters);
     return entries;

@@ -4,6 +4,7 @@
 #include <mortise/base/expression.h>
 #include <mortise/base/numbers.h>
 #include <mortise/base/quotes.h>
+#include <mortise/problem/adaptivity.h>
 #include <mortise/problem/formulation.h>
 #include <mortise/problem/parameter_file.h>
 #include <mortise/problem/parameters.h>
@@ -310,9 +311,9 @@ namespace mortise
     void
     check_steps(const Parameters &parameters)
     {
-      constexpr double             most  = 1e6;
-      const StepParameters        &given = parameters.steps;
-      const std::vector<double>   &step  = given.step;
+      constexpr double           most  = 1e6;
+      const StepParameters      &given = parameters.steps;
+      const std::vector<double> &step  = given.step;
       if (!std::is_sorted(step.begin(), step.end(), std::less_equal<double>()))
         parameters.fail("Steps/Step",
                         "times that do not ascend",
@@ -341,6 +342,7 @@ namespace mortise
     check_exact_solution(parameters);
     check_formulations(parameters);
     check_steps(parameters);
+    check_adaptivity(parameters);
     check_output(parameters.output, parameters);
   }
 

@@ -66,6 +66,20 @@ namespace mortise
     }
 
     void
+    print_adaptivity(RunLog &log, const AdaptivitySummary &adaptivity)
+    {
+      log.line();
+      Rows rows = {{"relative error, energy", ""},
+                   {"target", RunLog::number(adaptivity.target)}};
+      if (adaptivity.estimate)
+        rows.push_back({"estimate", RunLog::number(*adaptivity.estimate)});
+      if (adaptivity.effectivity)
+        rows.push_back(
+          {"estimate by error", RunLog::number(*adaptivity.effectivity)});
+      log.table(rows);
+    }
+
+    void
     print_quantities(RunLog &log, const StepSummary &step)
     {
       log.line();
@@ -88,6 +102,8 @@ namespace mortise
       print_interfaces(log, step);
     if (step.errors)
       print_errors(log, step);
+    if (step.adaptivity)
+      print_adaptivity(log, *step.adaptivity);
     if (!step.quantities.empty())
       print_quantities(log, step);
   }

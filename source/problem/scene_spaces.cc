@@ -80,8 +80,9 @@ namespace mortise
     }
 
     std::vector<AffineConstraints<double>>
-    constraints_of(const Bodies                                       &bodies,
-                   const std::vector<std::vector<DirichletCondition>> &dirichlet)
+    constraints_of(
+      const Bodies                                       &bodies,
+      const std::vector<std::vector<DirichletCondition>> &dirichlet)
     {
       std::vector<AffineConstraints<double>> constraints(bodies.size());
       for (const auto &body : bodies)
@@ -102,8 +103,8 @@ namespace mortise
       for (const auto &body : spaces.bodies)
         {
           scene.push_back(body.get());
-          softest    = std::min(softest, body->material.softest_modulus());
-          stiffest   = std::max(stiffest, body->material.stiffest_modulus());
+          softest  = std::min(softest, body->material.softest_modulus());
+          stiffest = std::max(stiffest, body->material.stiffest_modulus());
         }
       const bool mixed = spaces.fields.pressure.numbering.size() > 0;
       spaces.choice =
@@ -120,9 +121,10 @@ namespace mortise
   } // namespace
 
   void
-  create_spaces(const RunContext &run,
-                const SceneData  &data,
-                SceneSpaces      &spaces)
+  create_spaces(const RunContext  &run,
+                const SceneData   &data,
+                const CellDegrees &degrees,
+                SceneSpaces       &spaces)
   {
     auto stage = run.log.stage(run.timers, "spaces");
 
@@ -131,10 +133,14 @@ namespace mortise
     for (const auto &body : spaces.bodies)
       {
         const BodyParameters &given = run.parameters.bodies[body->index];
-        body->create_space(given.degree,
-                           given.degree_by_region,
-                           "Body " + body->name,
-                           given.degree_near);
+        if (degrees.empty())
+          body->create_space(given.degree,
+                             given.degree_by_region,
+                             "Body " + body->name,
+                             given.degree_near,
+                             given.least_mapping_degree);
+        else
+          body->create_space(degrees[body->index]);
         handlers.push_back(&body->dof_handler);
         if (locks(given))
           run.log.warning(
@@ -145,7 +151,7 @@ namespace mortise
         spaces.dirichlet.push_back(data.dirichlet(*body));
         zero.push_back(homogeneous(spaces.dirichlet.back()));
       }
-    spaces.constraints = constraints_of(spaces.bodies, zero);
+    spaces.constraints       = constraints_of(spaces.bodies, zero);
     SceneField &displacement = spaces.fields.displacement;
     displacement.numbering   = FieldNumbering(handlers, run.comm);
     displacement.constraints =
@@ -154,11 +160,10 @@ namespace mortise
     choose_method(run, spaces);
 
     const auto n_pressures = spaces.fields.pressure.numbering.size();
-    stage.details(std::to_string(displacement.numbering.size()) +
-                  " displacement dofs" +
-                  (n_pressures > 0 ?
-                     ", " + std::to_string(n_pressures) + " pressures" :
-                     ""));
+    stage.details(
+      std::to_string(displacement.numbering.size()) + " displacement dofs" +
+      (n_pressures > 0 ? ", " + std::to_string(n_pressures) + " pressures" :
+                         ""));
   }
 
   PrescribedValues

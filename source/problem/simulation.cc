@@ -16,10 +16,11 @@ namespace mortise
 {
   using namespace dealii;
 
-  Simulation::Simulation(const Parameters &parameters,
+  Simulation::Simulation(const Parameters &given,
                          RunLog           &log,
                          const MPI_Comm    comm)
-    : context{parameters, log, timers, comm}
+    : parameters(with_tolerance(given))
+    , context{parameters, log, timers, comm}
     , steps(parameters.steps, false)
     , files(context)
   {
@@ -50,12 +51,23 @@ namespace mortise
   void
   Simulation::discretise()
   {
-    create_meshes();
+    if (bodies.empty())
+      create_meshes();
     const SceneData data(context.parameters, steps.next(), field_checks);
     std::optional<ActivePlaces> pressing;
-    if (restart.empty())
+    if (contact)
+      pressing = contact->active_places();
+    else if (restart.empty())
       pressing = contact_start(context, steps.next(), bodies);
-    discretisation  = std::make_unique<Discretisation>(context, data, bodies);
+    contact.reset();
+    solver.reset();
+    discretisation.reset();
+    discretisation =
+      std::make_unique<Discretisation>(context,
+                                       data,
+                                       bodies,
+                                       adaptivity ? adaptivity->degrees() :
+                                                    CellDegrees());
     summary.balance = discretisation->interfaces().balance();
 
     const SolverParameters &given = context.parameters.solver;
@@ -149,12 +161,23 @@ namespace mortise
                      report.relative_residual,
                      {},
                      {}};
+    if (adaptivity)
+      {
+        result.cycle = summary.steps.size();
+        result.adaptivity.emplace();
+        result.adaptivity->target   = *parameters.adaptivity.target_error;
+        result.adaptivity->estimate = adaptivity->estimate();
+      }
     if (contact)
       {
         result.solver->active_sets       = contact->n_sets();
         result.solver->linear_iterations = contact->linear_iterations();
       }
     evaluate_step(context, *discretisation, solved, fields, result);
+    if (adaptivity && adaptivity->estimate() && result.errors &&
+        *result.errors->energy > 0.)
+      result.adaptivity->effectivity =
+        *adaptivity->estimate() / *result.errors->energy;
     field_checks.throw_if_any(context.comm);
     const std::string not_finite = first_not_finite(result);
     if (report.converged && !not_finite.empty())
@@ -193,11 +216,14 @@ namespace mortise
                               contact ? contact->undecided() :
                                         std::vector<bool>()};
       fields = step_fields(context, *discretisation, solved);
+      if (adaptivity)
+        adaptivity->add(bodies, fields.solutions);
       summary.steps.push_back(summarise(solved, fields));
     }
     state = std::move(next);
-    steps.accept(report.converged);
-    if (writes)
+    if (is_last_cycle())
+      steps.accept(report.converged);
+    if (writes && is_last_cycle())
       write_results(fields);
     if (context.parameters.steps.given())
       print_progress();
@@ -261,10 +287,39 @@ namespace mortise
       (steps.finished() ? "" : ", about " + RunLog::number(left) + " s left"));
   }
 
+  bool
+  Simulation::is_last_cycle() const
+  {
+    return !adaptivity || !report.converged || adaptivity->reached() ||
+           !adaptivity->limit().empty();
+  }
+
+  void
+  Simulation::adapt(const bool writes)
+  {
+    adaptivity.emplace(context);
+    do
+      {
+        context.log.line("cycle " + std::to_string(summary.steps.size()));
+        discretise();
+        step(writes);
+        if (const auto &estimate = adaptivity->estimate())
+          context.log.line("  estimated error " + RunLog::number(*estimate) +
+                           ", target " +
+                           RunLog::number(*parameters.adaptivity.target_error));
+      }
+    while (!is_last_cycle());
+    summary.status = !report.converged     ? "not converged" :
+                     adaptivity->reached() ? "done" :
+                                             "target not reached";
+  }
+
   void
   Simulation::march(const bool writes)
   {
     report.converged = true;
+    if (parameters.adaptivity.target_error)
+      return adapt(writes);
     if (steps.finished()) // of a run that was continued
       context.log.line("the end at t = " + RunLog::number(steps.time()) +
                        " was reached before; another Steps/End time goes on");
@@ -332,5 +387,7 @@ namespace mortise
            "Rounding leaves up to " + RunLog::number(report.attainable) +
              " whatever the method, since moduli or sizes differ too much" :
            "Raise Solver/Max iterations or try another Solver/Method"));
+    if (adaptivity && !adaptivity->reached())
+      throw ConvergenceError(adaptivity->missed());
   }
 } // namespace mortise

@@ -18,8 +18,10 @@
 #include <mortise/body/spaces/pressure_space.h>
 #include <mortise/material/material.h>
 
+#include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,16 +44,24 @@ namespace mortise
                 const std::set<std::string> &interfaces = {});
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
-    /// of a cell, or the last of @p degree_near that touches it; mapping of the largest degree on curved meshes; conformity
+    /// of a cell, or the last of @p degree_near that touches it; mapping of the largest degree on curved meshes, at least
+    /// of @p least_mapping_degree; conformity
     /// constraints; pressures if the material is mixed, which needs degrees
     /// above one. Replaces those of an earlier call. Collective; throws
-    /// InputError for a region that the mesh does not have and for a ball that touches no cell.
+    /// InputError for a region that the mesh does not have and for a ball that
+    /// touches no cell.
     void
     create_space(
       unsigned int                                          degree,
       const std::map<dealii::types::material_id, unsigned> &degree_by_region,
       const std::string                                    &where,
-      const std::vector<Ball>                              &degree_near = {});
+      const std::vector<Ball>                              &degree_near = {},
+      unsigned int least_mapping_degree                                 = 1);
+
+    /// Likewise, of degrees by active cell of the mesh, of which those of owned
+    /// cells are asked for. Collective.
+    void
+    create_space(const std::vector<unsigned int> &degrees);
 
     const dealii::parallel::DistributedTriangulationBase<dim> &
     triangulation() const
@@ -112,6 +122,11 @@ namespace mortise
 
   private:
     void
-    create_mapping();
+    create_space(
+      const std::set<unsigned int>                            &used,
+      const std::function<unsigned int(const CellIterator &)> &degree_of,
+      unsigned int least_mapping_degree);
+    void
+    create_mapping(unsigned int least_degree);
   };
 } // namespace mortise

@@ -96,6 +96,15 @@ namespace mortise
     std::optional<double> pressure_l2; ///< with bodies in mixed form
   };
 
+  /// Relative errors in the energy norm.
+  struct AdaptivitySummary
+  {
+    double                target = 0.;
+    std::optional<double> estimate; ///< absent in the first cycle
+    std::optional<double>
+      effectivity; ///< over the error, with an exact solution
+  };
+
   struct StepSummary
   {
     unsigned int step  = 0; ///< from 1 on, or 0 in a scene without steps
@@ -106,6 +115,7 @@ namespace mortise
     std::vector<InterfaceSummary> interfaces;
     std::optional<SolverSummary>  solver; ///< absent until solved
     std::optional<ErrorSummary>   errors; ///< absent without an exact solution
+    std::optional<AdaptivitySummary> adaptivity; ///< with a target
     /// User-requested functionals in the order of the request: point values,
     /// resultants.
     std::vector<std::pair<std::string, std::vector<double>>> quantities;

@@ -27,10 +27,11 @@ namespace mortise
 
     /// Solve for @p load. The first set is what presses as the last steps go on, in the first step what
     /// the constructor was told, or where the gap is closed before anything
-    /// moves; all where these do not hold the bodies. On the way linear solves are as loose as the choice
-    /// of the next set allows. The report is that of the last one, its seconds
-    /// those of all; not converged after 100 sets. Throws InputError that names
-    /// body and motion where contact is lost. Collective.
+    /// moves; all where these do not hold the bodies. On the way linear solves
+    /// are as loose as the choice of the next set allows. The report is that of
+    /// the last one, its seconds those of all; not converged after 100 sets.
+    /// Throws InputError that names body and motion where contact is lost.
+    /// Collective.
     SolveReport
     solve(const SceneLoad &load, SystemVector &x);
 
@@ -110,14 +111,16 @@ namespace mortise
     MultiplierPlaces  places;
     ContactEdge       edge;
 
-    std::optional<ActivePlaces>     first; ///< what presses in the first step
-    std::optional<Solved>           last;  ///< with steps
-    SuccessiveSolutions             increments; ///< from step to step, with the set of the last one
-    std::unique_ptr<ScaledResidual> residual;   ///< their product
+    std::optional<ActivePlaces> first; ///< what presses in the first step
+    std::optional<Solved>       last;  ///< with steps
+    SuccessiveSolutions
+      increments; ///< from step to step, with the set of the last one
+    std::unique_ptr<ScaledResidual> residual; ///< their product
 
     unsigned int      sets = 0, iterations = 0;
     std::vector<bool> unclear;
     bool              is_shown = false;
-    std::uint64_t     n_shown  = 0; ///< of the set that coarse levels see
+    bool          cold = true; ///< does the first set of the step know little?
+    std::uint64_t n_shown = 0; ///< of the set that coarse levels see
   };
 } // namespace mortise

@@ -19,9 +19,10 @@ namespace mortise
   public:
     /// @p run and @p bodies, which get their spaces, must live on. @p data: at any time.
     /// Collective; throws InputError.
-    Discretisation(const RunContext &run,
-                   const SceneData  &data,
-                   Bodies           &bodies);
+    Discretisation(const RunContext  &run,
+                   const SceneData   &data,
+                   Bodies            &bodies,
+                   const CellDegrees &degrees = {});
 
     /// The right hand side at the time of @p data. Collective; throws InputError where prescribed
     /// displacements change the volume of an incompressible body.
@@ -31,7 +32,10 @@ namespace mortise
     /// Let the constraints of @p active multipliers hold, by owned one; the others
     /// are zero. LinearSolver::update_active() must follow. Collective.
     void
-    select(const std::vector<bool> &active);
+    select(const std::vector<bool> &active)
+    {
+      system.active = active;
+    }
 
     /// Let preconditioners see on coarse levels what is active now, where that
     /// is another set than when they last did. LinearSolver::update() must

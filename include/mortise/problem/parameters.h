@@ -54,10 +54,12 @@ namespace mortise
     std::string                          name;
     unsigned int                         degree = 1;
     std::map<unsigned int, unsigned int> degree_by_region; ///< by material id
-    std::vector<Ball>                    degree_near;      ///< the last one holds
-    Formulation                          formulation = Formulation::automatic;
-    MeshParameters                       mesh;
-    MaterialParameters                   material;
+    std::vector<Ball>                    degree_near; ///< the last one holds
+    unsigned int                         least_mapping_degree =
+      1; ///< of curved meshes; no entry of a file
+    Formulation        formulation = Formulation::automatic;
+    MeshParameters     mesh;
+    MaterialParameters material;
     /// Force per volume. Absent ("auto"): from the exact solution if that is
     /// given by expressions, else zero.
     std::optional<Components>                 body_force;
@@ -76,14 +78,14 @@ namespace mortise
     std::string    name;
     SideParameters slave; ///< carries the multiplier
     SideParameters master;
-    std::string    mesh_gap = "real"; ///< or "ignored"; of contact
-    std::string    law               = "tie"; ///< or "slide", "contact", "spring"
-    std::string    multiplier        = "dual";
-    std::string    offset            = "0";
+    std::string    mesh_gap   = "real"; ///< or "ignored"; of contact
+    std::string    law        = "tie";  ///< or "slide", "contact", "spring"
+    std::string    multiplier = "dual";
+    std::string    offset     = "0";
     /// For "spring" alone.
     std::optional<std::string> normal_stiffness, tangential_stiffness;
-    double         search_distance   = 0.5;
-    unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
+    double                     search_distance = 0.5;
+    unsigned int quadrature_points = 0; ///< 0 ("auto"): by the degrees
   };
 
   enum class ExactKind
@@ -110,6 +112,15 @@ namespace mortise
     bool         print_iterations = false;
   };
 
+  /// Degrees that follow from the error that is asked for.
+  struct AdaptivityParameters
+  {
+    std::optional<double> target_error; ///< relative, in energy; absent: none
+    std::string           strategy       = "p";
+    double                most_unknowns  = 2e6;
+    unsigned int          largest_degree = max_degree;
+  };
+
   /// The displacement at a point of a body, reported in the summary.
   struct PointQuantity
   {
@@ -128,9 +139,9 @@ namespace mortise
 
   struct OutputParameters
   {
-    std::string                    directory;
-    std::vector<std::string>       fields; ///< of field_names()
-    unsigned int checkpoint_every = 0;     ///< steps; 0: no checkpoints
+    std::string              directory;
+    std::vector<std::string> fields;               ///< of field_names()
+    unsigned int             checkpoint_every = 0; ///< steps; 0: no checkpoints
     std::vector<PointQuantity>     points;
     std::vector<ResultantQuantity> resultants;
   };
@@ -142,10 +153,11 @@ namespace mortise
     std::vector<InterfaceParameters> interfaces;
     ExactSolutionParameters          exact_solution;
     SolverParameters                 solver;
+    AdaptivityParameters             adaptivity;
     StepParameters                   steps;
     OutputParameters                 output;
 
-    std::string file; ///< the parameter file, as it was given
+    std::string             file; ///< the parameter file, as it was given
     std::vector<Assignment> assignments; ///< its lines and those of --set
     /// "Body inner/Degree" -> "line 7 of FILE", "--set"
     std::map<std::string, std::string> origins;

@@ -23,8 +23,8 @@ namespace mortise
     /// By body: conformity, and what is prescribed as zero; not closed.
     std::vector<dealii::AffineConstraints<double>> constraints;
     SceneFields                                    fields;
-    SolverChoice choice{SolverMethod::automatic, ""};
-    NodalSpaces  nodal; ///< for the bulk, which takes them
+    SolverChoice                choice{SolverMethod::automatic, ""};
+    NodalSpaces                 nodal; ///< for the bulk, which takes them
     std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
 
     /// May a displacement other than zero be prescribed?
@@ -43,11 +43,15 @@ namespace mortise
   Bodies
   create_meshes(const RunContext &run);
 
+  /// By body and active cell of its mesh; empty: those of the parameters.
+  using CellDegrees = std::vector<std::vector<unsigned int>>;
+
   /// Spaces, constraints, numbering and the choice of the method. Collective.
   void
-  create_spaces(const RunContext &run,
-                const SceneData  &data,
-                SceneSpaces      &spaces);
+  create_spaces(const RunContext  &run,
+                const SceneData   &data,
+                const CellDegrees &degrees,
+                SceneSpaces       &spaces);
 
   /// The displacements that @p data prescribes. Collective.
   PrescribedValues

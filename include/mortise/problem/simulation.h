@@ -2,6 +2,7 @@
 // members stand in the order in which data flows.
 #pragma once
 
+#include <mortise/problem/adaptivity.h>
 #include <mortise/problem/contact_step.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/field_files.h>
@@ -13,6 +14,7 @@
 #include <mortise/solvers/solve.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -51,12 +53,18 @@ namespace mortise
     }
 
   private:
-    /// What no step changes.
+    /// What no step changes; of the next cycle, if there are cycles.
     void
     discretise();
-    /// All steps; with files if @p writes.
+    /// All steps, or cycles; with files if @p writes.
     void
     march(bool writes);
+    /// Solve with other degrees until the error is small enough, or no others
+    /// are allowed.
+    void
+    adapt(bool writes);
+    bool
+    is_last_cycle() const;
     /// One step, or half of it if it does not converge and may be halved.
     void
     step(bool writes);
@@ -82,6 +90,7 @@ namespace mortise
       double share = 0., seconds = 0.;
     };
 
+    const Parameters parameters;
     Timers           timers;
     Clock            clock;
     const RunContext context;
@@ -92,8 +101,9 @@ namespace mortise
     Bodies                          bodies;
     std::unique_ptr<Discretisation> discretisation;
     std::unique_ptr<LinearSolver>   solver;
-    std::unique_ptr<ContactStep>    contact; ///< null without
-    SolveReport                     report; ///< of the last step
+    std::unique_ptr<ContactStep>    contact;    ///< null without
+    std::optional<Adaptivity>       adaptivity; ///< with a target
+    SolveReport                     report;     ///< of the last step
     State                           state;
     Summary                         summary;
     FieldFiles                      files;

@@ -1,0 +1,143 @@
+// Proves that a run with a target raises degrees until the error is what was
+// asked for, and says how large it is within a factor of four, on hexahedra and
+// tetrahedra, with and without a pressure, beside a corner and on part of the
+// cells alone; and that what limits it is told. The same on any number of
+// ranks.
+#include <mortise/base/error.h>
+#include <mortise/problem/adaptivity.h>
+
+#include "scene.h"
+#include "scenes.h"
+
+using namespace mortise;
+using namespace mortise::testing;
+
+namespace
+{
+  Settings
+  target(const double error)
+  {
+    return {"Adaptivity/Target error=" + number(error)};
+  }
+
+  /// @p most: of the estimate over the error.
+  void
+  check(const std::string &what,
+        const std::string &text,
+        const double       error,
+        const Settings    &settings,
+        const double       most = 4.)
+  {
+    const auto steps = run_scene(text, target(error) + settings).steps;
+    for (unsigned int c = 1; c < steps.size(); ++c)
+      {
+        const double      effectivity = *steps[c].adaptivity->effectivity;
+        const std::string cycle       = what + ", cycle " + std::to_string(c);
+        verdict(cycle + ": too much by", effectivity, most);
+        verdict(cycle + ": too little by", 1. / effectivity, 1.25);
+        verdict(cycle + ": number of it",
+                std::fabs(double(steps[c].cycle) - c),
+                0.);
+      }
+    verdict(what + ": error", *steps.back().errors->energy, error);
+  }
+
+  /// Changes 1 / p^6, and those of a series: sums that are known.
+  void
+  check_tails()
+  {
+    for (const unsigned int p : {3, 5, 8})
+      {
+        double exact = 0.;
+        for (unsigned int q = p + 1; q < 100000; ++q)
+          exact += std::pow(q, -6.);
+        const double last = std::pow(p, -6.), before = std::pow(p - 1., -6.);
+        verdict("tail of powers from " + std::to_string(p),
+                std::fabs(tail_of_changes(p, last, before) * last / exact - 1.),
+                1e-2);
+      }
+    // squares of errors 0.01^p: those of changes are the differences
+    const double change = 0.01 - 0.0001;
+    verdict("tail of a series",
+            std::fabs(tail_of_first_change(2, change, 1.) * change / 0.0001 -
+                      1.),
+            0.03);
+  }
+
+  void
+  check_message(const std::string &what,
+                const Settings    &settings,
+                const std::string &expected)
+  {
+    std::string message;
+    try
+      {
+        run_scene(two_layers(true), settings);
+      }
+    catch (const InputError &error)
+      {
+        message = error.what();
+      }
+    verdict(what, message.find(expected) == std::string::npos ? 1. : 0., 0.);
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  check_tails();
+  const Settings shells = {"Body inner/Mesh/Subdivisions=3, 1",
+                           "Body outer/Mesh/Subdivisions=4, 2"};
+  check("spheres", two_layers(true), 1e-4, shells);
+  check("spheres from degree 2",
+        two_layers(true),
+        1e-4,
+        shells + Settings{"Body inner/Degree=2", "Body outer/Degree=2"});
+  check("spheres, tetrahedra",
+        two_layers(true),
+        1e-3,
+        shells + Settings{"Body inner/Mesh/Cells=tetrahedra",
+                          "Body outer/Mesh/Cells=tetrahedra"});
+  check("spheres, incompressible",
+        two_layers(true),
+        1e-3,
+        shells + Settings{"Body inner/Degree=2",
+                          "Body outer/Degree=2",
+                          "Body inner/Material/Poisson ratio=0.5",
+                          "Body outer/Material/Poisson ratio=0.5"});
+  check("manufactured",
+        manufactured(),
+        1e-4,
+        {"Body lower/Mesh/Subdivisions=3, 3, 1",
+         "Body upper/Mesh/Subdivisions=2, 2, 2"});
+  check("a part with a corner",
+        two_boxes(),
+        1e-2,
+        {"Body lower/Mesh/Subdivisions=2, 2, 2",
+         "Body upper/Mesh/Subdivisions=3, 3, 1",
+         "Exact solution/Displacement=0.1*(x^2 + y^2 + z^2)^0.3; 0.05*(x^2 + "
+         "y^2 + z^2)^0.3; 0"});
+
+  const auto few =
+    run_scene(two_layers(true),
+              target(1e-6) + shells +
+                Settings{"Adaptivity/Largest number of unknowns=5000"});
+  verdict("few unknowns: told",
+          few.status == "target not reached" ? 0. : 1.,
+          0.);
+  verdict("few unknowns", few.steps.back().dofs.displacement, 5000);
+  const auto low =
+    run_scene(two_layers(true),
+              target(1e-6) + shells + Settings{"Adaptivity/Largest degree=2"});
+  verdict("low degrees: told",
+          low.status == "target not reached" ? 0. : 1.,
+          0.);
+  verdict("low degrees", low.steps.back().bodies[0].degree_max, 2);
+  check_message("steps",
+                target(1e-2) + shells + Settings{"Steps/Step=0.5"},
+                "together with Steps");
+  check_message("no degree left",
+                target(1e-2) + shells + Settings{"Adaptivity/Largest degree=1"},
+                "above all degrees that are given");
+}
