@@ -114,9 +114,13 @@ namespace mortise
     SystemVector rhs = now.rhs, x = now.x;
     if (last)
       {
-        if (Utilities::MPI::max(now.active == last->active ? 0 : 1, run.comm) ==
-            1)
+        const bool other_set =
+          Utilities::MPI::max(now.active == last->active ? 0 : 1, run.comm) ==
+          1;
+        // from one set to another an increment is half of each
+        if (other_set || mixed_increment)
           increments = SuccessiveSolutions(max_increments);
+        mixed_increment = other_set;
         add_scaled(rhs, -1., last->rhs);
         add_scaled(x, -1., last->x);
       }
@@ -204,15 +208,15 @@ namespace mortise
     if (shows)
       return run_solver(most);
     const SystemVector start = x;
-    const SolveReport  first = run_solver(std::min(most, few_iterations));
-    if (first.converged)
-      return first;
+    const SolveReport  tried = run_solver(std::min(most, few_iterations));
+    if (tried.converged)
+      return tried;
     show();
     x                  = start;
     SolveReport report = run_solver(most);
-    report.iterations += first.iterations;
-    report.setup_seconds += first.setup_seconds;
-    report.solve_seconds += first.solve_seconds;
+    report.iterations += tried.iterations;
+    report.setup_seconds += tried.setup_seconds;
+    report.solve_seconds += tried.solve_seconds;
     return report;
   }
 

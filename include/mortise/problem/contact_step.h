@@ -72,10 +72,11 @@ namespace mortise
       std::vector<bool> active;
     };
 
-    /// What @p load should come to, where @p x, if it has a size, is where to
-    /// start.
+    /// Choose the first set, and where steps go on set @p x to what @p load
+    /// should come to.
     void
     start(const SceneLoad &load, SystemVector &x);
+    /// For the start of the next step.
     void
     remember(Solved now);
     /// Those that the multipliers leave, in words; nothing where they hold the
@@ -115,6 +116,7 @@ namespace mortise
     std::optional<Solved>       last;  ///< with steps
     SuccessiveSolutions
       increments; ///< from step to step, with the set of the last one
+    bool mixed_increment = false; ///< was the set of the last but one another?
     std::unique_ptr<ScaledResidual> residual; ///< their product
 
     unsigned int      sets = 0, iterations = 0;
