@@ -243,6 +243,7 @@ namespace mortise
       const HierarchicalMultipliers   &hierarchical;
       const SignedMultipliers         *with_signs;
     };
+
     /// Dofs become multipliers. @p numbers: by dof, from one on, less than zero where another
     /// multiplier has the same entries.
     void

@@ -5,6 +5,7 @@
 
 #include <mortise/base/quotes.h>
 #include <mortise/problem/adaptivity.h>
+#include <mortise/problem/formulation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -77,11 +78,7 @@ namespace mortise
     // the first rise tells the first error
     for (const BodyParameters &body : parameters.bodies)
       {
-        unsigned int most = body.degree;
-        for (const auto &region : body.degree_by_region)
-          most = std::max(most, region.second);
-        for (const Ball &ball : body.degree_near)
-          most = std::max(most, ball.number);
+        const unsigned int most = *given_degrees(body).rbegin();
         if (most >= parameters.adaptivity.largest_degree)
           parameters.fail(
             "Adaptivity/Largest degree",
@@ -154,6 +151,8 @@ namespace mortise
     if (!reached())
       {
         choose(bodies, now, *run.parameters.adaptivity.target_error * norm);
+        if (!stopped_by.empty())
+          return;
         std::vector<std::vector<bool>> rises;
         for (unsigned int b = 0; b < now.size(); ++b)
           {

@@ -19,12 +19,7 @@ namespace mortise
     unsigned int
     least_degree(const BodyParameters &body)
     {
-      unsigned int least = body.degree;
-      for (const auto &region : body.degree_by_region)
-        least = std::min(least, region.second);
-      for (const Ball &ball : body.degree_near)
-        least = std::min(least, ball.number);
-      return least;
+      return *given_degrees(body).begin();
     }
 
     /// That of all directions in the mean, from the average that yields most.
@@ -103,6 +98,17 @@ namespace mortise
           "auto, saddle point, direct");
     }
   } // namespace
+
+  std::set<unsigned int>
+  given_degrees(const BodyParameters &body)
+  {
+    std::set<unsigned int> degrees = {body.degree};
+    for (const auto &region : body.degree_by_region)
+      degrees.insert(region.second);
+    for (const Ball &ball : body.degree_near)
+      degrees.insert(ball.number);
+    return degrees;
+  }
 
   bool
   is_mixed(const BodyParameters &body)

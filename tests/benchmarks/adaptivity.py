@@ -4,13 +4,10 @@
 Cycles of scenes with a target: unknowns, estimates beside errors, and seconds of all cycles beside one run with the degrees that the last
 one has at most. Writes doc/adaptivity.md."""
 import argparse
-import json
 import os
 import statistics
-import subprocess
-import tempfile
 
-from processor import openblas
+from contact import run
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SPHERES = ("thick_sphere", ("inner", "outer"))
@@ -23,17 +20,7 @@ SCENES = [("spheres", *SPHERES, 1, 1e-3, []), ("spheres", *SPHERES, 1, 1e-5, [])
           ("Fichera", "fichera", ("lower", "upper"), 1, 1e-3, ["Mesh/Refine near=0, 0, 0, 1e-6, 5"])]
 
 
-def run(mortise, scene, settings):
-    with tempfile.TemporaryDirectory() as work:
-        command = [mortise, "--output", work, os.path.join(TOP, "prm", scene + ".prm"), "--set", "Output/Fields="]
-        for setting in settings:
-            command += ["--set", setting]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, **openblas()})
-        with open(os.path.join(work, "summary.json")) as file:
-            return json.load(file)
-
-
-def seconds(mortise, scene, *settings):
+def seconds(mortise, scene, settings):
     times, summary = [], {}
     for _ in range(3):
         summary = run(mortise, scene, *settings)

@@ -2,8 +2,6 @@
 // or linear, parts in press fits come apart and gaps close at the loads of
 // Lame, a part of a face opens without a trace of pull, and what is lost or
 // cannot be done is said. The same on any number of ranks.
-#include <mortise/base/error.h>
-
 #include "contact_scene.h"
 
 using namespace mortise;
@@ -419,24 +417,6 @@ namespace
           check_bending("hexahedra", slave, p);
         check_bending("tetrahedra", slave, 2);
       }
-  }
-
-  void
-  check_message(const std::string &what,
-                const std::string &text,
-                const Settings    &settings,
-                const std::string &expected)
-  {
-    std::string message;
-    try
-      {
-        run_scene(text, settings);
-      }
-    catch (const InputError &error)
-      {
-        message = error.what();
-      }
-    verdict(what, message.find(expected) == std::string::npos ? 1. : 0., 0.);
   }
 } // namespace
 

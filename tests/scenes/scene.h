@@ -2,6 +2,7 @@
 // numbers.
 #pragma once
 
+#include <mortise/base/error.h>
 #include <mortise/problem/simulation.h>
 
 #include <cmath>
@@ -44,6 +45,25 @@ namespace mortise::testing
     if (warnings)
       *warnings = log.warnings();
     return simulation.result();
+  }
+
+  /// Verdict: is the scene refused with @p expected in the message?
+  inline void
+  check_message(const std::string &what,
+                const std::string &text,
+                const Settings    &settings,
+                const std::string &expected)
+  {
+    std::string message;
+    try
+      {
+        run_scene(text, settings);
+      }
+    catch (const InputError &error)
+      {
+        message = error.what();
+      }
+    verdict(what, message.find(expected) == std::string::npos ? 1. : 0., 0.);
   }
 
   /// Verdicts on the errors of a scene whose exact solution the elements hold.

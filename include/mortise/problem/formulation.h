@@ -4,8 +4,14 @@
 
 #include <mortise/problem/parameters.h>
 
+#include <set>
+
 namespace mortise
 {
+  /// All that the parameters name for cells of @p body.
+  std::set<unsigned int>
+  given_degrees(const BodyParameters &body);
+
   /// Is the body in mixed form? As asked; by itself from nu = 0.49 on, but
   /// below 0.5 only if all its degrees are above one, which the form needs.
   bool
