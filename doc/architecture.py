@@ -9,7 +9,7 @@ import re
 import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
-ROOMS = ["base", "material", "body", "interface", "mortar", "contact", "operators", "solvers", "output", "problem"]
+ROOMS = ["base", "material", "body", "interface", "mortar", "contact", "operators", "solvers", "adapt", "output", "problem"]
 HOLDS = {
     "base": "types, expressions, log, timers, errors",
     "material": "laws at a point, exact solutions",
@@ -19,6 +19,7 @@ HOLDS = {
     "contact": "what presses: active sets",
     "operators": "stiffness without a matrix, its levels, loads",
     "solvers": "linear solvers, preconditioners, Newton",
+    "adapt": "errors of cells, smoothness, cut meshes",
     "output": "errors, fields, summary, checkpoints",
     "problem": "parameters, discretisation, steps, run",
 }

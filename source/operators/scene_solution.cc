@@ -5,11 +5,7 @@ namespace mortise
   using namespace dealii;
 
   std::vector<BodySolution>
-  body_solutions(const Bodies       &bodies,
-                 const SceneFields  &fields,
-                 const BlockSystem  &system,
-                 const SceneLoad    &load,
-                 const SystemVector &solution)
+  zero_solutions(const Bodies &bodies)
   {
     std::vector<BodySolution> result(bodies.size());
     for (const auto &body : bodies)
@@ -23,6 +19,17 @@ namespace mortise
             body->pressure->relevant_dofs,
             comm);
       }
+    return result;
+  }
+
+  std::vector<BodySolution>
+  body_solutions(const Bodies       &bodies,
+                 const SceneFields  &fields,
+                 const BlockSystem  &system,
+                 const SceneLoad    &load,
+                 const SystemVector &solution)
+  {
+    std::vector<BodySolution> result = zero_solutions(bodies);
     const auto set = [](BodyVector                   &vector,
                         const types::global_dof_index dof,
                         const double                  value) {

@@ -6,9 +6,8 @@
 #include <deal.II/numerics/data_out_faces.h>
 #include <deal.II/numerics/data_postprocessor.h>
 
-#include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/legendre_elements.h>
-#include <mortise/output/cell_values.h>
+#include <mortise/operators/cells/cell_values.h>
 #include <mortise/output/fields.h>
 #include <mortise/output/simplex_fields.h>
 #include <mortise/output/vtu_file.h>
@@ -159,13 +158,9 @@ namespace mortise
         const auto own = body.pressure->cell(cell);
         own_dofs.resize(own->get_fe().n_dofs_per_cell());
         own->get_dof_indices(own_dofs);
-        const auto to = cell_dof_indices(p), from = cell_dof_indices(p - 1);
-        for (unsigned int k = 0; k < p; ++k)
-          for (unsigned int j = 0; j < p; ++j)
-            for (unsigned int i = 0; i < p; ++i)
-              set(dim,
-                  to[i + (p + 1) * (j + (p + 1) * k)],
-                  solution.pressure(own_dofs[from[i + p * (j + p * k)]]));
+        const auto modes = nested_modes(cell->reference_cell(), p - 1, p);
+        for (unsigned int i = 0; i < modes.size(); ++i)
+          set(dim, modes[i], solution.pressure(own_dofs[i]));
       }
 
       std::vector<types::global_dof_index> dofs, own_dofs;

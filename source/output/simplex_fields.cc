@@ -1,4 +1,4 @@
-#include <mortise/output/cell_values.h>
+#include <mortise/operators/cells/cell_values.h>
 #include <mortise/output/patches.h>
 #include <mortise/output/simplex_fields.h>
 #include <mortise/output/vtu_file.h>

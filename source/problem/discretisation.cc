@@ -327,13 +327,20 @@ namespace mortise
   }
 
   SystemVector
+  Discretisation::system_vector(const std::vector<BodySolution> &solutions,
+                                const SceneLoad                 &load) const
+  {
+    return mortise::system_vector(spaces.fields,
+                                  system,
+                                  load.prescribed,
+                                  solutions);
+  }
+
+  SystemVector
   Discretisation::system_vector(const Checkpoint &checkpoint,
                                 const SceneLoad  &load) const
   {
-    SystemVector x = mortise::system_vector(spaces.fields,
-                                            system,
-                                            load.prescribed,
-                                            checkpoint.solutions);
+    SystemVector x = system_vector(checkpoint.solutions, load);
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
       set_multiplier(couplings.all()[i],
                      checkpoint.multipliers[i],

@@ -83,10 +83,10 @@ namespace mortise
           "\"mixed\"" + with_nu.str() + ", where no pressure is needed",
           "displacement or auto for a Poisson ratio of 0 or less");
       if (least_degree(body) < 2)
-        parameters.fail(section +
-                          (body.degree < 2            ? "/Degree" :
-                           body.degree_near.empty() ? "/Degree by region" :
-                                                      "/Degree near"),
+        parameters.fail(section + (body.degree < 2 ? "/Degree" :
+                                   body.degree_near.empty() ?
+                                                     "/Degree by region" :
+                                                     "/Degree near"),
                         "degree 1 in mixed form" + with_nu.str(),
                         "degrees from 2 to " + std::to_string(max_degree) +
                           " (the pressure has one less, and is continuous)");

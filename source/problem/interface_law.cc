@@ -51,9 +51,9 @@ namespace mortise
       return TiedDirections::normal;
     if (!interface.tangential_stiffness)
       return TiedDirections::all;
-    const Expression tangential(
-      *interface.tangential_stiffness,
-      parameters.where("Interface " + interface.name + "/Tangential stiffness"));
+    const Expression tangential(*interface.tangential_stiffness,
+                                parameters.where("Interface " + interface.name +
+                                                 "/Tangential stiffness"));
     return tangential.is_constant() && tangential.value(Point<dim>()) == 0. ?
              TiedDirections::normal :
              TiedDirections::all;

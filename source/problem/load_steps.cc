@@ -96,10 +96,8 @@ namespace mortise
     length     = longest;
     // another end may give the planned times other roundings
     const double rounding = 1e-9 * times.back();
-    n_planned =
-      std::upper_bound(times.begin(), times.end(), time + rounding) -
-      times.begin();
-    at_planned =
-      n_planned > 0 && times[n_planned - 1] > time - rounding;
+    n_planned = std::upper_bound(times.begin(), times.end(), time + rounding) -
+                times.begin();
+    at_planned = n_planned > 0 && times[n_planned - 1] > time - rounding;
   }
 } // namespace mortise

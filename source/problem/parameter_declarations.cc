@@ -207,9 +207,10 @@ namespace mortise
       section.add(
         "Strategy",
         adaptivity.strategy,
-        "p: from cycle to cycle the degree rises by one where the error is, on the mesh that is given, from the "
-        "degrees that are given.",
-        Allowed::one_of({"p"}));
+        "From cycle to cycle, from the mesh and the degrees that are given, where the error is: p: the degree rises by one; "
+        "h: cells are cut into eight; hp: what makes the error smaller there, by how Legendre coefficients fall. "
+        "Tetrahedra are not cut: their degree rises.",
+        Allowed::one_of({"h", "p", "hp"}));
       section.add(
         "Largest number of unknowns",
         adaptivity.most_unknowns,

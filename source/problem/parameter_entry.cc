@@ -177,14 +177,13 @@ namespace mortise
                         const Allowed     &allowed,
                         std::function<void(const ParameterValue &)> set) const
   {
-    entries.push_back(
-      {path,
-       name,
-       default_value,
-       meaning,
-       allowed,
-       std::move(set),
-       default_value,
-       path_of(path, name)});
+    entries.push_back({path,
+                       name,
+                       default_value,
+                       meaning,
+                       allowed,
+                       std::move(set),
+                       default_value,
+                       path_of(path, name)});
   }
 } // namespace mortise

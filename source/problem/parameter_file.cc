@@ -65,7 +65,7 @@ namespace mortise
   {
     const std::string what =
       "parameter file " + file_in_quotes(file) + from + ": ";
-    std::error_code   ignored;
+    std::error_code ignored;
     if (std::filesystem::is_directory(file, ignored))
       throw InputError(what +
                        "this is a directory; the name of a file is needed");

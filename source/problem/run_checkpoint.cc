@@ -44,8 +44,7 @@ namespace mortise
                                 std::numeric_limits<double>::infinity() :
                                 json.at("longest_step").get<double>();
     checkpoint.n_steps      = json.at("n_steps").get<unsigned int>();
-    checkpoint.steps =
-      steps_from_json(json.at("steps").get<std::string>());
+    checkpoint.steps = steps_from_json(json.at("steps").get<std::string>());
     checkpoint.files =
       json.at("files").get<std::vector<std::pair<unsigned int, double>>>();
     return checkpoint;

@@ -79,12 +79,13 @@ namespace mortise
     coupling.is_spring  = given.law == "spring";
     coupling.is_contact = given.law == "contact";
     coupling.directions = tied_directions(run.parameters, given);
-    coupling.interface  = std::make_unique<InterfaceHandler>(
-      name,
-      surface(given.slave, slave),
-      surface(given.master, faces_of(given, given.master)),
-      options,
-      run.comm);
+    coupling.interface =
+      std::make_unique<InterfaceHandler>(name,
+                                         surface(given.slave, slave),
+                                         surface(given.master,
+                                                 faces_of(given, given.master)),
+                                         options,
+                                         run.comm);
     return coupling;
   }
 
@@ -121,11 +122,11 @@ namespace mortise
         for (unsigned int k = 0; k < patches.size(); ++k)
           {
             interfaces.push_back(given);
-            couplings.push_back(
-              make_coupling(given,
-                            patches.size() > 1 ? patch_name(given, k) :
-                                                 given.name,
-                            patches[k]));
+            couplings.push_back(make_coupling(given,
+                                              patches.size() > 1 ?
+                                                patch_name(given, k) :
+                                                given.name,
+                                              patches[k]));
             faces += Utilities::MPI::sum(
               couplings.back().interface->slave().faces.size(), run.comm);
           }

@@ -99,18 +99,19 @@ namespace mortise
         }
       for (const InterfaceParameters &interface : parameters.interfaces)
         {
-          LameSolution::Layer &a = layers[interface.slave.body],
-                              &b = layers[interface.master.body];
+          LameSolution::Layer &a     = layers[interface.slave.body],
+                              &b     = layers[interface.master.body];
           LameSolution::Layer &outer = a.inner_radius < b.inner_radius ? b : a;
-          outer.offset_inside =
-            constant_along(parameters, time, interface, "Offset", interface.offset);
+          outer.offset_inside        = constant_along(
+            parameters, time, interface, "Offset", interface.offset);
           outer.contact_inside = interface.law == "contact";
           if (interface.normal_stiffness)
-            outer.compliance_inside = 1. / constant_along(parameters,
-                                                          time,
-                                                          interface,
-                                                          "Normal stiffness",
-                                                          *interface.normal_stiffness);
+            outer.compliance_inside =
+              1. / constant_along(parameters,
+                                  time,
+                                  interface,
+                                  "Normal stiffness",
+                                  *interface.normal_stiffness);
         }
       return std::make_shared<LameSolution>(
         geometry,
@@ -288,10 +289,9 @@ namespace mortise
     Loads                 loads;
     if (given.body_force)
       {
-        const auto field =
-          components(*given.body_force,
-                     parameters.where(path + "/Body force"),
-                     time);
+        const auto field = components(*given.body_force,
+                                      parameters.where(path + "/Body force"),
+                                      time);
         if (!all_zero(field))
           loads.body_force = [=, &watch](const Point<dim> &x) {
             return evaluate(field, x, watch, [&](const Point<dim> &p) {
@@ -311,15 +311,14 @@ namespace mortise
         const auto id = body.boundary_id(entry.first, parameters.where(where));
         if (boundary.traction)
           {
-            const auto field =
-              components(*boundary.traction,
-                         parameters.where(where + "/Traction"),
-                         time);
+            const auto field = components(*boundary.traction,
+                                          parameters.where(where + "/Traction"),
+                                          time);
             if (!all_zero(field))
               loads.tractions.push_back(
                 {id,
                  [=, &watch](const Point<dim>     &x,
-                              const Tensor<1, dim> &normal) {
+                             const Tensor<1, dim> &normal) {
                    return evaluate(field, x, watch, [&](const Point<dim> &p) {
                      return exact->stress(p, b) * normal;
                    });
@@ -366,7 +365,7 @@ namespace mortise
   {
     FieldChecks                    &watch = checks;
     const auto                      exact = solution;
-    const unsigned int              b = body.index;
+    const unsigned int              b     = body.index;
     std::vector<DirichletCondition> conditions;
     for (const auto &entry : parameters.bodies[b].boundaries)
       if (entry.second.displacement)

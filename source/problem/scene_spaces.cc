@@ -52,7 +52,9 @@ namespace mortise
         const BodyParameters &body = parameters.bodies[b];
         bodies.push_back(
           std::make_unique<Body>(body.name, b, materials(parameters)[b]));
-        bodies[b]->create_mesh(body.mesh,
+        MeshParameters mesh   = body.mesh;
+        mesh.is_refined_later = parameters.adaptivity.splits();
+        bodies[b]->create_mesh(mesh,
                                run.comm,
                                "Body " + body.name + ", Mesh",
                                tied_boundaries[b]);

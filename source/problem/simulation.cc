@@ -62,6 +62,8 @@ namespace mortise
     contact.reset();
     solver.reset();
     discretisation.reset();
+    if (adaptivity)
+      adaptivity->refine(bodies);
     discretisation =
       std::make_unique<Discretisation>(context,
                                        data,
@@ -116,8 +118,17 @@ namespace mortise
   Simulation::solve(const SceneLoad &load)
   {
     SystemVector solution;
-    report = contact ? contact->solve(load, solution) :
-                       solver->solve(load.rhs, solution);
+    const auto   start =
+      adaptivity ? adaptivity->start(bodies) : std::vector<BodySolution>();
+    if (contact)
+      report = contact->solve(load, solution);
+    else if (start.empty())
+      report = solver->solve(load.rhs, solution);
+    else
+      {
+        solution = discretisation->system_vector(start, load);
+        report   = solver->solve_from(load.rhs, solution);
+      }
     if (!discretisation->choice().reason.empty())
       report.preconditioner += "; " + discretisation->choice().reason;
     if (!std::isfinite(report.relative_residual))

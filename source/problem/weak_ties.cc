@@ -34,7 +34,9 @@ namespace mortise
 
     /// The smallest x A x / x B x over all x with x B x > 0.
     double
-    smallest_ratio(const RigidMatrix &A, const RigidMatrix &B, const double zero)
+    smallest_ratio(const RigidMatrix &A,
+                   const RigidMatrix &B,
+                   const double       zero)
     {
       const unsigned int n     = A.m();
       const Spectrum     all   = spectrum(B);

@@ -3,8 +3,6 @@
 // tetrahedra, with and without a pressure, beside a corner and on part of the
 // cells alone; and that what limits it is told. The same on any number of
 // ranks.
-#include <mortise/problem/adaptivity.h>
-
 #include "scene.h"
 #include "scenes.h"
 
@@ -38,35 +36,12 @@ namespace
       }
     verdict(what + ": error", *steps.back().errors->energy, error);
   }
-
-  /// Changes 1 / p^6, and those of a series: sums that are known.
-  void
-  check_tails()
-  {
-    for (const unsigned int p : {3, 5, 8})
-      {
-        double exact = 0.;
-        for (unsigned int q = p + 1; q < 100000; ++q)
-          exact += std::pow(q, -6.);
-        const double last = std::pow(p, -6.), before = std::pow(p - 1., -6.);
-        verdict("tail of powers from " + std::to_string(p),
-                std::fabs(tail_of_changes(p, last, before) * last / exact - 1.),
-                1e-2);
-      }
-    // squares of errors 0.01^p: those of changes are the differences
-    const double change = 0.01 - 0.0001;
-    verdict("tail of a series",
-            std::fabs(tail_of_first_change(2, change, 1.) * change / 0.0001 -
-                      1.),
-            0.03);
-  }
 } // namespace
 
 int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  check_tails();
   const Settings shells = {"Body inner/Mesh/Subdivisions=3, 1",
                            "Body outer/Mesh/Subdivisions=4, 2"};
   check("spheres", two_layers(true), 1e-4, shells);

@@ -19,7 +19,12 @@ namespace mortise
     BodyVector pressure; ///< in mixed form, else empty
   };
 
-  /// The solution by body: constraints distributed, what is prescribed added. Collective.
+  /// Zero on all @p bodies, with room for their spaces.
+  std::vector<BodySolution>
+  zero_solutions(const Bodies &bodies);
+
+  /// The solution by body: constraints distributed, what is prescribed added.
+  /// Collective.
   std::vector<BodySolution>
   body_solutions(const Bodies       &bodies,
                  const SceneFields  &fields,

@@ -1,14 +1,14 @@
-// How accurate a solution is, and which degrees to take next: from how much it
-// has changed, cell by cell, when degrees rose. Source: Szabo and Babuska,
-// Finite Element Analysis (1991), chapter 4, for whole meshes.
+// How accurate a solution is, and which meshes and degrees to take next: from
+// how much it has changed, cell by cell, when they were refined.
 #pragma once
 
-#include <mortise/output/solution_change.h>
+#include <mortise/adapt/cell_states.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/scene_spaces.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace mortise
 {
@@ -20,23 +20,25 @@ namespace mortise
   Parameters
   with_tolerance(Parameters parameters);
 
-  /// What is left of the square of the error on a cell of degree @p p when the first rise of the
-  /// degree, to p, changed a solution of the square @p energy by the square @p change, as a multiple of it: errors are taken
-  /// to fall by the same factor from degree to degree.
-  double
-  tail_of_first_change(unsigned int p, double change, double energy);
-
-  /// Likewise, of a later rise, @p before that of the rise before it: changes are taken to go on as a
-  /// power of the degree, at least as its square, which they do beside edges
-  /// and corners.
-  double
-  tail_of_changes(unsigned int p, double last, double before);
-
   class Adaptivity
   {
   public:
     /// @p run must live on; it has a target.
     explicit Adaptivity(const RunContext &run);
+
+    /// Cut the meshes of @p bodies, which lose their spaces, as chosen
+    /// by the last add(), if there was one. Collective.
+    void
+    refine(Bodies &bodies);
+
+    /// Of the next cycle; empty for the first one.
+    CellDegrees
+    degrees() const;
+
+    /// The solution of the cycle before in the spaces that @p bodies have now; empty in
+    /// the first cycle. Collective.
+    const std::vector<BodySolution> &
+    start(const Bodies &bodies);
 
     /// The next cycle has been solved on @p bodies, which still have its spaces. Collective.
     void
@@ -68,30 +70,43 @@ namespace mortise
     std::string
     missed() const;
 
-    /// Of the next cycle; empty for the first one.
-    const CellDegrees &
-    degrees() const
-    {
-      return next;
-    }
-
   private:
-    /// The next degrees from those of @p now; @p allowed: energy norm of the error.
-    void
-    choose(const Bodies &bodies, const CellDegrees &now, double allowed);
-    /// One more where the square of the error is above @p least, up to the
-    /// largest degree, and on cells around with less.
-    CellDegrees
-    risen(const Bodies &bodies, const CellDegrees &now, double least) const;
+    /// What to do with a cell if anything.
+    enum class Choice
+    {
+      keep,
+      rise,
+      split
+    };
+    using Choices = std::vector<std::vector<Choice>>;
 
-    const RunContext &run;
-    unsigned int      cycle = 0;
-    CellDegrees       next;
-    CellNumbers
-      changes; ///< squares, by the last rise; first those of the solution
-    CellNumbers                    errors; ///< squares of estimates
-    std::optional<SampledSolution> sample;
-    std::optional<double>          estimated;
-    std::string                    stopped_by;
+    /// Histories from the change that the refinement before this cycle made;
+    /// its square over all cells. Collective.
+    double
+    learn(const Bodies &bodies, const std::vector<BodySolution> &solutions);
+    /// The next degrees and splits; @p allowed: square of the error. Collective.
+    void
+    choose(const Bodies &bodies, double allowed);
+    Choice
+    best_choice(const Body &body, const CellState &state) const;
+    /// The square above which errors of cells call for @p best to be done: of all that can be
+    /// done as little as leaves @p allowed.
+    double
+    threshold(const Bodies &bodies, const Choices &best, double allowed) const;
+    /// Where cells rise, those around with less rise by one.
+    void
+    raise_around(const Bodies &bodies, Choices &choices) const;
+    /// Unknowns of the next cycle, about. Collective.
+    double
+    n_unknowns(const Bodies &bodies, const Choices &choices) const;
+
+    const RunContext              &run;
+    unsigned int                   cycle = 0;
+    CellStates                     states;
+    std::vector<std::vector<bool>> splits;
+    std::vector<BodySolution>      earlier;
+    double                squared_error = 0.; ///< of all cells, not calibrated
+    std::optional<double> estimated;
+    std::string           stopped_by;
   };
 } // namespace mortise

@@ -73,6 +73,11 @@ namespace mortise
     trace_displacement(const SceneLoad                 &load,
                        const std::vector<BodySolution> &solutions) const;
 
+    /// @p solutions, by body, as unknowns of the time of @p load, multipliers zero. Collective.
+    SystemVector
+    system_vector(const std::vector<BodySolution> &solutions,
+                  const SceneLoad                 &load) const;
+
     /// The unknowns in a checkpoint of the time of @p load. Collective.
     SystemVector
     system_vector(const Checkpoint &checkpoint, const SceneLoad &load) const;

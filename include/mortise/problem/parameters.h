@@ -112,13 +112,20 @@ namespace mortise
     bool         print_iterations = false;
   };
 
-  /// Degrees that follow from the error that is asked for.
+  /// Meshes and degrees that follow from the error that is asked for.
   struct AdaptivityParameters
   {
     std::optional<double> target_error; ///< relative, in energy; absent: none
-    std::string           strategy       = "p";
+    std::string           strategy       = "hp";
     double                most_unknowns  = 2e6;
     unsigned int          largest_degree = max_degree;
+
+    /// Are cells of hexahedra cut?
+    bool
+    splits() const
+    {
+      return target_error && strategy != "p";
+    }
   };
 
   /// The displacement at a point of a body, reported in the summary.

@@ -85,4 +85,38 @@ namespace mortise
         cell->set_active_fe_index(simplices.index(cell, degree_of(cell)));
     dof_handler.distribute_dofs(fe);
   }
+
+  std::vector<unsigned int>
+  nested_modes(const ReferenceCell &cell,
+               const unsigned int   lower,
+               const unsigned int   higher)
+  {
+    std::vector<unsigned int> result;
+    if (cell == ReferenceCells::Hexahedron)
+      {
+        const auto to        = cell_dof_indices(higher),
+                   from      = cell_dof_indices(lower);
+        const unsigned int n = lower + 1, m = higher + 1;
+        result.resize(from.size());
+        for (unsigned int k = 0; k < n; ++k)
+          for (unsigned int j = 0; j < n; ++j)
+            for (unsigned int i = 0; i < n; ++i)
+              result[from[i + n * (j + n * k)]] = to[i + m * (j + m * k)];
+        return result;
+      }
+    // the first ones of each vertex, line, face and of the inside
+    unsigned int start    = 0;
+    const auto   entities = [&](const unsigned int n_entities,
+                              const unsigned int n_lower,
+                              const unsigned int n_higher) {
+      for (unsigned int e = 0; e < n_entities; ++e, start += n_higher)
+        for (unsigned int i = 0; i < n_lower; ++i)
+          result.push_back(start + i);
+    };
+    entities(4, 1, 1);
+    entities(6, n_line_modes(lower), n_line_modes(higher));
+    entities(4, n_face_modes(lower), n_face_modes(higher));
+    entities(1, n_interior_modes(lower), n_interior_modes(higher));
+    return result;
+  }
 } // namespace mortise

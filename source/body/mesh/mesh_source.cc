@@ -187,7 +187,8 @@ namespace mortise
       create_coarse_triangulation(mesh, *triangulation);
       const auto balls = refinement_balls(parameters, where);
       if (!mesh.shapes.empty() &&
-          (parameters.refinements > 0 || !balls.empty()))
+          (parameters.refinements > 0 || !balls.empty() ||
+           parameters.is_refined_later))
         blend_into_cells(*triangulation);
       triangulation->refine_global(parameters.refinements);
       if (mesh.geometry != nullptr)

@@ -4,11 +4,14 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
+#include <deal.II/grid/reference_cell.h>
+
 #include <deal.II/hp/fe_collection.h>
 
 #include <functional>
 #include <memory>
 #include <set>
+#include <vector>
 
 namespace mortise
 {
@@ -35,4 +38,12 @@ namespace mortise
     unsigned int                                             n_components,
     dealii::hp::FECollection<3>                             &fe,
     dealii::DoFHandler<3>                                   &dof_handler);
+
+  /// Where the modes of the scalar element of degree @p lower stand among those of degree @p higher, on a
+  /// hexahedron, or a tetrahedron of one order of vertices: the former are
+  /// modes of the latter.
+  std::vector<unsigned int>
+  nested_modes(const dealii::ReferenceCell &cell,
+               unsigned int                 lower,
+               unsigned int                 higher);
 } // namespace mortise

@@ -47,6 +47,7 @@ namespace mortise
     std::vector<unsigned int> subdivisions;
     unsigned int              refinements = 0;
     std::string               refine_near;
+    bool is_refined_later = false; ///< cells of hexahedra may be cut, any time
 
     /// Of Source = file; see curved_boundaries.h for "Curved boundaries".
     std::string           file;

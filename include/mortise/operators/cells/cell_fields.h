@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mortise/operators/cells/cell_geometry.h>
-#include <mortise/output/cell_values.h>
+#include <mortise/operators/cells/cell_values.h>
 
 #include <functional>
 #include <map>

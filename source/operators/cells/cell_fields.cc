@@ -1,6 +1,6 @@
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/operators/cells/lobatto_table.h>
-#include <mortise/output/cell_fields.h>
+#include <mortise/operators/cells/cell_fields.h>
 
 namespace mortise
 {

@@ -1,0 +1,87 @@
+// What each cell of a scene carries from one mesh to the next: its degree, how
+// its solution changed, and the solution itself as a polynomial, which spaces
+// that contain the old ones keep to the last digit.
+#pragma once
+
+#include <mortise/operators/scene_solution.h>
+
+#include <vector>
+
+namespace mortise
+{
+  struct CellHistory
+  {
+    unsigned int degree = 0;
+    /// Squares of the energy norm: by how much its last refinement changed the
+    /// solution, first that of the solution itself; what is estimated to be
+    /// left of the error, and by which factor another such refinement makes it
+    /// smaller.
+    double change = 0., error = 0., ratio = 1.;
+    /// The change of the last rise of the degree by that of the rise before it, of cells that have
+    /// not been split since; before the first rise one.
+    double fall = 1.;
+    /// Rises of the degree that stand behind one another; of a cell that has
+    /// been split none.
+    unsigned int n_rises    = 0;
+    bool         is_refined = false; ///< by the last refinement
+    bool         is_split   = false; ///< likewise, and has siblings
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &degree &change &error &ratio &fall &n_rises &is_refined &is_split;
+    }
+  };
+
+  struct CellState
+  {
+    CellHistory history;
+    /// Of the displacement, component by component, and of the pressure in
+    /// mixed form, in the order of the scalar elements of the degree that the
+    /// cell had when they were taken.
+    std::vector<std::vector<double>> coefficients;
+
+    /// That degree.
+    unsigned int degree = 0;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &history &coefficients &degree;
+    }
+  };
+
+  /// By body and active cell of its mesh; empty states where a cell is not
+  /// owned.
+  using CellStates = std::vector<std::vector<CellState>>;
+
+  /// Take the coefficients of @p solutions into @p states, which become as many as there
+  /// are cells.
+  void
+  set_coefficients(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &solutions,
+                   CellStates                      &states);
+
+  /// The fields with the coefficients of @p states in the spaces that @p bodies have now, of the same or
+  /// higher degrees. Collective.
+  std::vector<BodySolution>
+  embedded(const Bodies &bodies, const CellStates &states);
+
+  /// Squares of the energy norm (SolutionErrors::energy) of @p solutions by body and active cell, zero
+  /// where a cell is not owned.
+  std::vector<std::vector<double>>
+  energy_by_cell(const Bodies                    &bodies,
+                 const std::vector<BodySolution> &solutions);
+
+  /// Cut owned cells of @p body, hexahedra, into eight where @p split, by active cell; others
+  /// are cut with them so that neighbours differ by one halving. Cells go to
+  /// the ranks such that
+  /// all have about as much work with the degrees of @p states, which become those of the new mesh. Spaces
+  /// are lost. Collective.
+  void
+  split_cells(Body                    &body,
+              const std::vector<bool> &split,
+              std::vector<CellState>  &states);
+} // namespace mortise

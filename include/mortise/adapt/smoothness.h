@@ -1,0 +1,28 @@
+// How fast the Legendre coefficients of a solution fall on a cell, which tells
+// whether a higher degree or smaller cells make the error smaller. Sources:
+// Mavriplis (1994); Eibner and Melenk, An adaptive strategy for hp-FEM based on
+// testing for analyticity (2007).
+#pragma once
+
+#include <vector>
+
+namespace mortise
+{
+  /// Of lower degrees there are too few coefficients.
+  constexpr unsigned int least_degree_of_decay = 3;
+
+  /// The largest factor by which the Legendre coefficients of the derivatives
+  /// of a polynomial on a hexahedron fall from one degree to the next, over the
+  /// directions that have a part in those of the highest degree. Constants do
+  /// not count, nor the higher half of degrees above four, which are not
+  /// accurate where neighbours have lower degrees.
+  /// @p coefficients: by component, of FE_Legendre of @p degree, at least least_degree_of_decay.
+  double
+  legendre_decay(unsigned int                            degree,
+                 const std::vector<std::vector<double>> &coefficients);
+
+  /// May a cell with this legendre_decay() be taken as far from where a
+  /// solution is not smooth?
+  bool
+  is_smooth(double decay);
+} // namespace mortise

@@ -1,0 +1,219 @@
+#include <deal.II/base/utilities.h>
+
+#include <boost/serialization/vector.hpp>
+
+#include <mortise/adapt/cell_states.h>
+#include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/legendre_elements.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/operators/cells/cell_fields.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::vector<double>
+    scalar_coefficients(const Body::CellIterator &cell,
+                        const BodyVector         &vector)
+    {
+      std::vector<types::global_dof_index> dofs(
+        cell->get_fe().n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      std::vector<double> result;
+      for (const auto dof : dofs)
+        result.push_back(vector(dof));
+      return result;
+    }
+
+    /// Set component @p c of @p vector on @p cell to the function of a lower @p degree.
+    void
+    embed(const Body::CellIterator  &cell,
+          const unsigned int         c,
+          const unsigned int         degree,
+          const std::vector<double> &coefficients,
+          BodyVector                &vector)
+    {
+      const auto                          &fe = cell->get_fe();
+      std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
+      cell->get_dof_indices(dofs);
+      const auto modes =
+        nested_modes(cell->reference_cell(), degree, fe.degree);
+      for (unsigned int i = 0; i < modes.size(); ++i)
+        {
+          const auto dof = dofs[fe.component_to_system_index(c, modes[i])];
+          if (vector.in_local_range(dof))
+            vector(dof) = coefficients[i];
+        }
+    }
+
+    /// Of a cell of @p degree, about, in any unit.
+    unsigned int
+    work(const unsigned int degree)
+    {
+      return std::pow(degree + 1, 3);
+    }
+  } // namespace
+
+  void
+  set_coefficients(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &solutions,
+                   CellStates                      &states)
+  {
+    states.resize(bodies.size());
+    for (const auto &body : bodies)
+      {
+        auto &of_body = states[body->index];
+        of_body.resize(body->triangulation().n_active_cells());
+        const BodySolution &solution = solutions[body->index];
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              CellState &state = of_body[cell->active_cell_index()];
+              state.degree     = body->degree(cell);
+              const auto u     = cell_coefficients(cell, solution.displacement);
+              state.coefficients.assign(u.begin(), u.end());
+              if (body->pressure)
+                state.coefficients.push_back(
+                  scalar_coefficients(body->pressure->cell(cell),
+                                      solution.pressure));
+            }
+      }
+  }
+
+  std::vector<BodySolution>
+  embedded(const Bodies &bodies, const CellStates &states)
+  {
+    std::vector<BodySolution> result = zero_solutions(bodies);
+    for (const auto &body : bodies)
+      {
+        BodySolution &solution = result[body->index];
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              const CellState &state =
+                states[body->index][cell->active_cell_index()];
+              for (unsigned int c = 0; c < dim; ++c)
+                embed(cell,
+                      c,
+                      state.degree,
+                      state.coefficients[c],
+                      solution.displacement);
+              if (body->pressure)
+                embed(body->pressure->cell(cell),
+                      0,
+                      state.degree - 1,
+                      state.coefficients[dim],
+                      solution.pressure);
+            }
+        solution.displacement.update_ghost_values();
+        if (body->pressure)
+          solution.pressure.update_ghost_values();
+      }
+    return result;
+  }
+
+  std::vector<std::vector<double>>
+  energy_by_cell(const Bodies                    &bodies,
+                 const std::vector<BodySolution> &solutions)
+  {
+    std::vector<std::vector<double>> result;
+    for (const auto &body : bodies)
+      {
+        auto &of_body =
+          result.emplace_back(body->triangulation().n_active_cells(), 0.);
+        CellFields fields(*body, [](const FiniteElement<dim> &element) {
+          return gauss_quadrature<dim>(element, element.degree + 1);
+        });
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              fields.reinit(cell, solutions[body->index]);
+              for (unsigned int q = 0; q < fields.weights.size(); ++q)
+                of_body[cell->active_cell_index()] +=
+                  fields.weights[q] *
+                  body->material.twice_energy(fields.gradients[q],
+                                              fields.pressures.empty() ?
+                                                0. :
+                                                fields.pressures[q]);
+            }
+      }
+    return result;
+  }
+
+  namespace
+  {
+    /// What child @p child of a cell with @p state starts with.
+    CellState
+    state_of_child(const CellState &state, const unsigned int child)
+    {
+      CellState result          = state;
+      result.history.is_refined = true;
+      result.history.is_split   = true;
+      result.history.n_rises    = 0;
+      result.history.fall       = 1.;
+      result.history.error /= GeometryInfo<dim>::max_children_per_cell;
+      for (unsigned int c = 0; c < result.coefficients.size(); ++c)
+        {
+          const auto       &given = state.coefficients[c];
+          const FE_Legendre element(c < dim ? state.degree : state.degree - 1);
+          const dealii::Vector<double> from(given.begin(), given.end());
+          dealii::Vector<double>       to(from.size());
+          element.get_prolongation_matrix(child).vmult(to, from);
+          result.coefficients[c].assign(to.begin(), to.end());
+        }
+      return result;
+    }
+  } // namespace
+
+  void
+  split_cells(Body                    &body,
+              const std::vector<bool> &split,
+              std::vector<CellState>  &states)
+  {
+    auto &triangulation =
+      dynamic_cast<HexTriangulation &>(*body.mesh.triangulation);
+    body.pressure.reset();
+    body.dof_handler.clear();
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->is_locally_owned() && split[cell->active_cell_index()])
+        cell->set_refine_flag();
+    triangulation.prepare_coarsening_and_refinement();
+
+    using Cell   = HexTriangulation::cell_iterator;
+    using Status = HexTriangulation::CellStatus;
+    const auto balance =
+      triangulation.signals.weight.connect([&](const Cell &cell, Status) {
+        return work(states[cell->active_cell_index()].history.degree);
+      });
+    const unsigned int handle = triangulation.register_data_attach(
+      [&](const Cell &cell, Status) {
+        return Utilities::pack(states[cell->active_cell_index()], false);
+      },
+      true);
+    triangulation.execute_coarsening_and_refinement();
+    balance.disconnect();
+    if (body.mesh.geometry != nullptr)
+      body.mesh.geometry->place_vertices(triangulation);
+
+    states.clear();
+    states.resize(triangulation.n_active_cells());
+    triangulation.notify_ready_to_unpack(
+      handle, [&](const Cell &cell, const Status status, const auto &data) {
+        CellState state =
+          Utilities::unpack<CellState>(data.begin(), data.end(), false);
+        if (status != HexTriangulation::CELL_REFINE)
+          states[cell->active_cell_index()] = std::move(state);
+        else
+          for (unsigned int c = 0; c < cell->n_children(); ++c)
+            states[cell->child(c)->active_cell_index()] =
+              state_of_child(state, c);
+      });
+    body.dof_handler.reinit(triangulation);
+  }
+} // namespace mortise

@@ -1,0 +1,188 @@
+// Proves that solutions keep every digit when cells are cut and degrees rise:
+// energy, moments and the conditions of hanging nodes, on hexahedra and, for
+// degrees, tetrahedra, with and without a pressure; that histories follow their
+// cells; and that no rank is left without cells.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/adapt/cell_states.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+#include <mortise/operators/cells/cell_fields.h>
+
+#include <cmath>
+
+#include "../verdict.h"
+
+using namespace mortise;
+using namespace dealii;
+
+namespace
+{
+  std::unique_ptr<Body>
+  make_body(const std::string &cells, const bool mixed)
+  {
+    auto body =
+      std::make_unique<Body>("body",
+                             0,
+                             LinearElastic{1., mixed ? 0.5 : 0.3, mixed});
+    MeshParameters mesh;
+    mesh.source       = "box";
+    mesh.cells        = cells;
+    mesh.extent       = {0., 0., 0., 1., 2., 1.};
+    mesh.subdivisions = {2, 2, 1};
+    if (cells == "hexahedra")
+      mesh.refine_near = "0, 0, 0, 0.2, 1";
+    body->create_mesh(mesh, MPI_COMM_WORLD, "");
+    body->create_space(mixed ? 3 : 2, {{0, 4}}, "");
+    return body;
+  }
+
+  /// Any numbers that do not depend on the ranks, made conforming.
+  void
+  fill(const DoFHandler<dim>           &dof_handler,
+       const AffineConstraints<double> &conformity,
+       BodyVector                      &vector)
+  {
+    for (const auto dof : dof_handler.locally_owned_dofs())
+      vector(dof) = 0.;
+    std::vector<types::global_dof_index> dofs;
+    for (const auto &cell : dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          dofs.resize(cell->get_fe().n_dofs_per_cell());
+          cell->get_dof_indices(dofs);
+          for (unsigned int i = 0; i < dofs.size(); ++i)
+            if (vector.in_local_range(dofs[i]))
+              vector(dofs[i]) = std::sin(17. * i + 31. * cell->center()[0] +
+                                         7. * cell->center()[1]);
+        }
+    AffineConstraints<double> closed;
+    closed.copy_from(conformity);
+    closed.close();
+    vector.update_ghost_values();
+    closed.distribute(vector);
+    vector.update_ghost_values();
+  }
+
+  double
+  violation(const AffineConstraints<double> &conformity,
+            const BodyVector                &vector)
+  {
+    AffineConstraints<double> closed;
+    closed.copy_from(conformity);
+    closed.close();
+    BodyVector distributed = vector;
+    closed.distribute(distributed);
+    distributed -= vector;
+    return distributed.linfty_norm();
+  }
+
+  /// Energy, and integrals of displacement and pressure with a weight.
+  std::vector<double>
+  integrals(const Bodies &bodies, const std::vector<BodySolution> &solutions)
+  {
+    const Body         &body = *bodies.front();
+    std::vector<double> result(3, 0.);
+    const auto          energies = energy_by_cell(bodies, solutions);
+    for (const double energy : energies.front())
+      result[0] += energy;
+    CellFields fields(body, [](const FiniteElement<dim> &element) {
+      return gauss_quadrature<dim>(element, element.degree + 3);
+    });
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          fields.reinit(cell, solutions.front());
+          for (unsigned int q = 0; q < fields.weights.size(); ++q)
+            {
+              const auto  &x = fields.points[q];
+              const double w = fields.weights[q] * x[0] * (1. + x[1] * x[2]);
+              result[1] += w * (fields.values[q] * Tensor<1, dim>(x));
+              if (body.pressure)
+                result[2] += w * fields.pressures[q];
+            }
+        }
+    for (double &value : result)
+      value = Utilities::MPI::sum(value, MPI_COMM_WORLD);
+    return result;
+  }
+
+  void
+  check(const std::string &cells, const bool mixed)
+  {
+    const std::string what = cells + (mixed ? ", mixed" : "");
+    Bodies            bodies;
+    bodies.push_back(make_body(cells, mixed));
+    Body &body     = *bodies.front();
+    auto  solution = zero_solutions(bodies);
+    fill(body.dof_handler, body.conformity, solution[0].displacement);
+    if (mixed)
+      fill(body.pressure->dof_handler,
+           body.pressure->conformity,
+           solution[0].pressure);
+    const auto before = integrals(bodies, solution);
+    CellStates states;
+    set_coefficients(bodies, solution, states);
+    std::vector<bool> split;
+    double            error = 0.;
+    for (const auto &cell : body.triangulation().active_cell_iterators())
+      {
+        split.push_back(cell->is_locally_owned() && cell->center()[0] < 0.5 &&
+                        cell->center()[1] < 0.5 && cell->center()[2] < 0.6);
+        if (cell->is_locally_owned())
+          {
+            CellHistory &history = states[0][cell->active_cell_index()].history;
+            history.degree       = states[0][cell->active_cell_index()].degree +
+                             (cell->center()[1] > 0.3 ? 1 : 0);
+            history.error = cell->measure();
+            error += history.error;
+          }
+      }
+    if (cells == "hexahedra")
+      {
+        const auto n = body.triangulation().n_global_active_cells();
+        split_cells(body, split, states[0]);
+        verdict(what + ": cells without new ones",
+                double(n) - body.triangulation().n_global_active_cells() + 1.,
+                0.);
+      }
+    std::vector<unsigned int> degrees;
+    double                    carried = 0.;
+    for (const CellState &state : states[0])
+      {
+        degrees.push_back(state.history.degree);
+        carried += state.history.error;
+      }
+    verdict(what + ": ranks without cells",
+            Utilities::MPI::max(carried > 0. ? 0. : 1., MPI_COMM_WORLD),
+            0.);
+    verdict(what + ": history",
+            std::fabs(Utilities::MPI::sum(carried - error, MPI_COMM_WORLD)),
+            1e-14);
+    body.create_space(degrees);
+    const auto after = embedded(bodies, states);
+    verdict(what + ": hanging nodes and mixed degrees",
+            violation(body.conformity, after[0].displacement),
+            1e-13);
+    if (mixed)
+      verdict(what + ": of the pressure",
+              violation(body.pressure->conformity, after[0].pressure),
+              1e-13);
+    const auto then = integrals(bodies, after);
+    for (unsigned int i = 0; i < (mixed ? 3 : 2); ++i)
+      verdict(what + ": integral " + std::to_string(i),
+              std::fabs(then[i] / before[i] - 1.),
+              1e-11);
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  MPI_Comm_rank(MPI_COMM_WORLD, &argc);
+  if (argc != 0)
+    std::cout.setstate(std::ios::failbit);
+  for (const bool mixed : {false, true})
+    for (const std::string cells : {"hexahedra", "tetrahedra"})
+      check(cells, mixed);
+}
