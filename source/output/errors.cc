@@ -2,8 +2,8 @@
 
 #include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/simplex_quadrature.h>
-#include <mortise/operators/cells/face_values.h>
 #include <mortise/operators/cells/cell_fields.h>
+#include <mortise/operators/cells/face_values.h>
 #include <mortise/output/errors.h>
 
 #include <cmath>

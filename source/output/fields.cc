@@ -276,13 +276,14 @@ namespace mortise
   } // namespace
 
   void
-  write_body_fields(const Body           &body,
-                    const BodySolution   &solution,
-                    const FieldSelection &selection,
-                    const std::string    &file)
+  write_body_fields(const Body                   &body,
+                    const BodySolution           &solution,
+                    const FieldSelection         &selection,
+                    const std::vector<CellField> &of_cells,
+                    const std::string            &file)
   {
     if (body.mesh.tetrahedra)
-      return write_tetrahedra(body, solution, selection, file);
+      return write_tetrahedra(body, solution, selection, of_cells, file);
     const unsigned int          degree = body.max_degree();
     const StressPostprocessor   stress(body.material, selection);
     std::unique_ptr<MixedField> mixed;
@@ -303,6 +304,15 @@ namespace mortise
           }
         else
           output.add_data_vector(solution.displacement, stress);
+      }
+    std::vector<dealii::Vector<float>> numbers; // which the output refers to
+    numbers.reserve(of_cells.size());
+    for (const CellField &field : of_cells)
+      {
+        numbers.emplace_back(field.values.begin(), field.values.end());
+        output.add_data_vector(numbers.back(),
+                               field.name,
+                               DataOut<dim>::type_cell_data);
       }
     output.build_patches(*body.mapping,
                          degree,

@@ -47,10 +47,11 @@ namespace mortise
   } // namespace
 
   void
-  write_tetrahedra(const Body           &body,
-                   const BodySolution   &solution,
-                   const FieldSelection &selection,
-                   const std::string    &file)
+  write_tetrahedra(const Body                   &body,
+                   const BodySolution           &solution,
+                   const FieldSelection         &selection,
+                   const std::vector<CellField> &of_cells,
+                   const std::string            &file)
   {
     SimplexPatches<dim> output(body.max_degree());
     if (selection.displacement)
@@ -62,6 +63,8 @@ namespace mortise
       }
     if (selection.pressure)
       output.add_field("pressure", 1);
+    for (const CellField &field : of_cells)
+      output.add_field(field.name, 1);
     const Quadrature<dim> points(output.lattice.points);
 
     const auto rule = [&](const FiniteElement<dim> &) { return points; };
@@ -81,13 +84,16 @@ namespace mortise
               pressure_values.reinit(Triangulation<dim>::cell_iterator(own));
               pressures = pressures_at(own, pressure_values, solution.pressure);
             }
-          output.add_simplex(
-            values.get_quadrature_points(),
+          auto data =
             evaluate_cell(values,
                           cell_coefficients(cell, solution.displacement),
                           pressures,
                           body.material,
-                          selection));
+                          selection);
+          for (auto &at_point : data)
+            for (const CellField &field : of_cells)
+              at_point.push_back(field.values[cell->active_cell_index()]);
+          output.add_simplex(values.get_quadrature_points(), data);
         }
     write_vtu_file(output, file, body.triangulation().get_communicator());
   }

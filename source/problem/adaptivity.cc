@@ -80,8 +80,15 @@ namespace mortise
   void
   check_adaptivity(const Parameters &parameters)
   {
+    const auto &fields = parameters.output.fields;
     if (!parameters.adaptivity.target_error)
-      return;
+      {
+        if (std::find(fields.begin(), fields.end(), "estimate") != fields.end())
+          parameters.fail("Output/Fields",
+                          "estimate without Adaptivity/Target error",
+                          "estimate in a run with a target");
+        return;
+      }
     if (parameters.steps.given())
       parameters.fail("Adaptivity/Target error",
                       RunLog::number(*parameters.adaptivity.target_error) +
@@ -295,6 +302,23 @@ namespace mortise
         history.change = change;
       });
     return sum(changes, run.comm);
+  }
+
+  std::vector<std::vector<double>>
+  Adaptivity::cell_estimates() const
+  {
+    std::vector<std::vector<double>> result;
+    if (!estimated)
+      return result;
+    const double factor =
+      squared_error > 0. ? *estimated / std::sqrt(squared_error) : 0.;
+    for (const auto &of_body : states)
+      {
+        result.emplace_back();
+        for (const CellState &state : of_body)
+          result.back().push_back(factor * std::sqrt(state.history.error));
+      }
+    return result;
   }
 
   std::string

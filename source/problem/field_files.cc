@@ -57,6 +57,19 @@ namespace mortise
                      run.comm);
   }
 
+  namespace
+  {
+    std::vector<double>
+    degrees(const Body &body)
+    {
+      std::vector<double> result(body.triangulation().n_active_cells());
+      for (const auto &cell : body.dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          result[cell->active_cell_index()] = body.degree(cell);
+      return result;
+    }
+  } // namespace
+
   std::vector<OutputError>
   FieldFiles::write(const unsigned int    step,
                     const double          time,
@@ -78,12 +91,19 @@ namespace mortise
                                    wants("traction")};
     const Bodies        &bodies = discretisation.bodies();
     steps.emplace_back(step, time);
-    if (selection.displacement || selection.stress || selection.pressure)
+    if (selection.displacement || selection.stress || selection.pressure ||
+        wants("degree") || wants("estimate"))
       for (const auto &body : bodies)
         try_output(unwritten, [&] {
+          std::vector<CellField> of_cells;
+          if (wants("degree"))
+            of_cells.push_back({"degree", degrees(*body)});
+          if (wants("estimate") && !fields.estimates.empty())
+            of_cells.push_back({"estimate", fields.estimates[body->index]});
           write_body_fields(*body,
                             fields.solutions[body->index],
                             selection,
+                            of_cells,
                             directory + "/" + file_name(body->name, step));
           write_collection(body->name);
         });

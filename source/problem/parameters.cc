@@ -45,7 +45,9 @@ namespace mortise
     static const std::vector<std::string> names = {"displacement",
                                                    "stress",
                                                    "pressure",
-                                                   "traction"};
+                                                   "traction",
+                                                   "degree",
+                                                   "estimate"};
     return names;
   }
 

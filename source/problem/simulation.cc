@@ -228,7 +228,10 @@ namespace mortise
                                         std::vector<bool>()};
       fields = step_fields(context, *discretisation, solved);
       if (adaptivity)
-        adaptivity->add(bodies, fields.solutions);
+        {
+          adaptivity->add(bodies, fields.solutions);
+          fields.estimates = adaptivity->cell_estimates();
+        }
       summary.steps.push_back(summarise(solved, fields));
     }
     state = std::move(next);

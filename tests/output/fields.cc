@@ -157,7 +157,7 @@ namespace mortise::testing
       all.displacement = all.stress = all.pressure = true;
       const std::string place =
         directory() + (comm == MPI_COMM_SELF ? "/alone" : "");
-      write_body_fields(body, solution, all, place + "/body.vtu");
+      write_body_fields(body, solution, all, {}, place + "/body.vtu");
     }
 
     Body body;
@@ -343,6 +343,16 @@ namespace mortise::testing
     MPI_Barrier(MPI_COMM_WORLD);
   }
 
+  /// One coordinate of the centre of each cell.
+  std::vector<double>
+  places(const Body &body)
+  {
+    std::vector<double> result;
+    for (const auto &cell : body.triangulation().active_cell_iterators())
+      result.push_back(cell->center()[0]);
+    return result;
+  }
+
   /// Only the arrays that were asked for.
   void
   check_selection(const FieldSelection &selection, const std::string &names)
@@ -355,16 +365,32 @@ namespace mortise::testing
         write_body_fields(body,
                           {interpolate(body, Polynomial{2}), {}},
                           selection,
+                          {{"place", places(body)}},
                           directory() + "/body.vtu");
         if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
           {
-            std::string got;
-            for (const auto &name : VtuContent(directory() + "/body.vtu").names)
+            const VtuContent  file(directory() + "/body.vtu");
+            const std::string what = tetrahedra ? "tetrahedra" : "hexahedra";
+            std::string       got;
+            for (const auto &name : file.names)
               got += (got.empty() ? "" : " ") + name;
-            verdict(std::string(tetrahedra ? "tetrahedra" : "hexahedra") +
-                      ": only " + names,
-                    got == names ? 0 : 1,
+            verdict(what + ": only " + names,
+                    got == names + " place" ? 0 : 1,
                     0);
+            double error = 0.;
+            for (const auto &cell : file.cells)
+              {
+                Point<dim> centre;
+                for (const unsigned int i : cell)
+                  centre += file.points[i] / double(cell.size());
+                // of tetrahedra the file has parts
+                if (const auto &place = file.data.at("place");
+                    tetrahedra ?
+                      !(place[cell[0]] == place[cell[1]]) :
+                      std::fabs(place[cell[0]][0] - centre[0]) > 1e-6)
+                  error = 1.;
+              }
+            verdict(what + ": numbers of cells", error, 0.);
           }
         MPI_Barrier(MPI_COMM_WORLD);
       }

@@ -17,14 +17,22 @@ namespace mortise
     bool traction     = false; ///< on slave surfaces: traction, gap, contact
   };
 
-  /// @p file (.vtu) with displacement, stress and pressure of one body;
+  /// A number for each cell.
+  struct CellField
+  {
+    std::string         name;
+    std::vector<double> values; ///< by active cell; those of owned cells count
+  };
+
+  /// @p file (.vtu) with displacement, stress and pressure of one body, and @p of_cells;
   /// higher-order cells, so that a high degree looks as smooth as it is.
   /// Collective; all ranks write one file.
   void
-  write_body_fields(const Body           &body,
-                    const BodySolution   &solution,
-                    const FieldSelection &selection,
-                    const std::string    &file);
+  write_body_fields(const Body                   &body,
+                    const BodySolution           &solution,
+                    const FieldSelection         &selection,
+                    const std::vector<CellField> &of_cells,
+                    const std::string            &file);
 
   /// @p file (.vtu) with the traction that the slave side bears (force per
   /// area), the displacement, and the gap (x_master - x_slave before

@@ -11,10 +11,11 @@ namespace mortise
 {
   /// As write_body_fields(), for tetrahedra. Collective.
   void
-  write_tetrahedra(const Body           &body,
-                   const BodySolution   &solution,
-                   const FieldSelection &selection,
-                   const std::string    &file);
+  write_tetrahedra(const Body                   &body,
+                   const BodySolution           &solution,
+                   const FieldSelection         &selection,
+                   const std::vector<CellField> &of_cells,
+                   const std::string            &file);
 
   struct FieldFile
   {

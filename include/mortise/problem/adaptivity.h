@@ -52,6 +52,11 @@ namespace mortise
       return estimated;
     }
 
+    /// Energy norm of the error on each cell beside that of the whole solution,
+    /// by body and active cell; empty in the first cycle.
+    std::vector<std::vector<double>>
+    cell_estimates() const;
+
     bool
     reached() const
     {

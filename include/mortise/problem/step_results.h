@@ -19,6 +19,9 @@ namespace mortise
     /// Likewise, see contact_fields(); empty without contact, or where
     /// tractions are no field of the output.
     std::vector<std::vector<std::vector<double>>> contact;
+    /// By body and active cell, see Adaptivity::cell_estimates(); empty without
+    /// a target.
+    std::vector<std::vector<double>> estimates;
   };
 
   struct SolvedStep
