@@ -237,7 +237,7 @@ namespace mortise
     state = std::move(next);
     if (is_last_cycle())
       steps.accept(report.converged);
-    if (writes && is_last_cycle())
+    if (writes)
       write_results(fields);
     if (context.parameters.steps.given())
       print_progress();
@@ -246,7 +246,8 @@ namespace mortise
   void
   Simulation::write_results(const StepFields &fields)
   {
-    if (steps.output_due() || !report.converged)
+    // a later cycle may not come to its end
+    if (adaptivity || steps.output_due() || !report.converged)
       for (const OutputError &error :
            files.write(steps.n_done(), steps.time(), *discretisation, fields))
         unwritten.push_back(error);
@@ -381,7 +382,13 @@ namespace mortise
       {
         summary.status = "stopped";
         if (!report.method.empty() && !summary.steps.empty())
-          write_summary(); // steps of this run are worth keeping
+          {
+            write_summary(); // steps of this run are worth keeping
+            if (adaptivity)
+              context.log.line(
+                "the results of cycle " +
+                std::to_string(summary.steps.size() - 1) + " are written");
+          }
         throw;
       }
     write_summary();

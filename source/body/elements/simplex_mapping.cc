@@ -1,5 +1,6 @@
 #include <deal.II/fe/fe_poly.h>
 
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/manifold.h>
 
 #include <mortise/body/elements/fe_simplex_legendre.h>
@@ -213,6 +214,137 @@ namespace mortise
       if (!cell->is_artificial())
         (*all)[cell->active_cell_index()] = points_of_cell(cell, nodes);
     points = all;
+  }
+
+  namespace
+  {
+    /// By point of a lattice and node.
+    std::vector<std::vector<Tensor<1, 3>>>
+    gradients_on_lattice(const ScalarPolynomialsBase<3> &nodal)
+    {
+      std::vector<std::vector<Tensor<1, 3>>> result;
+      std::vector<double>                    no_0;
+      std::vector<Tensor<2, 3>>              no_2;
+      std::vector<Tensor<3, 3>>              no_3;
+      std::vector<Tensor<4, 3>>              no_4;
+      for (const Point<3> &point : simplex_interpolation_points(
+             std::min(2 * nodal.degree(), max_simplex_degree)))
+        {
+          result.emplace_back(nodal.n());
+          nodal.evaluate(point, no_0, result.back(), no_2, no_3, no_4);
+        }
+      return result;
+    }
+
+    bool
+    is_tangled(const std::vector<Point<3>>                  &nodes,
+               const std::vector<std::vector<Tensor<1, 3>>> &gradients)
+    {
+      return std::any_of(gradients.begin(),
+                         gradients.end(),
+                         [&](const auto &at_point) {
+                           Tensor<2, 3> jacobian;
+                           for (unsigned int k = 0; k < nodes.size(); ++k)
+                             jacobian += outer_product(nodes[k], at_point[k]);
+                           return !(determinant(jacobian) > 0.);
+                         });
+    }
+
+    /// The vertices of @p tangled cells, by vertex, also those of cells that other ranks own. Collective.
+    std::vector<bool>
+    vertices_of(const std::vector<bool> &tangled,
+                const Triangulation<3>  &triangulation)
+    {
+      using Cell = Triangulation<3>::active_cell_iterator;
+      std::vector<bool> result(triangulation.n_vertices(), false);
+      const auto        add = [&](const Cell &cell, const unsigned int which) {
+        for (const unsigned int v : cell->vertex_indices())
+          if (which >> v & 1)
+            result[cell->vertex_index(v)] = true;
+      };
+      constexpr unsigned int all    = 15;
+      const auto             is_one = [&](const Cell &cell) -> unsigned int {
+        return tangled[cell->active_cell_index()] ? all : 0;
+      };
+      const auto known = [&](const Cell &cell) {
+        unsigned int which = 0;
+        for (const unsigned int v : cell->vertex_indices())
+          which |= result[cell->vertex_index(v)] ? 1u << v : 0u;
+        return which;
+      };
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          add(cell, is_one(cell));
+      // to the neighbours of tangled cells, then from them
+      GridTools::exchange_cell_data_to_ghosts<unsigned int, Triangulation<3>>(
+        triangulation, is_one, add);
+      GridTools::exchange_cell_data_to_ghosts<unsigned int, Triangulation<3>>(
+        triangulation, known, add);
+      return result;
+    }
+
+    /// Put nodes on lines, faces and the inside of a cell with a vertex of @p straight on
+    /// the straight cell.
+    void
+    straighten(const Triangulation<3>::active_cell_iterator &cell,
+               const std::vector<bool>                      &straight,
+               const std::vector<Point<3>>                  &reference_nodes,
+               std::vector<Point<3>>                        &nodes)
+    {
+      for (unsigned int k = 0; k < nodes.size(); ++k)
+        {
+          const Point<3>             &x      = reference_nodes[k];
+          const std::array<double, 4> lambda = {
+            {1. - x[0] - x[1] - x[2], x[0], x[1], x[2]}};
+          bool     touches = false;
+          Point<3> place;
+          for (const unsigned int v : cell->vertex_indices())
+            {
+              touches = touches ||
+                        (lambda[v] > 1e-10 && straight[cell->vertex_index(v)]);
+              place += lambda[v] * cell->vertex(v);
+            }
+          if (touches)
+            nodes[k] = place;
+        }
+    }
+  } // namespace
+
+  unsigned int
+  SimplexMapping::straighten_tangled_cells(
+    const Triangulation<3> &triangulation)
+  {
+    const auto   gradients       = gradients_on_lattice(*nodal);
+    const auto   reference_nodes = this->reference_nodes();
+    const auto   comm            = triangulation.get_communicator();
+    auto         all             = std::make_shared<Points>(*points);
+    unsigned int n_all           = 0;
+    // half straight cells may be tangled in their turn; straight ones are not
+    while (true)
+      {
+        std::vector<bool> tangled(triangulation.n_active_cells(), false);
+        unsigned int      n = 0;
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (const unsigned int k = cell->active_cell_index();
+              cell->is_locally_owned() && is_tangled((*all)[k], gradients))
+            {
+              tangled[k] = true;
+              ++n;
+            }
+        n = Utilities::MPI::sum(n, comm);
+        n_all += n;
+        if (n == 0)
+          break;
+        const auto straight = vertices_of(tangled, triangulation);
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (!cell->is_artificial())
+            straighten(cell,
+                       straight,
+                       reference_nodes,
+                       (*all)[cell->active_cell_index()]);
+      }
+    points = all;
+    return n_all;
   }
 
   std::vector<Point<3>>
