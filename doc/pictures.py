@@ -2,7 +2,7 @@
 """Render the fields of a scene: pictures.py RESULT_DIRECTORY PICTURE.png
 
 Every body is drawn deformed (displacements scaled so that they show), coloured by the magnitude of
-the displacement, with the edges of its cells; bodies are pulled apart a little so that the tied
+the displacement, or in a run with a target error by the degree of its cells, with the edges of cells; bodies are pulled apart a little so that the tied
 faces can be seen. Needs pyvista (PyPI)."""
 import glob
 import json
@@ -25,15 +25,16 @@ def moments(directory, name):
     return [(os.path.join(directory, file), f"t = {time:g}") for time, file in (half, entries[-1])]
 
 
-def draw(plotter, meshes, size, largest):
+def draw(plotter, meshes, size, largest, degrees):
+    scalars, limits, title = ("degree", degrees, "degree") if degrees else ("displacement magnitude", (0, largest), "|u|")
     middle = numpy.mean([m.center for m in meshes], axis=0)
     for mesh in meshes:
         mesh["displacement magnitude"] = numpy.linalg.norm(mesh["displacement"], axis=1)
         apart = 0.5 * (numpy.array(mesh.center) - middle) if len(meshes) > 1 else numpy.zeros(3)
         mesh.points = mesh.points + 0.08 * size / largest * mesh["displacement"] + apart
         surface = mesh.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=3)
-        plotter.add_mesh(surface, scalars="displacement magnitude", clim=(0, largest), cmap="viridis",
-                         ambient=0.45, diffuse=0.6, scalar_bar_args={"title": "|u|", "color": "black", "fmt": "%.3g", "vertical": True,
+        plotter.add_mesh(surface, scalars=scalars, clim=limits, cmap="viridis",
+                         ambient=0.45, diffuse=0.6, scalar_bar_args={"title": title, "color": "black", "fmt": "%.3g", "vertical": True,
                                           "position_x": 0.91, "position_y": 0.2, "height": 0.6})
         edges = mesh.separate_cells().extract_surface(algorithm="dataset_surface", nonlinear_subdivision=3).extract_feature_edges(
             feature_angle=40, boundary_edges=True, manifold_edges=False, non_manifold_edges=False)
@@ -45,7 +46,9 @@ def draw(plotter, meshes, size, largest):
 
 
 def main(directory, picture):
-    names = [b["name"] for b in json.load(open(os.path.join(directory, "summary.json")))["steps"][-1]["bodies"]]
+    last = json.load(open(os.path.join(directory, "summary.json")))["steps"][-1]
+    names = [b["name"] for b in last["bodies"]]
+    degrees = (min(b["degree_min"] for b in last["bodies"]), max(b["degree_max"] for b in last["bodies"])) if "adaptivity" in last else None
     files = [moments(directory, name) for name in names]
     scenes = [[pyvista.read(file) for file, _ in at_time] for at_time in zip(*files)]
     low = numpy.min([m.bounds[0::2] for m in scenes[0]], axis=0)
@@ -57,7 +60,7 @@ def main(directory, picture):
     plotter.set_background("white")
     for column, meshes in enumerate(scenes):
         plotter.subplot(0, column)
-        draw(plotter, meshes, size, largest)
+        draw(plotter, meshes, size, largest, degrees)
         if files[0][column][1]:
             plotter.add_text(files[0][column][1], color="black", font_size=14)
     plotter.screenshot(picture)

@@ -14,7 +14,7 @@ trap 'rm -rf "$work"' EXIT
 show=()
 [ -z "${DISPLAY:-}" ] && command -v xvfb-run >/dev/null && show=(xvfb-run -a)
 for scene in "${scenes[@]}"; do
-  "$mortise" --output "$work/$scene" --set "Output/Fields=displacement, stress, traction" "$top/prm/$scene.prm" >"$work/$scene.log"
+  "$mortise" --output "$work/$scene" --set "Output/Fields=displacement, stress, traction, degree" "$top/prm/$scene.prm" >"$work/$scene.log"
   "${show[@]}" python3 "$top/doc/pictures.py" "$work/$scene" "$top/doc/pictures/$scene.png"
   echo "doc/pictures/$scene.png"
 done

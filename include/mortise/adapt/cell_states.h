@@ -17,8 +17,8 @@ namespace mortise
     /// left of the error, and by which factor another such refinement makes it
     /// smaller.
     double change = 0., error = 0., ratio = 1.;
-    /// The change of the last rise of the degree by that of the rise before it, of cells that have
-    /// not been split since; before the first rise one.
+    /// The change of the last rise of the degree by that of the rise before it,
+    /// of cells that have not been split since; before the first rise one.
     double fall = 1.;
     /// Rises of the degree that stand behind one another; of a cell that has
     /// been split none.
@@ -30,7 +30,8 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &fall &n_rises &is_refined &is_split;
+      archive &degree &change &error &ratio &fall &n_rises &is_refined
+        &is_split;
     }
   };
 
@@ -84,4 +85,16 @@ namespace mortise
   split_cells(Body                    &body,
               const std::vector<bool> &split,
               std::vector<CellState>  &states);
+
+  /// Call @p visit(cell, what @p states has of it) for the owned
+  /// cells of all @p bodies, with the body first.
+  template <typename States, typename Visit>
+  void
+  for_each_cell(const Bodies &bodies, States &states, const Visit &visit)
+  {
+    for (const auto &body : bodies)
+      for (const auto &cell : body->dof_handler.active_cell_iterators())
+        if (cell->is_locally_owned())
+          visit(*body, cell, states[body->index][cell->active_cell_index()]);
+  }
 } // namespace mortise

@@ -76,15 +76,6 @@ namespace mortise
     missed() const;
 
   private:
-    /// What to do with a cell if anything.
-    enum class Choice
-    {
-      keep,
-      rise,
-      split
-    };
-    using Choices = std::vector<std::vector<Choice>>;
-
     /// Histories from the change that the refinement before this cycle made;
     /// its square over all cells. Collective.
     double
@@ -92,18 +83,6 @@ namespace mortise
     /// The next degrees and splits; @p allowed: square of the error. Collective.
     void
     choose(const Bodies &bodies, double allowed);
-    Choice
-    best_choice(const Body &body, const CellState &state) const;
-    /// The square above which errors of cells call for @p best to be done: of all that can be
-    /// done as little as leaves @p allowed.
-    double
-    threshold(const Bodies &bodies, const Choices &best, double allowed) const;
-    /// Where cells rise, those around with less rise by one.
-    void
-    raise_around(const Bodies &bodies, Choices &choices) const;
-    /// Unknowns of the next cycle, about. Collective.
-    double
-    n_unknowns(const Bodies &bodies, const Choices &choices) const;
 
     const RunContext              &run;
     unsigned int                   cycle = 0;

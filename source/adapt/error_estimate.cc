@@ -1,0 +1,118 @@
+#include <mortise/adapt/error_estimate.h>
+#include <mortise/adapt/error_tail.h>
+#include <mortise/adapt/smoothness.h>
+
+#include <cmath>
+
+namespace mortise
+{
+  namespace
+  {
+    /// Of the squares of changes from degree to degree; corners have more, at
+    /// degree three 0.2 (Fichera's).
+    constexpr double fall_of_smooth = 0.1;
+
+    /// The sum over the family of @p cell, which is on one rank; as much as has not been
+    /// cut further stands for it all.
+    double
+    of_family(const Body::CellIterator  &cell,
+              const std::vector<double> &of_cells)
+    {
+      const auto   parent = cell->parent();
+      double       sum    = 0.;
+      unsigned int n      = 0;
+      for (unsigned int c = 0; c < parent->n_children(); ++c)
+        if (parent->child(c)->is_active())
+          {
+            sum += of_cells[parent->child(c)->active_cell_index()];
+            ++n;
+          }
+      return sum * parent->n_children() / n;
+    }
+
+    /// Nothing of tetrahedra and of low degrees.
+    std::optional<double>
+    decay(const Body &body, const CellState &state)
+    {
+      if (body.mesh.tetrahedra || state.degree < least_degree_of_decay)
+        return {};
+      return legendre_decay(state.degree, state.coefficients);
+    }
+  } // namespace
+
+  std::optional<bool>
+  is_smooth(const Body &body, const CellState &state)
+  {
+    if (state.history.fall < fall_of_smooth)
+      return true;
+    const auto falls = decay(body, state);
+    return falls ? std::optional<bool>(is_smooth(*falls)) : std::nullopt;
+  }
+
+  namespace
+  {
+    /// After the refinement that made the square @p change on a cell, and @p of_family in all on
+    /// its siblings and it.
+    ErrorTail
+    tail(const Body      &body,
+         const CellState &state,
+         const double     change,
+         const double     of_family)
+    {
+      const CellHistory &history = state.history;
+      const bool is_smooth_here  = is_smooth(body, state).value_or(false);
+      if (history.is_split && is_smooth_here)
+        return smooth_split_tail(history.degree);
+      if (history.is_split)
+        return geometric_tail(of_family,
+                              history.change,
+                              1,
+                              std::pow(0.25, history.degree));
+      if (is_smooth_here)
+        return smooth_tail(change,
+                           history.change,
+                           decay(body, state).value_or(0.));
+      if (history.n_rises == 1)
+        return geometric_tail(change, history.change, 1, 0.);
+      return power_tail(history.degree, change, history.change);
+    }
+  } // namespace
+
+  void
+  estimate_errors(const Bodies                           &bodies,
+                  const std::vector<std::vector<double>> &changes,
+                  const bool                              is_first,
+                  CellStates                             &states)
+  {
+    for_each_cell(
+      bodies,
+      states,
+      [&](const Body &body, const auto &cell, CellState &state) {
+        CellHistory &history = state.history;
+        if (!history.is_refined)
+          return;
+        const auto  &of_body = changes[body.index];
+        const double change  = of_body[cell->active_cell_index()];
+        ErrorTail    left;
+        if (is_first && !history.is_split)
+          {
+            // from degree zero, which has no energy
+            left =
+              geometric_tail(change, history.change, history.degree - 1, 0.);
+            history.fall = left.ratio;
+          }
+        else
+          {
+            if (history.n_rises > 1)
+              history.fall = change / history.change;
+            left = tail(body,
+                        state,
+                        change,
+                        history.is_split ? of_family(cell, of_body) : 0.);
+          }
+        history.error  = change * left.left;
+        history.ratio  = left.ratio;
+        history.change = change;
+      });
+  }
+} // namespace mortise

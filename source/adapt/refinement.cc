@@ -1,0 +1,229 @@
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_tools.h>
+
+#include <mortise/adapt/error_estimate.h>
+#include <mortise/adapt/refinement.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of what a cell may have of the error if all have the same.
+    constexpr double share = 0.25;
+
+    /// Of the square of the error that is allowed, what the next cycle is to
+    /// have: what it will have is not known well.
+    constexpr double aim = 0.5;
+
+    /// What a split is taken to leave of the square of an error beside corners
+    /// and edges, and a rise at least.
+    constexpr double after_split = 0.5, after_rise = 0.02;
+
+    MPI_Comm
+    communicator(const Bodies &bodies)
+    {
+      return bodies.front()->triangulation().get_communicator();
+    }
+
+    Refinement
+    best(const Body              &body,
+         const CellState         &state,
+         const RefinementOptions &options)
+    {
+      const bool can_split = !body.mesh.tetrahedra && options.may_split;
+      const bool can_rise  = state.degree < options.largest_degree;
+      if (can_split && (options.only_splits || !can_rise ||
+                        !is_smooth(body, state).value_or(true)))
+        return Refinement::split;
+      return can_rise ? Refinement::rise : Refinement::keep;
+    }
+
+    /// The square above which errors of cells call for @p best to be done.
+    double
+    threshold(const Bodies      &bodies,
+              const CellStates  &states,
+              const Refinements &best,
+              const double       allowed)
+    {
+      const MPI_Comm comm    = communicator(bodies);
+      double         n_cells = 0., largest = 0.;
+      for (const auto &body : bodies)
+        n_cells += body->triangulation().n_global_active_cells();
+      for_each_cell(bodies,
+                    states,
+                    [&](const Body &, const auto &, const CellState &state) {
+                      largest = std::max(largest, state.history.error);
+                    });
+      largest                 = Utilities::MPI::max(largest, comm);
+      const auto left_by_next = [&](const double least) {
+        double left = 0.;
+        for_each_cell(
+          bodies,
+          states,
+          [&](const Body &body, const auto &cell, const CellState &state) {
+            const Refinement choice =
+              best[body.index][cell->active_cell_index()];
+            const CellHistory &history = state.history;
+            const double       ratio   = choice == Refinement::rise ?
+                                           std::max(after_rise, history.ratio) :
+                                           after_split;
+            left +=
+              history.error *
+              (choice != Refinement::keep && history.error > least ? ratio :
+                                                                     1.);
+          });
+        return Utilities::MPI::sum(left, comm);
+      };
+      // what is small beside others waits: they show through in it
+      double least = share * std::max(allowed, left_by_next(largest)) / n_cells,
+             most  = largest;
+      if (!(left_by_next(least) < aim * allowed))
+        return least;
+      while (most > 1.1 * least)
+        {
+          const double middle = std::sqrt(least * most);
+          (left_by_next(middle) < aim * allowed ? least : most) = middle;
+        }
+      return least;
+    }
+
+    /// Where cells rise, those around with less rise by one.
+    void
+    raise_around(const Bodies     &bodies,
+                 const CellStates &states,
+                 Refinements      &refinements)
+    {
+      for (const auto &body : bodies)
+        {
+          const auto &triangulation = body->triangulation();
+          const auto &of_body       = states[body->index];
+          auto       &chosen        = refinements[body->index];
+          // what a cell has alone on a face it cannot use: its neighbours rise
+          // to it
+          std::vector<unsigned int> wanted(triangulation.n_vertices(), 0);
+          const auto want = [&](const auto &cell, const unsigned int degree) {
+            for (const unsigned int v : cell->vertex_indices())
+              wanted[cell->vertex_index(v)] =
+                std::max(wanted[cell->vertex_index(v)], degree);
+          };
+          const auto rises_to = [&](const auto &cell) -> unsigned int {
+            const unsigned int k = cell->active_cell_index();
+            return chosen[k] == Refinement::rise ?
+                     of_body[k].history.degree + 1 :
+                     0;
+          };
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (cell->is_locally_owned())
+              want(cell, rises_to(cell));
+          GridTools::exchange_cell_data_to_ghosts<unsigned int,
+                                                  Triangulation<dim>>(
+            triangulation,
+            [&](const auto &cell) { return rises_to(cell); },
+            [&](const auto &cell, const unsigned int degree) {
+              want(cell, degree);
+            });
+          for (const auto &cell : triangulation.active_cell_iterators())
+            if (cell->is_locally_owned())
+              {
+                const unsigned int k = cell->active_cell_index();
+                for (const unsigned int v : cell->vertex_indices())
+                  if (chosen[k] == Refinement::keep &&
+                      wanted[cell->vertex_index(v)] > of_body[k].history.degree)
+                    chosen[k] = Refinement::rise;
+              }
+        }
+    }
+  } // namespace
+
+  Refinements
+  refine_all(const Bodies            &bodies,
+             const CellStates        &states,
+             const RefinementOptions &options)
+  {
+    Refinements result;
+    for (const auto &of_body : states)
+      result.emplace_back(of_body.size(), Refinement::keep);
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body      &body,
+                      const auto      &cell,
+                      const CellState &state) {
+                    result[body.index][cell->active_cell_index()] =
+                      best(body, state, options);
+                  });
+    return result;
+  }
+
+  Refinements
+  choose_refinements(const Bodies            &bodies,
+                     const CellStates        &states,
+                     const RefinementOptions &options,
+                     const double             allowed)
+  {
+    Refinements  result = refine_all(bodies, states, options);
+    const double least  = threshold(bodies, states, result, allowed);
+    for_each_cell(
+      bodies,
+      states,
+      [&](const Body &body, const auto &cell, const CellState &state) {
+        if (!(state.history.error > least))
+          result[body.index][cell->active_cell_index()] = Refinement::keep;
+      });
+    raise_around(bodies, states, result);
+    return result;
+  }
+
+  double
+  growth(const Bodies      &bodies,
+         const CellStates  &states,
+         const Refinements &refinements)
+  {
+    double size[2] = {0., 0.}; // about, without the sharing of nodes
+    for_each_cell(
+      bodies,
+      states,
+      [&](const Body &body, const auto &cell, const CellState &state) {
+        const unsigned int p = state.history.degree;
+        const Refinement   choice =
+          refinements[body.index][cell->active_cell_index()];
+        size[0] += std::pow(p, 3);
+        size[1] += choice == Refinement::split ? 8. * std::pow(p, 3) :
+                   choice == Refinement::rise  ? std::pow(p + 1., 3) :
+                                                 std::pow(p, 3);
+      });
+    Utilities::MPI::sum(size, communicator(bodies), size);
+    return size[1] / size[0];
+  }
+
+  std::vector<std::vector<bool>>
+  prepare_refinement(const Bodies      &bodies,
+                     const Refinements &refinements,
+                     CellStates        &states)
+  {
+    std::vector<std::vector<bool>> splits;
+    for (const auto &of_body : refinements)
+      {
+        splits.emplace_back();
+        for (const Refinement refinement : of_body)
+          splits.back().push_back(refinement == Refinement::split);
+      }
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    const bool rises =
+                      refinements[body.index][cell->active_cell_index()] ==
+                      Refinement::rise;
+                    state.history.is_refined = rises;
+                    state.history.is_split   = false;
+                    state.history.degree += rises ? 1 : 0;
+                    state.history.n_rises += rises ? 1 : 0;
+                  });
+    return splits;
+  }
+} // namespace mortise
