@@ -120,7 +120,6 @@ namespace mortise
   void
   Body::create_mapping(const unsigned int least_degree)
   {
-    n_straightened = 0;
     mapping_degree = mesh.curved ? std::max(least_degree, max_degree()) : 1;
     if (mesh.geometry != nullptr)
       mapping_degree = 2; // what the file has, whatever the displacement
@@ -129,15 +128,12 @@ namespace mortise
     };
     if (mesh.tetrahedra)
       {
-        auto nodes =
+        mapping =
           mesh.geometry != nullptr ?
             std::make_unique<SimplexMapping>(mapping_degree,
                                              triangulation(),
                                              points) :
             std::make_unique<SimplexMapping>(mapping_degree, triangulation());
-        if (mapping_degree > 1)
-          n_straightened = nodes->straighten_tangled_cells(triangulation());
-        mapping = std::move(nodes);
         return;
       }
     auto cache = std::make_unique<HexahedralMapping>(mapping_degree);

@@ -62,13 +62,6 @@ namespace mortise
       return *nodal;
     }
 
-    /// Make cells straight that would be tangled, the determinant of whose
-    /// Jacobian is not positive at a point of a lattice that has corners, edges
-    /// and the inside, and what touches their vertices. Number of such cells of
-    /// all ranks. Collective; before anything else uses the mapping.
-    unsigned int
-    straighten_tangled_cells(const dealii::Triangulation<3> &triangulation);
-
     /// The same as the base class, but quick, and without the second
     /// derivatives that it wants. Also outside of the cell.
     dealii::Point<3>
