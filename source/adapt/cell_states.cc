@@ -8,9 +8,7 @@
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/operators/cells/cell_fields.h>
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace mortise
 {
@@ -18,37 +16,27 @@ namespace mortise
 
   namespace
   {
-    std::vector<double>
-    scalar_coefficients(const Body::CellIterator &cell,
-                        const BodyVector         &vector)
-    {
-      std::vector<types::global_dof_index> dofs(
-        cell->get_fe().n_dofs_per_cell());
-      cell->get_dof_indices(dofs);
-      std::vector<double> result;
-      for (const auto dof : dofs)
-        result.push_back(vector(dof));
-      return result;
-    }
-
-    /// Set component @p c of @p vector on @p cell to the function of a lower @p degree.
+    /// Set @p vector on @p cell to the functions of a lower @p degree, by component from @p coefficients on.
     void
     embed(const Body::CellIterator  &cell,
-          const unsigned int         c,
           const unsigned int         degree,
-          const std::vector<double> &coefficients,
+          const std::vector<double> *coefficients,
           BodyVector                &vector)
     {
-      const auto                          &fe = cell->get_fe();
+      constexpr unsigned int               none = -1;
+      const auto                          &fe   = cell->get_fe();
       std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell());
       cell->get_dof_indices(dofs);
       const auto modes =
         nested_modes(cell->reference_cell(), degree, fe.degree);
+      std::vector<unsigned int> lower(dofs.size() / fe.n_components(), none);
       for (unsigned int i = 0; i < modes.size(); ++i)
+        lower[modes[i]] = i;
+      for (unsigned int k = 0; k < dofs.size(); ++k)
         {
-          const auto dof = dofs[fe.component_to_system_index(c, modes[i])];
-          if (vector.in_local_range(dof))
-            vector(dof) = coefficients[i];
+          const auto [c, mode] = fe.system_to_component_index(k);
+          if (lower[mode] != none && vector.in_local_range(dofs[k]))
+            vector(dofs[k]) = coefficients[c][lower[mode]];
         }
     }
 
@@ -67,53 +55,47 @@ namespace mortise
   {
     states.resize(bodies.size());
     for (const auto &body : bodies)
-      {
-        auto &of_body = states[body->index];
-        of_body.resize(body->triangulation().n_active_cells());
-        const BodySolution &solution = solutions[body->index];
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              CellState &state = of_body[cell->active_cell_index()];
-              state.degree     = body->degree(cell);
-              const auto u     = cell_coefficients(cell, solution.displacement);
-              state.coefficients.assign(u.begin(), u.end());
-              if (body->pressure)
-                state.coefficients.push_back(
-                  scalar_coefficients(body->pressure->cell(cell),
-                                      solution.pressure));
-            }
-      }
+      states[body->index].resize(body->triangulation().n_active_cells());
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    const BodySolution &solution = solutions[body.index];
+                    state.degree                 = body.degree(cell);
+                    const auto u =
+                      cell_coefficients(cell, solution.displacement);
+                    state.coefficients.assign(u.begin(), u.end());
+                    if (body.pressure)
+                      state.coefficients.push_back(
+                        scalar_coefficients(body.pressure->cell(cell),
+                                            solution.pressure));
+                  });
   }
 
   std::vector<BodySolution>
   embedded(const Bodies &bodies, const CellStates &states)
   {
     std::vector<BodySolution> result = zero_solutions(bodies);
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body      &body,
+                      const auto      &cell,
+                      const CellState &state) {
+                    BodySolution &solution = result[body.index];
+                    embed(cell,
+                          state.degree,
+                          state.coefficients.data(),
+                          solution.displacement);
+                    if (body.pressure)
+                      embed(body.pressure->cell(cell),
+                            state.degree - 1,
+                            state.coefficients.data() + dim,
+                            solution.pressure);
+                  });
     for (const auto &body : bodies)
       {
-        BodySolution &solution = result[body->index];
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              const CellState &state =
-                states[body->index][cell->active_cell_index()];
-              for (unsigned int c = 0; c < dim; ++c)
-                embed(cell,
-                      c,
-                      state.degree,
-                      state.coefficients[c],
-                      solution.displacement);
-              if (body->pressure)
-                embed(body->pressure->cell(cell),
-                      0,
-                      state.degree - 1,
-                      state.coefficients[dim],
-                      solution.pressure);
-            }
-        solution.displacement.update_ghost_values();
+        result[body->index].displacement.update_ghost_values();
         if (body->pressure)
-          solution.pressure.update_ghost_values();
+          result[body->index].pressure.update_ghost_values();
       }
     return result;
   }

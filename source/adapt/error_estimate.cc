@@ -38,45 +38,45 @@ namespace mortise
         return {};
       return legendre_decay(state.degree, state.coefficients);
     }
-  } // namespace
 
-  std::optional<bool>
-  is_smooth(const Body &body, const CellState &state)
-  {
-    if (state.history.fall < fall_of_smooth)
-      return true;
-    const auto falls = decay(body, state);
-    return falls ? std::optional<bool>(is_smooth(*falls)) : std::nullopt;
-  }
-
-  namespace
-  {
-    /// After the refinement that made the square @p change on a cell, and @p of_family in all on
-    /// its siblings and it.
-    ErrorTail
-    tail(const Body      &body,
-         const CellState &state,
-         const double     change,
-         const double     of_family)
+    std::optional<bool>
+    is_smooth(const CellHistory &history, const std::optional<double> &falls)
     {
-      const CellHistory &history = state.history;
-      const bool is_smooth_here  = is_smooth(body, state).value_or(false);
-      if (history.is_split && is_smooth_here)
+      if (history.fall < fall_of_smooth)
+        return true;
+      return falls ? std::optional<bool>(mortise::is_smooth(*falls)) :
+                     std::nullopt;
+    }
+
+    /// After the refinement that made the square @p change on a cell, and @p of_family in all on
+    /// its siblings and it; coefficients fall by @p falls.
+    ErrorTail
+    tail(const CellHistory           &history,
+         const std::optional<double> &falls,
+         const double                 change,
+         const double                 of_family)
+    {
+      const bool smooth = is_smooth(history, falls).value_or(false);
+      if (history.is_split && smooth)
         return smooth_split_tail(history.degree);
       if (history.is_split)
         return geometric_tail(of_family,
                               history.change,
                               1,
                               std::pow(0.25, history.degree));
-      if (is_smooth_here)
-        return smooth_tail(change,
-                           history.change,
-                           decay(body, state).value_or(0.));
+      if (smooth)
+        return smooth_tail(change, history.change, falls.value_or(0.));
       if (history.n_rises == 1)
         return geometric_tail(change, history.change, 1, 0.);
       return power_tail(history.degree, change, history.change);
     }
   } // namespace
+
+  std::optional<bool>
+  is_smooth(const Body &body, const CellState &state)
+  {
+    return is_smooth(state.history, decay(body, state));
+  }
 
   void
   estimate_errors(const Bodies                           &bodies,
@@ -105,8 +105,8 @@ namespace mortise
           {
             if (history.n_rises > 1)
               history.fall = change / history.change;
-            left = tail(body,
-                        state,
+            left = tail(history,
+                        decay(body, state),
                         change,
                         history.is_split ? of_family(cell, of_body) : 0.);
           }

@@ -155,15 +155,14 @@ namespace mortise
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int i = 0; i < displacement[c].size(); ++i)
             set(c, i, displacement[c][i]);
-        const auto own = body.pressure->cell(cell);
-        own_dofs.resize(own->get_fe().n_dofs_per_cell());
-        own->get_dof_indices(own_dofs);
+        const auto own =
+          scalar_coefficients(body.pressure->cell(cell), solution.pressure);
         const auto modes = nested_modes(cell->reference_cell(), p - 1, p);
         for (unsigned int i = 0; i < modes.size(); ++i)
-          set(dim, modes[i], solution.pressure(own_dofs[i]));
+          set(dim, modes[i], own[i]);
       }
 
-      std::vector<types::global_dof_index> dofs, own_dofs;
+      std::vector<types::global_dof_index> dofs;
     };
 
     /// Only the slave faces of one interface.

@@ -18,10 +18,9 @@ namespace mortise
     /// A calibration makes estimates smaller by less than larger.
     constexpr double least_calibration = 0.77, most_calibration = 1.5;
 
-    /// By which an estimate is multiplied after the square of the one before
-    /// was
-    /// @p ratio times too small, as a change, being orthogonal to the error that it leaves, has shown: half
-    /// the way, since both go up and down.
+    /// By which an estimate is multiplied if the square of the one before was too small by @p ratio, as
+    /// the change that followed has shown, to which the error that is left is
+    /// orthogonal: half the way, since estimates go up and down.
     double
     calibration_by(const double ratio)
     {

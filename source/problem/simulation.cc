@@ -10,7 +10,6 @@
 #include <mortise/problem/simulation.h>
 
 #include <cmath>
-#include <filesystem>
 
 namespace mortise
 {
@@ -117,9 +116,9 @@ namespace mortise
   SystemVector
   Simulation::solve(const SceneLoad &load)
   {
-    SystemVector solution;
-    const auto   start =
-      adaptivity ? adaptivity->start(bodies) : std::vector<BodySolution>();
+    SystemVector                    solution;
+    const std::vector<BodySolution> none;
+    const auto &start = adaptivity ? adaptivity->start(bodies) : none;
     if (contact)
       report = contact->solve(load, solution);
     else if (start.empty())
@@ -243,65 +242,6 @@ namespace mortise
       print_progress();
   }
 
-  void
-  Simulation::write_results(const StepFields &fields)
-  {
-    // a later cycle may not come to its end
-    if (adaptivity || steps.output_due() || !report.converged)
-      for (const OutputError &error :
-           files.write(steps.n_done(), steps.time(), *discretisation, fields))
-        unwritten.push_back(error);
-    const unsigned int every = context.parameters.output.checkpoint_every;
-    if (every > 0 && report.converged &&
-        (steps.n_done() % every == 0 || steps.finished()))
-      write_checkpoint(fields);
-  }
-
-  void
-  Simulation::write_checkpoint(const StepFields &fields)
-  {
-    const auto          stage = context.log.stage(context.timers, "checkpoint");
-    const Parameters   &parameters = context.parameters;
-    const RunCheckpoint checkpoint{
-      std::filesystem::absolute(parameters.file).string(),
-      parameters.assignments,
-      steps.time(),
-      steps.longest(),
-      steps.n_done(),
-      summary.steps,
-      files.written()};
-    try
-      {
-        mortise::write_checkpoint(parameters.output.directory,
-                                  {to_text(checkpoint),
-                                   fields.solutions,
-                                   fields.multipliers},
-                                  bodies,
-                                  discretisation->interfaces().all(),
-                                  context.comm);
-      }
-    catch (const OutputError &error)
-      {
-        unwritten.push_back(error);
-      }
-    summary.status = "running";
-    write_summary();
-  }
-
-  void
-  Simulation::print_progress()
-  {
-    const double share = steps.share(), seconds = context.timers.total();
-    const double left =
-      (seconds - clock.seconds) / (share - clock.share) * (1. - share);
-    if (clock.seconds == 0.)
-      clock = {share, seconds}; // the first step made the preconditioner, too
-    context.log.line(
-      "  " + RunLog::number(100. * share) + " % done in " +
-      RunLog::number(seconds) + " s" +
-      (steps.finished() ? "" : ", about " + RunLog::number(left) + " s left"));
-  }
-
   bool
   Simulation::is_last_cycle() const
   {
@@ -354,23 +294,6 @@ namespace mortise
   }
 
   void
-  Simulation::write_summary()
-  {
-    summary.timings = context.timers.walls(context.comm);
-    summary.memory  = peak_memory_mib(context.comm);
-    try
-      {
-        mortise::write_summary(summary,
-                               context.parameters.output.directory,
-                               context.comm);
-      }
-    catch (const OutputError &error)
-      {
-        unwritten.push_back(error);
-      }
-  }
-
-  void
   Simulation::run()
   {
     check_output_directory(context.parameters, context.comm);
@@ -385,9 +308,9 @@ namespace mortise
           {
             write_summary(); // steps of this run are worth keeping
             if (adaptivity)
-              context.log.line(
-                "the results of cycle " +
-                std::to_string(summary.steps.size() - 1) + " are written");
+              context.log.line("the results of cycle " +
+                               std::to_string(summary.steps.size() - 1) +
+                               " are written");
           }
         throw;
       }

@@ -1,8 +1,8 @@
-// Proves that a run with a target raises degrees until the error is what was
-// asked for, and says how large it is within a factor of four, on hexahedra and
-// tetrahedra, with and without a pressure, beside a corner and on part of the
-// cells alone; and that what limits it is told. The same on any number of
-// ranks.
+// Proves that a run with a target cuts cells and raises degrees until the error
+// is what was asked for, and says how large it is within a factor of four, on
+// hexahedra and tetrahedra, with and without a pressure, beside a corner and on
+// part of the cells alone; and that what limits it is told. The same on any
+// number of ranks.
 #include "scene.h"
 #include "scenes.h"
 

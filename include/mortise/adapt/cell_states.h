@@ -76,11 +76,10 @@ namespace mortise
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions);
 
-  /// Cut owned cells of @p body, hexahedra, into eight where @p split, by active cell; others
-  /// are cut with them so that neighbours differ by one halving. Cells go to
-  /// the ranks such that
-  /// all have about as much work with the degrees of @p states, which become those of the new mesh. Spaces
-  /// are lost. Collective.
+  /// Cut owned cells of @p body, hexahedra, into eight where @p split, by active cell; others are cut with
+  /// them so that neighbours differ by one halving. Cells go to ranks such that
+  /// all have about as much work with the
+  /// degrees of @p states, which become those of the new mesh. Spaces are lost. Collective.
   void
   split_cells(Body                    &body,
               const std::vector<bool> &split,

@@ -28,8 +28,9 @@ namespace mortise
   ErrorTail
   smooth_tail(double change, double before, double decay);
 
-  /// After a cell was split into ones of @p degree on one of which the solution is smooth: halves have
-  /// 2^-degree of the error or, as the cell was large before, its square root.
+  /// After a cell was split into ones of @p degree, on one of them, where the solution is smooth: halves have
+  /// 2^-degree of the error of a cell that is small enough, of this one its
+  /// square root is taken.
   ErrorTail
   smooth_split_tail(unsigned int degree);
 

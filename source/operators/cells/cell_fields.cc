@@ -1,6 +1,6 @@
 #include <mortise/body/elements/fe_legendre.h>
-#include <mortise/operators/cells/lobatto_table.h>
 #include <mortise/operators/cells/cell_fields.h>
+#include <mortise/operators/cells/lobatto_table.h>
 
 namespace mortise
 {
@@ -112,13 +112,11 @@ namespace mortise
       }
     if (body.pressure)
       {
-        const auto                           own = body.pressure->cell(cell);
-        std::vector<types::global_dof_index> dofs(
-          own->get_fe().n_dofs_per_cell());
-        own->get_dof_indices(dofs);
+        const auto own =
+          scalar_coefficients(body.pressure->cell(cell), solution.pressure);
         TensorArray modes{{{n - 1, n - 1, n - 1}}, {}};
         for (const unsigned int i : shared->pressure_modes)
-          modes.values.push_back(solution.pressure(dofs[i]));
+          modes.values.push_back(own[i]);
         pressures = apply_derivative(shared->pressure_lines, dim, modes).values;
       }
     weights.resize(n_points);

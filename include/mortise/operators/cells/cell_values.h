@@ -34,6 +34,15 @@ namespace mortise
     return coefficients;
   }
 
+  /// Likewise, of a scalar field.
+  inline std::vector<double>
+  scalar_coefficients(const Body::CellIterator &cell, const BodyVector &field)
+  {
+    std::vector<double> coefficients(cell->get_fe().n_dofs_per_cell());
+    cell->get_dof_values(field, coefficients.begin(), coefficients.end());
+    return coefficients;
+  }
+
   /// Gradient at point @p q of a function with these coefficients.
   template <typename Values>
   dealii::Tensor<2, dim>
@@ -71,13 +80,11 @@ namespace mortise
                const Values                      &values,
                const BodyVector                  &pressure)
   {
-    std::vector<dealii::types::global_dof_index> dofs(
-      cell->get_fe().n_dofs_per_cell());
-    cell->get_dof_indices(dofs);
+    const auto          coefficients = scalar_coefficients(cell, pressure);
     std::vector<double> result(values.n_quadrature_points);
     for (unsigned int q = 0; q < result.size(); ++q)
-      for (unsigned int i = 0; i < dofs.size(); ++i)
-        result[q] += pressure(dofs[i]) * values.shape_value(i, q);
+      for (unsigned int i = 0; i < coefficients.size(); ++i)
+        result[q] += coefficients[i] * values.shape_value(i, q);
     return result;
   }
 

@@ -1,0 +1,84 @@
+// What Simulation writes: progress, fields, checkpoints, the summary.
+#include <mortise/output/checkpoint.h>
+#include <mortise/problem/simulation.h>
+
+#include <filesystem>
+
+namespace mortise
+{
+  void
+  Simulation::write_results(const StepFields &fields)
+  {
+    // a later cycle may not come to its end
+    if (adaptivity || steps.output_due() || !report.converged)
+      for (const OutputError &error :
+           files.write(steps.n_done(), steps.time(), *discretisation, fields))
+        unwritten.push_back(error);
+    const unsigned int every = context.parameters.output.checkpoint_every;
+    if (every > 0 && report.converged &&
+        (steps.n_done() % every == 0 || steps.finished()))
+      write_checkpoint(fields);
+  }
+
+  void
+  Simulation::write_checkpoint(const StepFields &fields)
+  {
+    const auto          stage = context.log.stage(context.timers, "checkpoint");
+    const Parameters   &parameters = context.parameters;
+    const RunCheckpoint checkpoint{
+      std::filesystem::absolute(parameters.file).string(),
+      parameters.assignments,
+      steps.time(),
+      steps.longest(),
+      steps.n_done(),
+      summary.steps,
+      files.written()};
+    try
+      {
+        mortise::write_checkpoint(parameters.output.directory,
+                                  {to_text(checkpoint),
+                                   fields.solutions,
+                                   fields.multipliers},
+                                  bodies,
+                                  discretisation->interfaces().all(),
+                                  context.comm);
+      }
+    catch (const OutputError &error)
+      {
+        unwritten.push_back(error);
+      }
+    summary.status = "running";
+    write_summary();
+  }
+
+  void
+  Simulation::print_progress()
+  {
+    const double share = steps.share(), seconds = context.timers.total();
+    const double left =
+      (seconds - clock.seconds) / (share - clock.share) * (1. - share);
+    if (clock.seconds == 0.)
+      clock = {share, seconds}; // the first step made the preconditioner, too
+    context.log.line(
+      "  " + RunLog::number(100. * share) + " % done in " +
+      RunLog::number(seconds) + " s" +
+      (steps.finished() ? "" : ", about " + RunLog::number(left) + " s left"));
+  }
+
+  void
+  Simulation::write_summary()
+  {
+    summary.timings = context.timers.walls(context.comm);
+    summary.memory  = peak_memory_mib(context.comm);
+    try
+      {
+        mortise::write_summary(summary,
+                               context.parameters.output.directory,
+                               context.comm);
+      }
+    catch (const OutputError &error)
+      {
+        unwritten.push_back(error);
+      }
+  }
+} // namespace mortise
