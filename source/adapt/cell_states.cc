@@ -8,7 +8,9 @@
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/operators/cells/cell_fields.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
 
 namespace mortise
 {
@@ -51,7 +53,8 @@ namespace mortise
   void
   set_coefficients(const Bodies                    &bodies,
                    const std::vector<BodySolution> &solutions,
-                   CellStates                      &states)
+                   CellStates                      &states,
+                   const OfState                    coefficients)
   {
     states.resize(bodies.size());
     for (const auto &body : bodies)
@@ -63,16 +66,19 @@ namespace mortise
                     state.degree                 = body.degree(cell);
                     const auto u =
                       cell_coefficients(cell, solution.displacement);
-                    state.coefficients.assign(u.begin(), u.end());
+                    (state.*coefficients).assign(u.begin(), u.end());
                     if (body.pressure)
-                      state.coefficients.push_back(
-                        scalar_coefficients(body.pressure->cell(cell),
-                                            solution.pressure));
+                      (state.*coefficients)
+                        .push_back(
+                          scalar_coefficients(body.pressure->cell(cell),
+                                              solution.pressure));
                   });
   }
 
   std::vector<BodySolution>
-  embedded(const Bodies &bodies, const CellStates &states)
+  embedded(const Bodies     &bodies,
+           const CellStates &states,
+           const OfState     coefficients)
   {
     std::vector<BodySolution> result = zero_solutions(bodies);
     for_each_cell(bodies,
@@ -83,12 +89,12 @@ namespace mortise
                     BodySolution &solution = result[body.index];
                     embed(cell,
                           state.degree,
-                          state.coefficients.data(),
+                          (state.*coefficients).data(),
                           solution.displacement);
                     if (body.pressure)
                       embed(body.pressure->cell(cell),
                             state.degree - 1,
-                            state.coefficients.data() + dim,
+                            (state.*coefficients).data() + dim,
                             solution.pressure);
                   });
     for (const auto &body : bodies)
@@ -100,32 +106,85 @@ namespace mortise
     return result;
   }
 
-  std::vector<std::vector<double>>
+  namespace
+  {
+    /// Integrals over the owned cells of what @p density has at point q of both @p fields, which are those
+    /// of @p solutions.
+    template <std::size_t n, typename Density>
+    NumbersByCell
+    integrals_by_cell(
+      const Bodies                                           &bodies,
+      const std::array<const std::vector<BodySolution> *, n> &solutions,
+      const Density                                          &density)
+    {
+      NumbersByCell result;
+      for (const auto &body : bodies)
+        {
+          auto &of_body =
+            result.emplace_back(body->triangulation().n_active_cells(), 0.);
+          std::vector<std::unique_ptr<CellFields>> fields;
+          for (unsigned int k = 0; k < n; ++k)
+            fields.push_back(std::make_unique<CellFields>(
+              *body, [](const FiniteElement<dim> &element) {
+                return gauss_quadrature<dim>(element, element.degree + 1);
+              }));
+          for (const auto &cell : body->dof_handler.active_cell_iterators())
+            if (cell->is_locally_owned())
+              {
+                for (unsigned int k = 0; k < n; ++k)
+                  fields[k]->reinit(cell, (*solutions[k])[body->index]);
+                for (unsigned int q = 0; q < fields[0]->weights.size(); ++q)
+                  of_body[cell->active_cell_index()] +=
+                    fields[0]->weights[q] *
+                    density(body->material, *fields[0], *fields[n - 1], q);
+              }
+        }
+      return result;
+    }
+
+    double
+    pressure_at(const CellFields &fields, const unsigned int q)
+    {
+      return fields.pressures.empty() ? 0. : fields.pressures[q];
+    }
+  } // namespace
+
+  NumbersByCell
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions)
   {
-    std::vector<std::vector<double>> result;
-    for (const auto &body : bodies)
-      {
-        auto &of_body =
-          result.emplace_back(body->triangulation().n_active_cells(), 0.);
-        CellFields fields(*body, [](const FiniteElement<dim> &element) {
-          return gauss_quadrature<dim>(element, element.degree + 1);
-        });
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              fields.reinit(cell, solutions[body->index]);
-              for (unsigned int q = 0; q < fields.weights.size(); ++q)
-                of_body[cell->active_cell_index()] +=
-                  fields.weights[q] *
-                  body->material.twice_energy(fields.gradients[q],
-                                              fields.pressures.empty() ?
-                                                0. :
-                                                fields.pressures[q]);
-            }
-      }
-    return result;
+    return integrals_by_cell<1>(bodies,
+                                {{&solutions}},
+                                [](const Material   &material,
+                                   const CellFields &fields,
+                                   const CellFields &,
+                                   const unsigned int q) {
+                                  return material.twice_energy(
+                                    fields.gradients[q],
+                                    pressure_at(fields, q));
+                                });
+  }
+
+  NumbersByCell
+  products_by_cell(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &a,
+                   const std::vector<BodySolution> &b)
+  {
+    return integrals_by_cell<2>(
+      bodies,
+      {{&a, &b}},
+      [](const Material    &material,
+         const CellFields  &a,
+         const CellFields  &b,
+         const unsigned int q) {
+        const double p      = pressure_at(a, q);
+        const auto   stress = material.stress(a.gradients[q], p);
+        double result = scalar_product(Tensor<2, dim>(stress), b.gradients[q]);
+        if (material.mixed())
+          result -= pressure_at(b, q) *
+                    (trace(a.gradients[q]) + material.compressibility() * p);
+        return result;
+      });
   }
 
   namespace
@@ -140,15 +199,17 @@ namespace mortise
       result.history.n_rises    = 0;
       result.history.fall       = 1.;
       result.history.error /= GeometryInfo<dim>::max_children_per_cell;
-      for (unsigned int c = 0; c < result.coefficients.size(); ++c)
-        {
-          const auto       &given = state.coefficients[c];
-          const FE_Legendre element(c < dim ? state.degree : state.degree - 1);
-          const dealii::Vector<double> from(given.begin(), given.end());
-          dealii::Vector<double>       to(from.size());
-          element.get_prolongation_matrix(child).vmult(to, from);
-          result.coefficients[c].assign(to.begin(), to.end());
-        }
+      for (const OfState part : {&CellState::coefficients, &CellState::dual})
+        for (unsigned int c = 0; c < (result.*part).size(); ++c)
+          {
+            const auto                  &given = (state.*part)[c];
+            const FE_Legendre            element(c < dim ? state.degree :
+                                                state.degree - 1);
+            const dealii::Vector<double> from(given.begin(), given.end());
+            dealii::Vector<double>       to(from.size());
+            element.get_prolongation_matrix(child).vmult(to, from);
+            (result.*part)[c].assign(to.begin(), to.end());
+          }
       return result;
     }
   } // namespace

@@ -4,7 +4,6 @@
 #include <mortise/body/spaces/thickness_coarsening.h>
 #include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/nodal_system.h>
-#include <mortise/operators/scene_load.h>
 
 #include <algorithm>
 
@@ -214,55 +213,6 @@ namespace mortise
                 !pressure_nodes.space.hanging_nodes().is_constrained(node))
               p.begin()[pressure_nodes.layout.global_to_local(node)] = 1.;
       });
-  }
-
-  void
-  NodalSystem::assemble_load(const std::vector<Loads> &loads,
-                             const FieldNumbering     &numbering,
-                             SceneLoad                &load) const
-  {
-    const NodalLevel   &level = all_levels.front();
-    LevelVector<double> sum;
-    stiffness->initialize(sum);
-    std::vector<NodalSpace::Index> nodes;
-    for (const Body *body : level.space->bodies())
-      {
-        auto orders = cell_orders(*body);
-        for_each_loaded_cell(
-          *body, loads[body->index], [&](const auto &cell, const auto &local) {
-            CellOrder &order = orders[cell->active_fe_index()];
-            level.space->get_nodes(body->index, cell, nodes);
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                for (unsigned int i = 0; i < order.values.size(); ++i)
-                  order.values[i] = local(order.modes[c][i]);
-                order.transform_functional_to_nodes();
-                for (unsigned int i = 0; i < order.values.size(); ++i)
-                  sum.local_element(level.layout->global_to_local(
-                    dim * nodes[order.scalar[i]] + c)) += order.values[i];
-              }
-          });
-      }
-    stiffness->gather(sum);
-    if (Utilities::MPI::max(load.prescribed.empty() ? 0 : 1,
-                            level.layout->get_mpi_communicator()) == 1)
-      {
-        interpolate([&](const unsigned int body, const auto dof) {
-          return prescribed_value(load.prescribed, numbering(body, dof));
-        });
-        if (pressures)
-          {
-            p_in = 0.;
-            apply_mixed_free();
-            copy(load.rhs.pressure, p_out);
-            load.rhs.pressure *= -1.;
-          }
-        else
-          stiffness->vmult_free(out, in);
-        sum -= out;
-      }
-    stiffness->clear_constrained(sum);
-    copy(load.rhs.displacement, sum);
   }
 
   void

@@ -1,6 +1,5 @@
 #include <deal.II/base/mpi.h>
 
-#include <mortise/body/boundary_faces.h>
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/operators/cells/face_values.h>
@@ -161,89 +160,5 @@ namespace mortise
     if (norm < 1e-20 * stress_norm)
       norm = stress_norm;
     return std::sqrt(norm > 0. ? error / norm : error);
-  }
-
-  std::optional<Tensor<1, dim>>
-  point_value(const Body       &body,
-              const BodyVector &displacement,
-              const Point<dim> &point)
-  {
-    // the owner of the lowest rank that has the point answers
-    const MPI_Comm     comm    = body.triangulation().get_communicator();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const unsigned int me      = Utilities::MPI::this_mpi_process(comm);
-    Tensor<1, dim>     result;
-    bool               found = false;
-    for (const auto &cell : body.dof_handler.active_cell_iterators())
-      {
-        if (found || !cell->is_locally_owned() ||
-            (cell->center() - point).norm() > 2. * cell->diameter())
-          continue;
-        Point<dim> unit;
-        try
-          {
-            unit = body.mapping->transform_real_to_unit_cell(cell, point);
-          }
-        catch (const Mapping<dim>::ExcTransformationFailed &)
-          {
-            continue;
-          }
-        if (!cell->reference_cell().contains_point(unit, 1e-8))
-          continue;
-        const FiniteElement<dim> &element = cell->get_fe().base_element(0);
-        const auto coefficients = cell_coefficients(cell, displacement);
-        for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
-          for (unsigned int c = 0; c < dim; ++c)
-            result[c] += coefficients[c][i] * element.shape_value(i, unit);
-        found = true;
-      }
-    const unsigned int answers =
-      Utilities::MPI::min(found ? me : n_ranks, comm);
-    if (answers == n_ranks)
-      return {};
-    return Utilities::MPI::broadcast(comm, result, answers);
-  }
-
-  namespace
-  {
-    struct FieldsOnFace
-    {
-      FieldsOnFace(const Body            &body,
-                   const Quadrature<dim> &rule,
-                   const unsigned int     f)
-        : fields(body, [rule](const auto &) { return rule; })
-        , geometry(body, f, rule)
-      {}
-
-      CellFields   fields;
-      FaceGeometry geometry;
-    };
-  } // namespace
-
-  Tensor<1, dim>
-  resultant(const Body              &body,
-            const BodySolution      &solution,
-            const types::boundary_id boundary)
-  {
-    Tensor<1, dim>       force;
-    ByFace<FieldsOnFace> by_face;
-    for (const auto &[cell, f] : boundary_faces(body, boundary))
-      if (cell->is_locally_owned())
-        {
-          auto &face = by_face[{cell->active_fe_index(), f}];
-          if (!face)
-            face = std::make_unique<FieldsOnFace>(
-              body, face_rule(cell->get_fe(), f, body.degree(cell) + 2), f);
-          face->fields.reinit(cell, solution);
-          face->geometry.reinit(cell);
-          for (unsigned int q = 0; q < face->geometry.points.size(); ++q)
-            force +=
-              face->geometry.weights[q] *
-              (body.material.stress(face->fields.gradients[q],
-                                    body.pressure ? face->fields.pressures[q] :
-                                                    0.) *
-               face->geometry.normals[q]);
-        }
-    return Utilities::MPI::sum(force, body.triangulation().get_communicator());
   }
 } // namespace mortise

@@ -125,8 +125,11 @@ namespace mortise
     void
     visit_members(AdaptivitySummary &adaptivity, const Visit &visit)
     {
+      visit("quantity", adaptivity.quantity);
+      visit("value", adaptivity.value);
       visit("target", adaptivity.target);
       visit("estimate", adaptivity.estimate);
+      visit("correction", adaptivity.correction);
       visit("effectivity", adaptivity.effectivity);
     }
 

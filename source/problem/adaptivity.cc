@@ -52,8 +52,14 @@ namespace mortise
   check_adaptivity(const Parameters &parameters)
   {
     const auto &fields = parameters.output.fields;
+    Quantity::given(parameters);
     if (!parameters.adaptivity.target_error)
       {
+        if (!parameters.adaptivity.quantity.empty())
+          parameters.fail("Adaptivity/Quantity",
+                          in_quotes(parameters.adaptivity.quantity) +
+                            " without Adaptivity/Target error",
+                          "nothing, or give a target");
         if (std::find(fields.begin(), fields.end(), "estimate") != fields.end())
           parameters.fail("Output/Fields",
                           "estimate without Adaptivity/Target error",
@@ -86,6 +92,7 @@ namespace mortise
 
   Adaptivity::Adaptivity(const RunContext &run)
     : run(run)
+    , goal(Quantity::given(run.parameters))
   {}
 
   void
@@ -121,12 +128,58 @@ namespace mortise
     return earlier;
   }
 
-  void
-  Adaptivity::add(const Bodies                    &bodies,
-                  const std::vector<BodySolution> &solutions)
+  const std::vector<BodySolution> &
+  Adaptivity::dual_start(const Bodies &bodies)
   {
-    const auto   energy = energy_by_cell(bodies, solutions);
-    const double norm   = std::sqrt(sum(energy, run.comm));
+    if (cycle > 0)
+      earlier_dual = embedded(bodies, states, &CellState::dual);
+    return earlier_dual;
+  }
+
+  namespace
+  {
+    /// a -= b.
+    void
+    subtract(std::vector<BodySolution> &a, const std::vector<BodySolution> &b)
+    {
+      for (unsigned int i = 0; i < a.size(); ++i)
+        for (const auto part :
+             {&BodySolution::displacement, &BodySolution::pressure})
+          if ((b[i].*part).size() > 0)
+            {
+              a[i].*part -= b[i].*part;
+              (a[i].*part).update_ghost_values();
+            }
+    }
+
+    /// Cell by cell the square of the energy norm of @p u, or with a dual solution @p z its product with that
+    /// of @p z.
+    NumbersByCell
+    measure(const Bodies                    &bodies,
+            const std::vector<BodySolution> &u,
+            const std::vector<BodySolution> &z)
+    {
+      NumbersByCell result = energy_by_cell(bodies, u);
+      if (z.empty())
+        return result;
+      const NumbersByCell dual = energy_by_cell(bodies, z);
+      for (unsigned int b = 0; b < result.size(); ++b)
+        for (unsigned int k = 0; k < result[b].size(); ++k)
+          result[b][k] = std::sqrt(result[b][k] * dual[b][k]);
+      return result;
+    }
+  } // namespace
+
+  void
+  Adaptivity::add(const Bodies                      &bodies,
+                  const std::vector<BodySolution>   &solutions,
+                  const std::optional<DualSolution> &dual)
+  {
+    const std::vector<BodySolution> none;
+    const auto                      energy =
+      measure(bodies, solutions, dual ? dual->solutions : none);
+    const double norm =
+      dual ? std::fabs(dual->value) : std::sqrt(sum(energy, run.comm));
     set_coefficients(bodies, solutions, states);
     if (cycle == 0)
       for_each_cell(bodies,
@@ -136,46 +189,81 @@ namespace mortise
                       state.history.change = state.history.error =
                         energy[body.index][cell->active_cell_index()];
                     });
-    double calibration = 1.;
+    double calibration = 1., share = 1.;
     if (cycle > 0)
       {
-        const double before = squared_error, change = learn(bodies, solutions);
-        squared_error = 0.;
+        const double before = squared_error,
+                     change = learn(bodies, solutions, dual);
+        squared_error       = 0.;
+        double with_sign = 0., error = 0.;
         for_each_cell(bodies,
                       states,
                       [&](const Body &, const auto &, const CellState &state) {
                         squared_error += state.history.error;
+                        with_sign += state.history.share * state.history.error;
                       });
         squared_error = Utilities::MPI::sum(squared_error, run.comm);
-        if (cycle > 1 && before > 0.)
-          calibration = calibration_by((change + squared_error) / before);
-        estimated =
-          calibration * std::sqrt(squared_error) / (norm > 0. ? norm : 1.);
+        with_sign     = Utilities::MPI::sum(with_sign, run.comm);
+        if (dual)
+          {
+            run.log.line("DEBUG cycle " + std::to_string(cycle) + " value " +
+                         std::to_string(dual->value) + " delta " +
+                         RunLog::number(dual->value - last_value) +
+                         " sum of products " + RunLog::number(debug_sum) +
+                         " unsigned " + RunLog::number(change) + " S " +
+                         RunLog::number(with_sign) + " U " +
+                         RunLog::number(squared_error) + " last S " +
+                         RunLog::number(signed_error.value_or(0.)));
+            signed_error = with_sign;
+            error        = std::max(std::fabs(with_sign), 0.1 * squared_error);
+            share        = squared_error > 0. ? error / squared_error : 1.;
+          }
+        else
+          {
+            if (cycle > 1 && before > 0.)
+              calibration = calibration_by((change + squared_error) / before);
+            error = calibration * std::sqrt(squared_error);
+          }
+        estimated = error / (norm > 0. ? norm : 1.);
+      }
+    if (dual)
+      {
+        set_coefficients(bodies, dual->solutions, states, &CellState::dual);
+        last_value = dual->value;
       }
     ++cycle;
     const double allowed =
       *run.parameters.adaptivity.target_error * norm / calibration;
     if (!reached())
-      choose(bodies, allowed * allowed);
+      choose(bodies, dual ? allowed / share : allowed * allowed);
   }
 
   double
-  Adaptivity::learn(const Bodies                    &bodies,
-                    const std::vector<BodySolution> &solutions)
+  Adaptivity::learn(const Bodies                      &bodies,
+                    const std::vector<BodySolution>   &solutions,
+                    const std::optional<DualSolution> &dual)
   {
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      {
-        earlier[b].displacement -= solutions[b].displacement;
-        earlier[b].displacement.update_ghost_values();
-        if (bodies[b]->pressure)
-          {
-            earlier[b].pressure -= solutions[b].pressure;
-            earlier[b].pressure.update_ghost_values();
-          }
-      }
-    const auto changes = energy_by_cell(bodies, earlier);
-    earlier.clear();
+    subtract(earlier, solutions);
+    if (dual)
+      subtract(earlier_dual, dual->solutions);
+    const auto changes = measure(bodies, earlier, earlier_dual);
     estimate_errors(bodies, changes, cycle == 1, states);
+    if (dual)
+      {
+        const auto products = products_by_cell(bodies, earlier, earlier_dual);
+        debug_sum           = sum(products, run.comm);
+        for_each_cell(
+          bodies,
+          states,
+          [&](const Body &body, const auto &cell, CellState &state) {
+            const unsigned int k = cell->active_cell_index();
+            if (state.history.is_refined && changes[body.index][k] > 0.)
+              state.history.share =
+                products[body.index][k] / changes[body.index][k];
+          });
+      }
+    earlier.clear();
+    earlier_dual.clear();
     return sum(changes, run.comm);
   }
 
@@ -209,15 +297,52 @@ namespace mortise
     std::vector<std::vector<double>> result;
     if (!estimated)
       return result;
+    const auto part = [&](const double error) {
+      return goal ? error : std::sqrt(error);
+    };
     const double factor =
-      squared_error > 0. ? *estimated / std::sqrt(squared_error) : 0.;
+      squared_error > 0. ? *estimated / part(squared_error) : 0.;
     for (const auto &of_body : states)
       {
         result.emplace_back();
         for (const CellState &state : of_body)
-          result.back().push_back(factor * std::sqrt(state.history.error));
+          result.back().push_back(factor * part(state.history.error));
       }
     return result;
+  }
+
+  AdaptivitySummary
+  Adaptivity::summary(const Bodies                      &bodies,
+                      const ExactSolution               *exact,
+                      const std::optional<ErrorSummary> &errors) const
+  {
+    AdaptivitySummary result;
+    result.target   = *run.parameters.adaptivity.target_error;
+    result.estimate = estimated;
+    std::optional<double> error;
+    if (errors && !goal)
+      error = errors->energy;
+    if (goal)
+      {
+        result.quantity   = goal->name();
+        result.value      = last_value;
+        result.correction = signed_error;
+        if (exact)
+          error = std::fabs(goal->value(bodies, *exact) - last_value) /
+                  (last_value != 0. ? std::fabs(last_value) : 1.);
+      }
+    if (estimated && error && *error > 0.)
+      result.effectivity = *estimated / *error;
+    return result;
+  }
+
+  std::string
+  Adaptivity::found() const
+  {
+    return (goal ? goal->name() + " = " + RunLog::number(last_value) + ", " :
+                   std::string()) +
+           "estimated error " + RunLog::number(*estimated) + ", target " +
+           RunLog::number(*run.parameters.adaptivity.target_error);
   }
 
   std::string

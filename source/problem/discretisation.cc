@@ -215,6 +215,17 @@ namespace mortise
     return load;
   }
 
+  SceneLoad
+  Discretisation::load(const Body            &body,
+                       const CellFunctionals &functionals) const
+  {
+    SceneLoad load{system.zero_vector(), {}};
+    system.nodal->assemble_functional(body, functionals, load.rhs);
+    if (system.mixed())
+      system.free_pressures.project_residual(load.rhs.pressure);
+    return load;
+  }
+
   std::vector<BodySolution>
   Discretisation::solutions(const SceneLoad    &load,
                             const SystemVector &solution) const

@@ -200,10 +200,16 @@ namespace mortise
       section.add(
         "Target error",
         adaptivity.target_error,
-        "Error of the displacements in the energy norm beside their own, as it is estimated, at which the run ends [-]. "
-        "Empty: degrees are those that are given.",
+        "Error of the displacements in the energy norm beside their own, or of Quantity beside its value, as it is estimated, at "
+        "which the run ends [-]. Empty: degrees are those that are given.",
         {"a number between 0 and 1, both excluded",
          [](double error) { return error > 0. && error < 1.; }});
+      section.add(
+        "Quantity",
+        adaptivity.quantity,
+        "The number that Target error is of: a component of an entry of Output/Points or Output/Resultants. Meshes become fine and "
+        "degrees high where errors have a part in it. Empty: the displacements, in the energy norm.",
+        {"\"NAME, x\", \"NAME, y\" or \"NAME, z\""});
       section.add(
         "Strategy",
         adaptivity.strategy,

@@ -69,7 +69,8 @@ namespace mortise
     print_adaptivity(RunLog &log, const AdaptivitySummary &adaptivity)
     {
       log.line();
-      Rows rows = {{"relative error, energy", ""},
+      Rows rows = {{"relative error, " + adaptivity.quantity.value_or("energy"),
+                    ""},
                    {"target", RunLog::number(adaptivity.target)}};
       if (adaptivity.estimate)
         rows.push_back({"estimate", RunLog::number(*adaptivity.estimate)});

@@ -156,6 +156,23 @@ namespace mortise
     return solution;
   }
 
+  void
+  Simulation::learn(StepFields &fields)
+  {
+    std::optional<DualSolution> dual;
+    if (const auto &quantity = adaptivity->quantity())
+      dual = solve_dual(context,
+                        *discretisation,
+                        *solver,
+                        *quantity,
+                        fields.solutions,
+                        adaptivity->dual_start(bodies));
+    adaptivity->add(bodies, fields.solutions, dual);
+    if (dual)
+      report.converged = report.converged && dual->report.converged;
+    fields.estimates = adaptivity->cell_estimates();
+  }
+
   StepSummary
   Simulation::summarise(const SolvedStep &solved, const StepFields &fields)
   {
@@ -172,22 +189,15 @@ namespace mortise
                      {},
                      {}};
     if (adaptivity)
-      {
-        result.cycle = summary.steps.size();
-        result.adaptivity.emplace();
-        result.adaptivity->target   = *parameters.adaptivity.target_error;
-        result.adaptivity->estimate = adaptivity->estimate();
-      }
+      result.cycle = summary.steps.size();
     if (contact)
       {
         result.solver->active_sets       = contact->n_sets();
         result.solver->linear_iterations = contact->linear_iterations();
       }
     evaluate_step(context, *discretisation, solved, fields, result);
-    if (adaptivity && adaptivity->estimate() && result.errors &&
-        *result.errors->energy > 0.)
-      result.adaptivity->effectivity =
-        *adaptivity->estimate() / *result.errors->energy;
+    if (adaptivity)
+      result.adaptivity = adaptivity->summary(bodies, solved.data.exact().get(), result.errors);
     field_checks.throw_if_any(context.comm);
     const std::string not_finite = first_not_finite(result);
     if (report.converged && !not_finite.empty())
@@ -227,10 +237,7 @@ namespace mortise
                                         std::vector<bool>()};
       fields = step_fields(context, *discretisation, solved);
       if (adaptivity)
-        {
-          adaptivity->add(bodies, fields.solutions);
-          fields.estimates = adaptivity->cell_estimates();
-        }
+        learn(fields);
       summary.steps.push_back(summarise(solved, fields));
     }
     state = std::move(next);
@@ -258,10 +265,8 @@ namespace mortise
         context.log.line("cycle " + std::to_string(summary.steps.size()));
         discretise();
         step(writes);
-        if (const auto &estimate = adaptivity->estimate())
-          context.log.line("  estimated error " + RunLog::number(*estimate) +
-                           ", target " +
-                           RunLog::number(*parameters.adaptivity.target_error));
+        if (adaptivity->estimate())
+          context.log.line("  " + adaptivity->found());
       }
     while (!is_last_cycle());
     summary.status = !report.converged     ? "not converged" :

@@ -1,3 +1,4 @@
+#include <mortise/output/functionals.h>
 #include <mortise/problem/contact_results.h>
 #include <mortise/problem/step_results.h>
 

@@ -12,11 +12,15 @@ namespace mortise
   struct CellHistory
   {
     unsigned int degree = 0;
-    /// Squares of the energy norm: by how much its last refinement changed the
-    /// solution, first that of the solution itself; what is estimated to be
-    /// left of the error, and by which factor another such refinement makes it
-    /// smaller.
+    /// Squares of the energy norm, or for the error of a quantity products of
+    /// that of the solution and that of its dual problem: by how much its last
+    /// refinement changed the solution, first that of the solution itself; what
+    /// is estimated to be left of the error, and by which factor another such
+    /// refinement makes it smaller.
     double change = 0., error = 0., ratio = 1.;
+    /// What the last refinement brought to the quantity by the change: between
+    /// -1 and 1 but in mixed form. One without a quantity.
+    double share = 1.;
     /// The change of the last rise of the degree by that of the rise before it,
     /// of cells that have not been split since; before the first rise one.
     double fall = 1.;
@@ -30,18 +34,20 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &fall &n_rises &is_refined
+      archive &degree &change &error &ratio &share &fall &n_rises &is_refined
         &is_split;
     }
   };
 
   struct CellState
   {
-    CellHistory history;
     /// Of the displacement, component by component, and of the pressure in
     /// mixed form, in the order of the scalar elements of the degree that the
     /// cell had when they were taken.
-    std::vector<std::vector<double>> coefficients;
+    using Coefficients = std::vector<std::vector<double>>;
+
+    CellHistory  history;
+    Coefficients coefficients, dual; ///< the latter with a quantity
 
     /// That degree.
     unsigned int degree = 0;
@@ -50,7 +56,7 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &history &coefficients &degree;
+      archive &history &coefficients &dual &degree;
     }
   };
 
@@ -58,23 +64,38 @@ namespace mortise
   /// owned.
   using CellStates = std::vector<std::vector<CellState>>;
 
+  /// Coefficients that a state has.
+  using OfState = CellState::Coefficients CellState::*;
+
   /// Take the coefficients of @p solutions into @p states, which become as many as there
   /// are cells.
   void
   set_coefficients(const Bodies                    &bodies,
                    const std::vector<BodySolution> &solutions,
-                   CellStates                      &states);
+                   CellStates                      &states,
+                   OfState coefficients = &CellState::coefficients);
 
   /// The fields with the coefficients of @p states in the spaces that @p bodies have now, of the same or
   /// higher degrees. Collective.
   std::vector<BodySolution>
-  embedded(const Bodies &bodies, const CellStates &states);
+  embedded(const Bodies     &bodies,
+           const CellStates &states,
+           OfState           coefficients = &CellState::coefficients);
 
-  /// Squares of the energy norm (SolutionErrors::energy) of @p solutions by body and active cell, zero
-  /// where a cell is not owned.
-  std::vector<std::vector<double>>
+  /// By body and active cell, zero where a cell is not owned.
+  using NumbersByCell = std::vector<std::vector<double>>;
+
+  /// Squares of the energy norm (SolutionErrors::energy) of @p solutions.
+  NumbersByCell
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions);
+
+  /// What the operator of a scene has between @p a and @p b: without pressures the product that belongs to
+  /// the energy norm.
+  NumbersByCell
+  products_by_cell(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &a,
+                   const std::vector<BodySolution> &b);
 
   /// Cut owned cells of @p body, hexahedra, into eight where @p split, by active cell; others are cut with
   /// them so that neighbours differ by one halving. Cells go to ranks such that

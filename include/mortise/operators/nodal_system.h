@@ -6,6 +6,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <Epetra_Vector.h>
+#include <mortise/operators/cell_functional.h>
 #include <mortise/operators/levels/clamped_cell_pressures.h>
 #include <mortise/operators/levels/leading_displacements.h>
 #include <mortise/operators/levels/nodal_pressure.h>
@@ -18,6 +19,7 @@ namespace mortise
 {
   struct Loads;
   struct SceneLoad;
+  struct SystemVector;
 
   class NodalSystem
   {
@@ -131,6 +133,13 @@ namespace mortise
     assemble_load(const std::vector<Loads> &loads,
                   const FieldNumbering     &numbering,
                   SceneLoad                &load) const;
+
+    /// Set @p rhs to the sum of @p functionals on cells of @p body, zero where constrained.
+    /// Collective.
+    void
+    assemble_functional(const Body            &body,
+                        const CellFunctionals &functionals,
+                        SystemVector          &rhs) const;
 
     /// A hierarchical coefficient, by body and dof.
     using Coefficients =

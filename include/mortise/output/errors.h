@@ -1,4 +1,4 @@
-// Errors against an exact solution, and functionals of a solution.
+// Errors against an exact solution.
 #pragma once
 
 #include <mortise/base/types.h>
@@ -50,17 +50,4 @@ namespace mortise
     const std::vector<TiedBodies>                       &tied,
     const std::vector<std::vector<std::vector<double>>> &coefficients,
     const ExactSolution                                 &exact);
-
-  /// Displacement at a point of a body; absent if the point lies outside
-  /// (farther than rounding). Collective.
-  std::optional<dealii::Tensor<1, dim>>
-  point_value(const Body               &body,
-              const BodyVector         &displacement,
-              const dealii::Point<dim> &point);
-
-  /// Force on a boundary, int sigma_h n. Collective.
-  dealii::Tensor<1, dim>
-  resultant(const Body                &body,
-            const BodySolution        &solution,
-            dealii::types::boundary_id boundary);
 } // namespace mortise

@@ -96,11 +96,15 @@ namespace mortise
     std::optional<double> pressure_l2; ///< with bodies in mixed form
   };
 
-  /// Relative errors in the energy norm.
+  /// Relative errors in the energy norm, or of a quantity.
   struct AdaptivitySummary
   {
-    double                target = 0.;
-    std::optional<double> estimate; ///< absent in the first cycle
+    std::optional<std::string> quantity; ///< "tip, z"; absent: energy norm
+    std::optional<double>      value;    ///< of the quantity
+    double                     target = 0.;
+    std::optional<double>      estimate; ///< absent in the first cycle
+    std::optional<double>
+      correction; ///< of the quantity: what is to be added, as estimated
     std::optional<double>
       effectivity; ///< over the error, with an exact solution
   };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <mortise/adapt/cell_states.h>
+#include <mortise/problem/quantity.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/scene_spaces.h>
 
@@ -40,22 +41,54 @@ namespace mortise
     const std::vector<BodySolution> &
     start(const Bodies &bodies);
 
-    /// The next cycle has been solved on @p bodies, which still have its spaces. Collective.
-    void
-    add(const Bodies &bodies, const std::vector<BodySolution> &solutions);
+    /// Likewise, of the dual problem of quantity(). Collective.
+    const std::vector<BodySolution> &
+    dual_start(const Bodies &bodies);
 
-    /// Energy norm of the error beside that of the solution; nothing in the
-    /// first cycle.
+    /// That the target is of; nothing: the energy norm.
+    const std::optional<Quantity> &
+    quantity() const
+    {
+      return goal;
+    }
+
+    /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: with a
+    /// quantity(). Collective.
+    void
+    add(const Bodies                      &bodies,
+        const std::vector<BodySolution>   &solutions,
+        const std::optional<DualSolution> &dual);
+
+    /// Error of the quantity beside its value, or in the energy norm beside
+    /// that of the solution; nothing in the first cycle.
     const std::optional<double> &
     estimate() const
     {
       return estimated;
     }
 
-    /// Energy norm of the error on each cell beside that of the whole solution,
+    /// What is to be added to the quantity, as estimated; nothing without one
+    /// and in the first cycle.
+    const std::optional<double> &
+    correction() const
+    {
+      return signed_error;
+    }
+
+    /// The part of each cell in the error, beside the same as estimate(),
     /// by body and active cell; empty in the first cycle.
     std::vector<std::vector<double>>
     cell_estimates() const;
+
+    /// The last cycle; @p exact may be null, @p errors are those of the whole solution. Collective.
+    AdaptivitySummary
+    summary(const Bodies                      &bodies,
+            const ExactSolution               *exact,
+            const std::optional<ErrorSummary> &errors) const;
+
+    /// Estimate and target, in words.
+    std::string
+    found() const;
 
     bool
     reached() const
@@ -79,18 +112,23 @@ namespace mortise
     /// Histories from the change that the refinement before this cycle made;
     /// its square over all cells. Collective.
     double
-    learn(const Bodies &bodies, const std::vector<BodySolution> &solutions);
+    learn(const Bodies                      &bodies,
+          const std::vector<BodySolution>   &solutions,
+          const std::optional<DualSolution> &dual);
     /// The next degrees and splits; @p allowed: square of the error. Collective.
     void
     choose(const Bodies &bodies, double allowed);
 
     const RunContext              &run;
+    const std::optional<Quantity>  goal;
     unsigned int                   cycle = 0;
     CellStates                     states;
     std::vector<std::vector<bool>> splits;
-    std::vector<BodySolution>      earlier;
+    std::vector<BodySolution>      earlier, earlier_dual;
     double                squared_error = 0.; ///< of all cells, not calibrated
-    std::optional<double> estimated;
+    double debug_sum = 0.;
+    double                last_value = 0.; ///< of the quantity
+    std::optional<double> estimated, signed_error;
     std::string           stopped_by;
   };
 } // namespace mortise

@@ -29,6 +29,11 @@ namespace mortise
     SceneLoad
     load(const SceneData &data) const;
 
+    /// The right hand side that is the sum of @p functionals on cells of @p body, nothing
+    /// prescribed. Collective.
+    SceneLoad
+    load(const Body &body, const CellFunctionals &functionals) const;
+
     /// Let the constraints of @p active multipliers hold, by owned one; the others
     /// are zero. LinearSolver::update_active() must follow. Collective.
     void

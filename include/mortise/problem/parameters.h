@@ -115,7 +115,8 @@ namespace mortise
   /// Meshes and degrees that follow from the error that is asked for.
   struct AdaptivityParameters
   {
-    std::optional<double> target_error; ///< relative, in energy; absent: none
+    std::optional<double> target_error; ///< relative; absent: none
+    std::string           quantity;     ///< "NAME, x"; empty: energy norm
     std::string           strategy       = "hp";
     double                most_unknowns  = 2e6;
     unsigned int          largest_degree = max_degree;

@@ -73,6 +73,9 @@ namespace mortise
     restore(const std::string &directory);
     SystemVector
     solve(const SceneLoad &load);
+    /// Tell how the cycle changed the solution, and that of a quantity.
+    void
+    learn(StepFields &fields);
     StepSummary
     summarise(const SolvedStep &solved, const StepFields &fields);
     void

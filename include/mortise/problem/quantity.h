@@ -1,0 +1,79 @@
+// The number whose error a run with a target is to make small, and its dual
+// problem: whose solution says what an error anywhere does to it. Source:
+// Becker and Rannacher, An optimal control approach to a posteriori error
+// estimation (2001).
+#pragma once
+
+#include <mortise/output/functionals.h>
+#include <mortise/problem/discretisation.h>
+#include <mortise/solvers/linear_solver.h>
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace mortise
+{
+  class Quantity
+  {
+  public:
+    /// Nothing where Adaptivity/Quantity is empty; throws InputError where it
+    /// names nothing.
+    static std::optional<Quantity>
+    given(const Parameters &parameters);
+
+    /// "tip, z".
+    const std::string &
+    name() const
+    {
+      return text;
+    }
+
+    /// Throws InputError where a point lies outside its body. Collective.
+    double
+    value(const Bodies                    &bodies,
+          const std::vector<BodySolution> &solutions) const;
+
+    double
+    value(const Bodies &bodies, const ExactSolution &exact) const;
+
+    /// The derivative by the coefficients of body(). Throws InputError where a
+    /// point lies outside. Collective.
+    CellFunctionals
+    derivative(const Bodies &bodies) const;
+
+    unsigned int
+    body() const;
+
+  private:
+    Quantity(const Parameters &parameters, const std::string &name);
+
+    [[noreturn]] void
+    fail_outside(const Bodies &bodies) const;
+
+    const Parameters *parameters;
+    std::string       text;
+    unsigned int      component = 0;
+
+    std::variant<PointQuantity, ResultantQuantity> quantity;
+  };
+
+  /// What a quantity is in one cycle.
+  struct DualSolution
+  {
+    double                    value = 0.;
+    std::vector<BodySolution> solutions; ///< by body
+    SolveReport               report;
+  };
+
+  /// Solve the system of @p discretisation, whose last @p solution that is, for the derivative of
+  /// @p quantity; @p start may be empty. Collective.
+  DualSolution
+  solve_dual(const RunContext                &run,
+             const Discretisation            &discretisation,
+             LinearSolver                    &solver,
+             const Quantity                  &quantity,
+             const std::vector<BodySolution> &solutions,
+             const std::vector<BodySolution> &start);
+} // namespace mortise

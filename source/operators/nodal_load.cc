@@ -1,0 +1,152 @@
+// Loads and other functionals of the fields, by node: members of NodalSystem.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/operators/cells/cell_order.h>
+#include <mortise/operators/nodal_system.h>
+#include <mortise/operators/scene_load.h>
+
+#include <algorithm>
+#include <map>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Adds what functionals have on cells to nodes.
+    class FunctionalByNode
+    {
+    public:
+      FunctionalByNode(const NodalSpace                  &space,
+                       const Utilities::MPI::Partitioner &layout,
+                       LevelVector<double>               &sum)
+        : space(space)
+        , layout(layout)
+        , sum(sum)
+      {}
+
+      /// @p local: by dof of a displacement on @p cell of @p body.
+      void
+      add_displacement(const Body                   &body,
+                       const Body::CellIterator     &cell,
+                       const dealii::Vector<double> &local)
+      {
+        CellOrder &order = order_of(body, cell);
+        space.get_nodes(body.index, cell, nodes);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            for (unsigned int i = 0; i < order.values.size(); ++i)
+              order.values[i] = local(order.modes[c][i]);
+            order.transform_functional_to_nodes();
+            for (unsigned int i = 0; i < order.values.size(); ++i)
+              sum.local_element(layout.global_to_local(
+                dim * nodes[order.scalar[i]] + c)) += order.values[i];
+          }
+      }
+
+      /// @p local: by dof of the pressure on @p cell, one of the displacement.
+      void
+      add_pressure(const Body                   &body,
+                   const Body::CellIterator     &cell,
+                   const dealii::Vector<double> &local)
+      {
+        CellOrder &order = order_of(body, body.pressure->cell(cell));
+        space.get_nodes(body.index, cell, nodes);
+        for (unsigned int i = 0; i < order.values.size(); ++i)
+          order.values[i] = local(order.scalar[i]);
+        order.transform_functional_to_nodes();
+        for (unsigned int i = 0; i < order.values.size(); ++i)
+          sum.local_element(layout.global_to_local(nodes[order.scalar[i]])) +=
+            order.values[i];
+      }
+
+    private:
+      CellOrder &
+      order_of(const Body &body, const Body::CellIterator &cell)
+      {
+        return orders
+          .try_emplace({body.index, cell->active_fe_index()}, cell->get_fe())
+          .first->second;
+      }
+
+      const NodalSpace                  &space;
+      const Utilities::MPI::Partitioner &layout;
+      LevelVector<double>               &sum;
+      std::vector<NodalSpace::Index>     nodes;
+      std::map<std::pair<unsigned int, unsigned int>, CellOrder>
+        orders; ///< by body and element
+    };
+  } // namespace
+
+  void
+  NodalSystem::assemble_load(const std::vector<Loads> &loads,
+                             const FieldNumbering     &numbering,
+                             SceneLoad                &load) const
+  {
+    const NodalLevel   &level = all_levels.front();
+    LevelVector<double> sum;
+    stiffness->initialize(sum);
+    FunctionalByNode by_node(*level.space, *level.layout, sum);
+    for (const Body *body : level.space->bodies())
+      for_each_loaded_cell(*body,
+                           loads[body->index],
+                           [&](const auto &cell, const auto &local) {
+                             by_node.add_displacement(*body, cell, local);
+                           });
+    stiffness->gather(sum);
+    if (Utilities::MPI::max(load.prescribed.empty() ? 0 : 1,
+                            level.layout->get_mpi_communicator()) == 1)
+      {
+        interpolate([&](const unsigned int body, const auto dof) {
+          return prescribed_value(load.prescribed, numbering(body, dof));
+        });
+        if (pressures)
+          {
+            p_in = 0.;
+            apply_mixed_free();
+            std::copy_n(p_out.begin(),
+                        p_out.locally_owned_size(),
+                        load.rhs.pressure.begin());
+            load.rhs.pressure *= -1.;
+          }
+        else
+          stiffness->vmult_free(out, in);
+        sum -= out;
+      }
+    stiffness->clear_constrained(sum);
+    std::copy_n(sum.begin(),
+                sum.locally_owned_size(),
+                load.rhs.displacement.begin());
+  }
+
+  void
+  NodalSystem::assemble_functional(const Body            &body,
+                                   const CellFunctionals &functionals,
+                                   SystemVector          &rhs) const
+  {
+    const NodalLevel   &level = all_levels.front();
+    LevelVector<double> sum;
+    stiffness->initialize(sum);
+    FunctionalByNode by_node(*level.space, *level.layout, sum);
+    for (const CellFunctional &on_cell : functionals)
+      by_node.add_displacement(body, on_cell.cell, on_cell.displacement);
+    stiffness->gather(sum);
+    stiffness->clear_constrained(sum);
+    std::copy_n(sum.begin(),
+                sum.locally_owned_size(),
+                rhs.displacement.begin());
+    if (!pressures)
+      return;
+    pressures->initialize(sum);
+    const auto       pressure_nodes = pressures->nodes();
+    FunctionalByNode by_pressure_node(pressure_nodes.space,
+                                      pressure_nodes.layout,
+                                      sum);
+    for (const CellFunctional &on_cell : functionals)
+      if (on_cell.pressure.size() > 0)
+        by_pressure_node.add_pressure(body, on_cell.cell, on_cell.pressure);
+    pressures->gather(sum);
+    std::copy_n(sum.begin(), sum.locally_owned_size(), rhs.pressure.begin());
+  }
+} // namespace mortise

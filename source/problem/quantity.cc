@@ -1,0 +1,170 @@
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <mortise/base/quotes.h>
+#include <mortise/problem/quantity.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string components_of_quantities = "xyz";
+
+    template <typename Quantities>
+    std::string
+    add_names(const Quantities &quantities, std::string names)
+    {
+      for (const auto &quantity : quantities)
+        names += (names.empty() ? "" : ", ") + quantity.name;
+      return names;
+    }
+  } // namespace
+
+  std::optional<Quantity>
+  Quantity::given(const Parameters &parameters)
+  {
+    const std::string &name = parameters.adaptivity.quantity;
+    if (name.empty())
+      return {};
+    return Quantity(parameters, name);
+  }
+
+  Quantity::Quantity(const Parameters &parameters, const std::string &name)
+    : parameters(&parameters)
+  {
+    const OutputParameters &output = parameters.output;
+    const auto              fail   = [&](const std::string &got) {
+      const std::string names =
+        add_names(output.resultants, add_names(output.points, ""));
+      parameters.fail(
+        "Adaptivity/Quantity",
+        got,
+        names.empty() ?
+                         "an entry of Output/Points or Output/Resultants, of which there is "
+                         "none, with a component: \"NAME, x\"" :
+                         "one of " + names +
+            " (entries of Output/Points and Output/Resultants), with "
+                           "a component: \"NAME, x\", y or z");
+    };
+    const std::size_t comma = name.rfind(',');
+    if (comma == std::string::npos)
+      fail(in_quotes(name) + ", without a component");
+    const std::string of = Utilities::trim(name.substr(0, comma)),
+                      c  = Utilities::trim(name.substr(comma + 1));
+    if (c.size() != 1 || components_of_quantities.find(c) == std::string::npos)
+      fail(in_quotes(name) + " with component " + in_quotes(c));
+    component        = components_of_quantities.find(c);
+    text             = of + ", " + c;
+    bool       found = false;
+    const auto take  = [&](const auto &quantities) {
+      for (const auto &any : quantities)
+        if (any.name == of)
+          {
+            quantity = any;
+            found    = true;
+          }
+    };
+    take(output.points);
+    take(output.resultants);
+    if (!found)
+      fail(in_quotes(of));
+  }
+
+  void
+  Quantity::fail_outside(const Bodies &bodies) const
+  {
+    parameters->fail("Adaptivity/Quantity",
+                     in_quotes(text) + ", whose point lies outside of body " +
+                       in_quotes(bodies[body()]->name),
+                     "a point of Output/Points in its body");
+  }
+
+  unsigned int
+  Quantity::body() const
+  {
+    return std::visit([](const auto &any) { return any.body; }, quantity);
+  }
+
+  double
+  Quantity::value(const Bodies                    &bodies,
+                  const std::vector<BodySolution> &solutions) const
+  {
+    const Body         &body     = *bodies[this->body()];
+    const BodySolution &solution = solutions[body.index];
+    if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
+      return resultant(body,
+                       solution,
+                       body.boundary_id(force->boundary, ""))[component];
+    const auto value = point_value(body,
+                                   solution.displacement,
+                                   std::get<PointQuantity>(quantity).point);
+    if (!value)
+      fail_outside(bodies);
+    return (*value)[component];
+  }
+
+  double
+  Quantity::value(const Bodies &bodies, const ExactSolution &exact) const
+  {
+    const Body &body = *bodies[this->body()];
+    if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
+      return resultant(body,
+                       exact,
+                       body.boundary_id(force->boundary, ""))[component];
+    return exact.displacement(std::get<PointQuantity>(quantity).point,
+                              body.index)[component];
+  }
+
+  CellFunctionals
+  Quantity::derivative(const Bodies &bodies) const
+  {
+    const Body &body = *bodies[this->body()];
+    if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
+      return resultant_functional(body,
+                                  body.boundary_id(force->boundary, ""),
+                                  component);
+    CellFunctionals result =
+      point_functional(body,
+                       std::get<PointQuantity>(quantity).point,
+                       component);
+    if (Utilities::MPI::max(result.empty() ? 0 : 1,
+                            body.triangulation().get_communicator()) == 0)
+      fail_outside(bodies);
+    return result;
+  }
+
+  DualSolution
+  solve_dual(const RunContext                &run,
+             const Discretisation            &discretisation,
+             LinearSolver                    &solver,
+             const Quantity                  &quantity,
+             const std::vector<BodySolution> &solutions,
+             const std::vector<BodySolution> &start)
+  {
+    DualSolution    result;
+    const Bodies   &bodies = discretisation.bodies();
+    const SceneLoad load   = discretisation.load(*bodies[quantity.body()],
+                                               quantity.derivative(bodies));
+    result.value           = quantity.value(bodies, solutions);
+    SystemVector z;
+    if (start.empty())
+      result.report = solver.solve(load.rhs, z);
+    else
+      {
+        z             = discretisation.system_vector(start, load);
+        result.report = solver.solve_from(load.rhs, z);
+      }
+    result.solutions = discretisation.solutions(load, z);
+    run.timers.add("dual", result.report.solve_seconds);
+    run.log.stage_line("dual",
+                       result.report.solve_seconds,
+                       std::to_string(result.report.iterations) +
+                         " iterations, residual " +
+                         RunLog::number(result.report.relative_residual));
+    return result;
+  }
+} // namespace mortise
