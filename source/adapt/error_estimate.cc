@@ -1,7 +1,10 @@
+#include <deal.II/base/mpi.h>
+
 #include <mortise/adapt/error_estimate.h>
 #include <mortise/adapt/error_tail.h>
 #include <mortise/adapt/smoothness.h>
 
+#include <array>
 #include <cmath>
 
 namespace mortise
@@ -82,10 +85,10 @@ namespace mortise
   }
 
   void
-  estimate_errors(const Bodies                           &bodies,
-                  const std::vector<std::vector<double>> &changes,
-                  const bool                              is_first,
-                  CellStates                             &states)
+  estimate_errors(const Bodies        &bodies,
+                  const NumbersByCell &changes,
+                  const bool           is_first,
+                  CellStates          &states)
   {
     for_each_cell(
       bodies,
@@ -117,5 +120,43 @@ namespace mortise
         history.ratio  = left.ratio;
         history.change = change;
       });
+  }
+
+  void
+  set_shares(const Bodies        &bodies,
+             const NumbersByCell &products,
+             CellStates          &states)
+  {
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    CellHistory &history = state.history;
+                    if (history.is_refined)
+                      history.share =
+                        history.change > 0. ?
+                          products[body.index][cell->active_cell_index()] /
+                            history.change :
+                          0.;
+                  });
+  }
+
+  ErrorSums
+  error_sums(const Bodies &bodies, const CellStates &states)
+  {
+    std::array<double, 3> sums{{0., 0., 0.}};
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &, const auto &, const CellState &state) {
+                    const CellHistory &history = state.history;
+                    const double       part    = history.share * history.error;
+                    sums[0] += history.error;
+                    sums[1] += history.n_rises == 0 ? part : 0.;
+                    sums[2] += part * part;
+                  });
+    dealii::Utilities::MPI::sum(
+      dealii::ArrayView<const double>(sums.data(), sums.size()),
+      bodies.front()->triangulation().get_communicator(),
+      dealii::ArrayView<double>(sums.data(), sums.size()));
+    return {sums[0], sums[1], std::sqrt(sums[2])};
   }
 } // namespace mortise

@@ -176,10 +176,9 @@ namespace mortise
                   const std::optional<DualSolution> &dual)
   {
     const std::vector<BodySolution> none;
-    const auto                      energy =
-      measure(bodies, solutions, dual ? dual->solutions : none);
+    const auto size = measure(bodies, solutions, dual ? dual->solutions : none);
     const double norm =
-      dual ? std::fabs(dual->value) : std::sqrt(sum(energy, run.comm));
+      dual ? std::fabs(dual->value) : std::sqrt(sum(size, run.comm));
     set_coefficients(bodies, solutions, states);
     if (cycle == 0)
       for_each_cell(bodies,
@@ -187,44 +186,26 @@ namespace mortise
                     [&](const Body &body, const auto &cell, CellState &state) {
                       state.history.degree = state.degree;
                       state.history.change = state.history.error =
-                        energy[body.index][cell->active_cell_index()];
+                        size[body.index][cell->active_cell_index()];
                     });
-    double calibration = 1., share = 1.;
+    /// By which the error is what those of cells are together.
+    double share = 1.;
     if (cycle > 0)
       {
-        const double before = squared_error,
-                     change = learn(bodies, solutions, dual);
-        squared_error       = 0.;
-        double with_sign = 0., error = 0.;
-        for_each_cell(bodies,
-                      states,
-                      [&](const Body &, const auto &, const CellState &state) {
-                        squared_error += state.history.error;
-                        with_sign += state.history.share * state.history.error;
-                      });
-        squared_error = Utilities::MPI::sum(squared_error, run.comm);
-        with_sign     = Utilities::MPI::sum(with_sign, run.comm);
+        const double before  = sum_of_cells,
+                     change  = learn(bodies, solutions, dual);
+        const ErrorSums sums = error_sums(bodies, states);
+        sum_of_cells         = sums.all;
+        double error         = std::sqrt(sums.all);
         if (dual)
           {
-            run.log.line("DEBUG cycle " + std::to_string(cycle) + " value " +
-                         std::to_string(dual->value) + " delta " +
-                         RunLog::number(dual->value - last_value) +
-                         " sum of products " + RunLog::number(debug_sum) +
-                         " unsigned " + RunLog::number(change) + " S " +
-                         RunLog::number(with_sign) + " U " +
-                         RunLog::number(squared_error) + " last S " +
-                         RunLog::number(signed_error.value_or(0.)));
-            signed_error = with_sign;
-            error        = std::max(std::fabs(with_sign), 0.1 * squared_error);
-            share        = squared_error > 0. ? error / squared_error : 1.;
+            error        = sums.of_quantity();
+            signed_error = sums.with_sign;
+            share        = sums.all > 0. ? error / sums.all : 1.;
           }
-        else
-          {
-            if (cycle > 1 && before > 0.)
-              calibration = calibration_by((change + squared_error) / before);
-            error = calibration * std::sqrt(squared_error);
-          }
-        estimated = error / (norm > 0. ? norm : 1.);
+        else if (cycle > 1 && before > 0.)
+          share = calibration_by((change + sums.all) / before);
+        estimated = (dual ? 1. : share) * error / (norm > 0. ? norm : 1.);
       }
     if (dual)
       {
@@ -233,9 +214,9 @@ namespace mortise
       }
     ++cycle;
     const double allowed =
-      *run.parameters.adaptivity.target_error * norm / calibration;
+      *run.parameters.adaptivity.target_error * norm / share;
     if (!reached())
-      choose(bodies, dual ? allowed / share : allowed * allowed);
+      choose(bodies, dual ? allowed : allowed * allowed);
   }
 
   double
@@ -249,19 +230,9 @@ namespace mortise
     const auto changes = measure(bodies, earlier, earlier_dual);
     estimate_errors(bodies, changes, cycle == 1, states);
     if (dual)
-      {
-        const auto products = products_by_cell(bodies, earlier, earlier_dual);
-        debug_sum           = sum(products, run.comm);
-        for_each_cell(
-          bodies,
-          states,
-          [&](const Body &body, const auto &cell, CellState &state) {
-            const unsigned int k = cell->active_cell_index();
-            if (state.history.is_refined && changes[body.index][k] > 0.)
-              state.history.share =
-                products[body.index][k] / changes[body.index][k];
-          });
-      }
+      set_shares(bodies,
+                 products_by_cell(bodies, earlier, earlier_dual),
+                 states);
     earlier.clear();
     earlier_dual.clear();
     return sum(changes, run.comm);
@@ -301,7 +272,7 @@ namespace mortise
       return goal ? error : std::sqrt(error);
     };
     const double factor =
-      squared_error > 0. ? *estimated / part(squared_error) : 0.;
+      sum_of_cells > 0. ? *estimated / part(sum_of_cells) : 0.;
     for (const auto &of_body : states)
       {
         result.emplace_back();

@@ -4,6 +4,7 @@
 
 #include <mortise/adapt/cell_states.h>
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -13,10 +14,39 @@ namespace mortise
   /// energy norm, by body and active cell, by which the last refinement
   /// changed it. @p is_first: no cell had been refined before.
   void
-  estimate_errors(const Bodies                           &bodies,
-                  const std::vector<std::vector<double>> &changes,
-                  bool                                    is_first,
-                  CellStates                             &states);
+  estimate_errors(const Bodies        &bodies,
+                  const NumbersByCell &changes,
+                  bool                 is_first,
+                  CellStates          &states);
+
+  /// Shares in @p states of the cells that were refined from the @p products (products_by_cell()) of
+  /// the changes of a solution and of its dual problem's.
+  void
+  set_shares(const Bodies        &bodies,
+             const NumbersByCell &products,
+             CellStates          &states);
+
+  /// The errors of all cells together. What a cell brings to a quantity has a
+  /// sign: cells that were cut go on with theirs as they are cut again, while
+  /// from degree to degree it is as good as drawn by lot
+  /// (doc/adaptivity.md).
+  struct ErrorSums
+  {
+    double all       = 0.; ///< as if all had one sign
+    double with_sign = 0.; ///< of cells that were cut
+    double by_lot    = 0.; ///< of all, the root of the sum of squares
+
+    /// Of a quantity, two standard deviations of what goes by lot.
+    double
+    of_quantity() const
+    {
+      return std::hypot(with_sign, 2. * by_lot);
+    }
+  };
+
+  /// Collective.
+  ErrorSums
+  error_sums(const Bodies &bodies, const CellStates &states);
 
   /// Is the solution smooth on a cell of @p body, as its changes or its Legendre coefficients say? Nothing where
   /// neither is known.

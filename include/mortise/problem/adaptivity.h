@@ -125,8 +125,7 @@ namespace mortise
     CellStates                     states;
     std::vector<std::vector<bool>> splits;
     std::vector<BodySolution>      earlier, earlier_dual;
-    double                squared_error = 0.; ///< of all cells, not calibrated
-    double debug_sum = 0.;
+    double                sum_of_cells = 0.; ///< ErrorSums::all
     double                last_value = 0.; ///< of the quantity
     std::optional<double> estimated, signed_error;
     std::string           stopped_by;
