@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/adapt/error_estimate.h>
+#include <mortise/adapt/error_tail.h>
 #include <mortise/adapt/refinement.h>
 #include <mortise/base/quotes.h>
 #include <mortise/problem/adaptivity.h>
@@ -27,6 +28,10 @@ namespace mortise
       return std::min(most_calibration,
                       std::max(least_calibration, std::pow(ratio, 0.25)));
     }
+
+    /// The least part that a refinement leaves of what does not come from
+    /// cells.
+    constexpr double least_ratio_of_rest = 0.1;
 
     double
     sum(const std::vector<std::vector<double>> &numbers, const MPI_Comm comm)
@@ -199,8 +204,8 @@ namespace mortise
         double error         = std::sqrt(sums.all);
         if (dual)
           {
-            error        = sums.of_quantity();
-            signed_error = sums.with_sign;
+            error        = std::hypot(sums.of_quantity(), rest.error);
+            signed_error = sums.with_sign + rest.error;
             share        = sums.all > 0. ? error / sums.all : 1.;
           }
         else if (cycle > 1 && before > 0.)
@@ -230,9 +235,17 @@ namespace mortise
     const auto changes = measure(bodies, earlier, earlier_dual);
     estimate_errors(bodies, changes, cycle == 1, states);
     if (dual)
-      set_shares(bodies,
-                 products_by_cell(bodies, earlier, earlier_dual),
-                 states);
+      {
+        const auto products = products_by_cell(bodies, earlier, earlier_dual);
+        set_shares(bodies, products, states);
+        const double before = cycle == 1 ? last_value : rest.change;
+        rest.change = dual->value - last_value - sum(products, run.comm);
+        rest.error  = rest.change * geometric_tail(std::fabs(rest.change),
+                                                  std::fabs(before),
+                                                  1,
+                                                  least_ratio_of_rest)
+                                     .left;
+      }
     earlier.clear();
     earlier_dual.clear();
     return sum(changes, run.comm);

@@ -104,7 +104,7 @@ namespace mortise
     double                     target = 0.;
     std::optional<double>      estimate; ///< absent in the first cycle
     std::optional<double>
-      correction; ///< of the quantity: what is to be added, as estimated
+      correction; ///< what is to be added to it, as far as the sign is known
     std::optional<double>
       effectivity; ///< over the error, with an exact solution
   };

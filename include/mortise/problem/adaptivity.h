@@ -67,8 +67,8 @@ namespace mortise
       return estimated;
     }
 
-    /// What is to be added to the quantity, as estimated; nothing without one
-    /// and in the first cycle.
+    /// What is to be added to the quantity, as far as its sign is known;
+    /// nothing without one and in the first cycle.
     const std::optional<double> &
     correction() const
     {
@@ -115,7 +115,7 @@ namespace mortise
     learn(const Bodies                      &bodies,
           const std::vector<BodySolution>   &solutions,
           const std::optional<DualSolution> &dual);
-    /// The next degrees and splits; @p allowed: square of the error. Collective.
+    /// The next degrees and splits; @p allowed: of the sum over cells. Collective.
     void
     choose(const Bodies &bodies, double allowed);
 
@@ -125,8 +125,15 @@ namespace mortise
     CellStates                     states;
     std::vector<std::vector<bool>> splits;
     std::vector<BodySolution>      earlier, earlier_dual;
-    double                sum_of_cells = 0.; ///< ErrorSums::all
-    double                last_value = 0.; ///< of the quantity
+    double                         sum_of_cells = 0.; ///< ErrorSums::all
+    double                         last_value   = 0.; ///< of the quantity
+    /// How much the last refinement changed the quantity beyond what cells have
+    /// in it, since prescribed values, loads and ties are others on other meshes,
+    /// and what is left of that.
+    struct
+    {
+      double change = 0., error = 0.;
+    } rest;
     std::optional<double> estimated, signed_error;
     std::string           stopped_by;
   };
