@@ -264,6 +264,8 @@ namespace mortise
       {
         context.log.line("cycle " + std::to_string(summary.steps.size()));
         discretise();
+        if (const auto &quantity = adaptivity->quantity())
+          quantity->derivative(bodies); // tells of a point that is nowhere
         step(writes);
         if (adaptivity->estimate())
           context.log.line("  " + adaptivity->found());

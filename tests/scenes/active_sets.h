@@ -36,6 +36,12 @@ namespace mortise::testing
       , load(discretisation.load(data))
     {}
 
+    const Parameters &
+    given() const
+    {
+      return parameters;
+    }
+
   private:
     static Parameters
     valid(Parameters parameters)
