@@ -294,7 +294,7 @@ namespace mortise
         "",
         "Fields to write for ParaView (.vtu), a file for each body and, with traction (and "
         "gap), for each interface; degree, and with Adaptivity estimate (energy norm of the error beside that of the "
-        "solution), are numbers for each cell. Empty: no files of fields.",
+        "solution, or its part in the Quantity), are numbers for each cell. Empty: no files of fields.",
         {"a list of: " + join_names(field_names()), {}, field_names()},
         [&](const ParameterValue &value) {
           output.fields = split_outside_parentheses(value.text, ',');

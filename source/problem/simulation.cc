@@ -197,7 +197,8 @@ namespace mortise
       }
     evaluate_step(context, *discretisation, solved, fields, result);
     if (adaptivity)
-      result.adaptivity = adaptivity->summary(bodies, solved.data.exact().get(), result.errors);
+      result.adaptivity =
+        adaptivity->summary(bodies, solved.data.exact().get(), result.errors);
     field_checks.throw_if_any(context.comm);
     const std::string not_finite = first_not_finite(result);
     if (report.converged && !not_finite.empty())

@@ -67,14 +67,6 @@ namespace mortise
       return estimated;
     }
 
-    /// What is to be added to the quantity, as far as its sign is known;
-    /// nothing without one and in the first cycle.
-    const std::optional<double> &
-    correction() const
-    {
-      return signed_error;
-    }
-
     /// The part of each cell in the error, beside the same as estimate(),
     /// by body and active cell; empty in the first cycle.
     std::vector<std::vector<double>>
@@ -128,13 +120,14 @@ namespace mortise
     double                         sum_of_cells = 0.; ///< ErrorSums::all
     double                         last_value   = 0.; ///< of the quantity
     /// How much the last refinement changed the quantity beyond what cells have
-    /// in it, since prescribed values, loads and ties are others on other meshes,
-    /// and what is left of that.
+    /// in it, since prescribed values, loads and ties are others on other
+    /// meshes, and what is left of that.
     struct
     {
       double change = 0., error = 0.;
     } rest;
-    std::optional<double> estimated, signed_error;
+    std::optional<double> estimated;
+    std::optional<double> signed_error; ///< AdaptivitySummary::correction
     std::string           stopped_by;
   };
 } // namespace mortise
