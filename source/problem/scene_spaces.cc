@@ -144,6 +144,11 @@ namespace mortise
         else
           body->create_space(degrees[body->index]);
         handlers.push_back(&body->dof_handler);
+        if (body->n_straightened > 0)
+          run.log.warning("body " + body->name +
+                          ": curved cells would be tangled and are straight: " +
+                          std::to_string(body->n_straightened) +
+                          "; a finer mesh is more accurate there");
         if (locks(given))
           run.log.warning(
             "body " + body->name + " with Poisson ratio " +
