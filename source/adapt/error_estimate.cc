@@ -12,6 +12,10 @@ namespace mortise
     /// degree three 0.2 (Fichera's).
     constexpr double fall_of_smooth = 0.1;
 
+    /// Of those that tell that a tetrahedron, of which nothing else is known,
+    /// is at a corner: there a quarter, an eighth beside it.
+    constexpr double fall_at_corner = 0.15;
+
     /// The sum over the family of @p cell, which is on one rank; as much as has not been
     /// cut further stands for it all.
     double
@@ -75,13 +79,15 @@ namespace mortise
   std::optional<bool>
   is_smooth(const Body &body, const CellState &state)
   {
+    if (body.mesh.tetrahedra && state.history.n_rises > 1 &&
+        state.history.fall > fall_at_corner)
+      return false;
     return is_smooth(state.history, decay(body, state));
   }
 
   void
   estimate_errors(const Bodies                           &bodies,
                   const std::vector<std::vector<double>> &changes,
-                  const bool                              is_first,
                   CellStates                             &states)
   {
     for_each_cell(
@@ -94,7 +100,7 @@ namespace mortise
         const auto  &of_body = changes[body.index];
         const double change  = of_body[cell->active_cell_index()];
         ErrorTail    left;
-        if (is_first && !history.is_split)
+        if (history.is_new && !history.is_split)
           {
             // from degree zero, which has no energy
             left =
@@ -113,6 +119,7 @@ namespace mortise
         history.error  = change * left.left;
         history.ratio  = left.ratio;
         history.change = change;
+        history.is_new = false;
       });
   }
 } // namespace mortise

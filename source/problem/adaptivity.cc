@@ -1,8 +1,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/adapt/error_estimate.h>
-#include <mortise/adapt/refinement.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/gmsh_model.h>
 #include <mortise/problem/adaptivity.h>
 #include <mortise/problem/formulation.h>
 
@@ -18,6 +18,12 @@ namespace mortise
     /// A calibration makes estimates smaller by less than larger.
     constexpr double least_calibration = 0.77, most_calibration = 1.5;
 
+    /// Edges of a new mesh are at most 2^-5 of what they were: errors are not
+    /// known well.
+    constexpr unsigned int most_halvings = 5;
+
+    constexpr double least_growth = 1.2; ///< of unknowns, of a new mesh
+
     /// By which an estimate is multiplied if the square of the one before was too small by @p ratio, as
     /// the change that followed has shown, to which the error that is left is
     /// orthogonal: half the way, since estimates go up and down.
@@ -26,6 +32,42 @@ namespace mortise
     {
       return std::min(most_calibration,
                       std::max(least_calibration, std::pow(ratio, 0.25)));
+    }
+
+    /// Can gmsh make another mesh of these tetrahedra?
+    bool
+    can_be_remeshed(const BodyParameters &given, const Body &body)
+    {
+      return body.mesh.tetrahedra && given.mesh.source == "file" &&
+             is_geometry_file(given.mesh.file);
+    }
+
+    /// Is there a cell on which nothing is known of the error? Collective.
+    bool
+    has_unknown_errors(const Bodies &bodies, const CellStates &states)
+    {
+      unsigned int result = 0;
+      for_each_cell(bodies,
+                    states,
+                    [&](const Body &, const auto &, const CellState &state) {
+                      result |=
+                        state.history.is_new && !state.history.is_refined;
+                    });
+      return Utilities::MPI::max(
+               result, bodies.front()->triangulation().get_communicator()) == 1;
+    }
+
+    /// Collective.
+    bool
+    splits_tetrahedra(const Body                    &body,
+                      const std::vector<Refinement> &refinements)
+    {
+      const bool any =
+        body.mesh.tetrahedra &&
+        std::find(refinements.begin(), refinements.end(), Refinement::split) !=
+          refinements.end();
+      return Utilities::MPI::max(any ? 1 : 0,
+                                 body.triangulation().get_communicator()) == 1;
     }
 
     double
@@ -100,6 +142,20 @@ namespace mortise
           std::find(split.begin(), split.end(), true) != split.end();
         if (Utilities::MPI::max(any ? 1 : 0, run.comm) == 1)
           split_cells(*body, split, states[body->index]);
+        if (meshes.empty() || meshes[body->index].sizes == nullptr)
+          continue;
+        auto       stage = run.log.stage(run.timers, "mesh");
+        const auto n     = body->triangulation().n_global_active_cells();
+        body->pressure.reset();
+        body->dof_handler.clear();
+        create_mesh(run, meshes[body->index].sizes, *body);
+        states[body->index] =
+          states_after(*body,
+                       meshes[body->index],
+                       rigid_motion(run.parameters.bodies[body->index].mesh));
+        stage.details(
+          "body " + body->name + ", " + std::to_string(n) + " cells become " +
+          std::to_string(body->triangulation().n_global_active_cells()));
       }
   }
 
@@ -116,7 +172,7 @@ namespace mortise
   const std::vector<BodySolution> &
   Adaptivity::start(const Bodies &bodies)
   {
-    if (cycle > 0)
+    if (cycle > 0 && meshes.empty())
       earlier = embedded(bodies, states);
     return earlier;
   }
@@ -128,16 +184,22 @@ namespace mortise
     const auto   energy = energy_by_cell(bodies, solutions);
     const double norm   = std::sqrt(sum(energy, run.comm));
     set_coefficients(bodies, solutions, states);
-    if (cycle == 0)
-      for_each_cell(bodies,
-                    states,
-                    [&](const Body &body, const auto &cell, CellState &state) {
-                      state.history.degree = state.degree;
-                      state.history.change = state.history.error =
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    CellHistory &history = state.history;
+                    history.degree       = state.degree;
+                    if (history.is_new && !history.is_refined)
+                      history.change = history.error =
                         energy[body.index][cell->active_cell_index()];
-                    });
+                  });
     double calibration = 1.;
-    if (cycle > 0)
+    if (has_unknown_errors(bodies, states))
+      {
+        squared_error = 0.;
+        estimated.reset();
+      }
+    else
       {
         const double before = squared_error, change = learn(bodies, solutions);
         squared_error = 0.;
@@ -147,7 +209,7 @@ namespace mortise
                         squared_error += state.history.error;
                       });
         squared_error = Utilities::MPI::sum(squared_error, run.comm);
-        if (cycle > 1 && before > 0.)
+        if (before > 0.)
           calibration = calibration_by((change + squared_error) / before);
         estimated =
           calibration * std::sqrt(squared_error) / (norm > 0. ? norm : 1.);
@@ -175,26 +237,99 @@ namespace mortise
       }
     const auto changes = energy_by_cell(bodies, earlier);
     earlier.clear();
-    estimate_errors(bodies, changes, cycle == 1, states);
+    estimate_errors(bodies, changes, states);
     return sum(changes, run.comm);
+  }
+
+  double
+  Adaptivity::next_unknowns(const Bodies      &bodies,
+                            const Refinements &choices) const
+  {
+    double now = 0., more = 0.;
+    for (const auto &body : bodies)
+      {
+        const double n = body->dof_handler.n_dofs();
+        now += n;
+        if (!meshes.empty())
+          more += n * (meshes[body->index].growth - 1.);
+      }
+    return now * growth(bodies, states, choices) + more;
+  }
+
+  bool
+  Adaptivity::plan_meshes(const Bodies      &bodies,
+                          const Refinements &choices,
+                          const double       allowed)
+  {
+    Refinements none;
+    double      n_cells = 0., now = 0.;
+    for (const auto &body : bodies)
+      {
+        none.emplace_back(choices[body->index].size(), Refinement::keep);
+        n_cells += body->triangulation().n_global_active_cells();
+        now += body->dof_handler.n_dofs();
+      }
+    for (unsigned int most = most_halvings; most > 0; --most)
+      {
+        meshes.assign(bodies.size(), {});
+        for (const auto &body : bodies)
+          if (splits_tetrahedra(*body, choices[body->index]))
+            {
+              const BodyParameters &given = run.parameters.bodies[body->index];
+              meshes[body->index] =
+                plan_remeshing(*body,
+                               choices[body->index],
+                               states[body->index],
+                               {share_of_cell * allowed / n_cells,
+                                most,
+                                *given_degrees(given).begin(),
+                                rigid_motion(given.mesh),
+                                given.mesh.refinements});
+            }
+        // one that is hardly finer is not worth what it costs
+        const double next = next_unknowns(bodies, none);
+        if (next < least_growth * now)
+          break;
+        if (next <= run.parameters.adaptivity.most_unknowns)
+          return true;
+      }
+    meshes.clear();
+    return false;
   }
 
   void
   Adaptivity::choose(const Bodies &bodies, const double allowed)
   {
     const AdaptivityParameters &given = run.parameters.adaptivity;
-    const RefinementOptions     options{given.splits(),
-                                    given.strategy == "h",
-                                    given.largest_degree};
-    // the first changes are those of all cells
-    const auto choices = cycle == 1 ?
-                           refine_all(bodies, states, options) :
-                           choose_refinements(bodies, states, options, allowed);
-    double     now     = 0.;
+    RefinementOptions           options{given.splits(),
+                              given.strategy == "h",
+                              given.largest_degree,
+                              {}};
     for (const auto &body : bodies)
-      now += body->dof_handler.n_dofs();
-    const double next = now * growth(bodies, states, choices);
-    if (next == now)
+      options.may_remesh.push_back(
+        given.splits() &&
+        can_be_remeshed(run.parameters.bodies[body->index], *body));
+    meshes.clear();
+    const auto choose = [&] {
+      // the first changes are those of all cells
+      return estimated ? choose_refinements(bodies, states, options, allowed) :
+                         refine_new(bodies, states, options);
+    };
+    auto       choices = choose();
+    const bool wants_meshes =
+      std::any_of(bodies.begin(), bodies.end(), [&](const auto &body) {
+        return splits_tetrahedra(*body, choices[body->index]);
+      });
+    if (wants_meshes && !plan_meshes(bodies, choices, allowed))
+      {
+        options.may_remesh.assign(bodies.size(), false);
+        choices = choose();
+      }
+    if (!meshes.empty()) // what else is refined would have no change
+      for (auto &of_body : choices)
+        std::fill(of_body.begin(), of_body.end(), Refinement::keep);
+    const double next = next_unknowns(bodies, choices);
+    if (meshes.empty() && growth(bodies, states, choices) == 1.)
       stopped_by = "Largest degree = " + std::to_string(given.largest_degree);
     else if (next > given.most_unknowns)
       stopped_by =
@@ -225,7 +360,7 @@ namespace mortise
   {
     return "The error is " +
            (estimated ? "estimated as " + RunLog::number(*estimated) :
-                        std::string("not known after one cycle")) +
+                        std::string("not known after one cycle on a mesh")) +
            "; Adaptivity/Target error is " +
            RunLog::number(*run.parameters.adaptivity.target_error) +
            ", and Adaptivity/" + stopped_by +

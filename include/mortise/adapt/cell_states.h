@@ -25,13 +25,15 @@ namespace mortise
     unsigned int n_rises    = 0;
     bool         is_refined = false; ///< by the last refinement
     bool         is_split   = false; ///< likewise, and has siblings
+    bool         is_new =
+      true; ///< has not changed yet: change and error are the solution itself
 
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &fall &n_rises &is_refined
-        &is_split;
+      archive &degree &change &error &ratio &fall &n_rises &is_refined &is_split
+        &is_new;
     }
   };
 

@@ -11,11 +11,10 @@ namespace mortise
 {
   /// Histories in @p states, which have the coefficients of the new solution, from the squares @p changes of the
   /// energy norm, by body and active cell, by which the last refinement
-  /// changed it. @p is_first: no cell had been refined before.
+  /// changed it.
   void
   estimate_errors(const Bodies                           &bodies,
                   const std::vector<std::vector<double>> &changes,
-                  bool                                    is_first,
                   CellStates                             &states);
 
   /// Is the solution smooth on a cell of @p body, as its changes or its Legendre coefficients say? Nothing where

@@ -2,7 +2,7 @@
 // how much it has changed, cell by cell, when they were refined.
 #pragma once
 
-#include <mortise/adapt/cell_states.h>
+#include <mortise/adapt/remeshing.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/scene_spaces.h>
 
@@ -26,8 +26,8 @@ namespace mortise
     /// @p run must live on; it has a target.
     explicit Adaptivity(const RunContext &run);
 
-    /// Cut the meshes of @p bodies, which lose their spaces, as chosen
-    /// by the last add(), if there was one. Collective.
+    /// Cut the meshes of @p bodies, or make new ones, as chosen by the last add(), if there was one; those bodies lose
+    /// their spaces. Collective; throws InputError where gmsh cannot.
     void
     refine(Bodies &bodies);
 
@@ -36,7 +36,7 @@ namespace mortise
     degrees() const;
 
     /// The solution of the cycle before in the spaces that @p bodies have now; empty in
-    /// the first cycle. Collective.
+    /// the first cycle and on a new mesh. Collective.
     const std::vector<BodySolution> &
     start(const Bodies &bodies);
 
@@ -45,7 +45,7 @@ namespace mortise
     add(const Bodies &bodies, const std::vector<BodySolution> &solutions);
 
     /// Energy norm of the error beside that of the solution; nothing in the
-    /// first cycle.
+    /// first cycle and on a new mesh.
     const std::optional<double> &
     estimate() const
     {
@@ -53,7 +53,7 @@ namespace mortise
     }
 
     /// Energy norm of the error on each cell beside that of the whole solution,
-    /// by body and active cell; empty in the first cycle.
+    /// by body and active cell; empty where estimate() is nothing.
     std::vector<std::vector<double>>
     cell_estimates() const;
 
@@ -80,14 +80,23 @@ namespace mortise
     /// its square over all cells. Collective.
     double
     learn(const Bodies &bodies, const std::vector<BodySolution> &solutions);
-    /// The next degrees and splits; @p allowed: square of the error. Collective.
+    /// The next degrees, splits and meshes; @p allowed: square of the error. Collective.
     void
     choose(const Bodies &bodies, double allowed);
+    /// New meshes for tetrahedra that @p choices split, as small as unknowns allow; false if they allow none. Collective.
+    bool
+    plan_meshes(const Bodies      &bodies,
+                const Refinements &choices,
+                double             allowed);
+    /// Unknowns of the next cycle, about. Collective.
+    double
+    next_unknowns(const Bodies &bodies, const Refinements &choices) const;
 
     const RunContext              &run;
     unsigned int                   cycle = 0;
     CellStates                     states;
     std::vector<std::vector<bool>> splits;
+    std::vector<Remeshing>         meshes; ///< by body; empty: none is new
     std::vector<BodySolution>      earlier;
     double                squared_error = 0.; ///< of all cells, not calibrated
     std::optional<double> estimated;
