@@ -14,7 +14,7 @@ namespace mortise
 
     /// Of those that tell that a tetrahedron, of which nothing else is known,
     /// is at a corner: there a quarter, an eighth beside it.
-    constexpr double fall_at_corner = 0.15;
+    constexpr double fall_at_corner = 0.2;
 
     /// The sum over the family of @p cell, which is on one rank; as much as has not been
     /// cut further stands for it all.

@@ -183,8 +183,8 @@ namespace mortise
                       if (body.mesh.tetrahedra &&
                           refinements[body.index][cell->active_cell_index()] ==
                             Refinement::split)
-                        error[0] += state.history.error;
-                      error[1] += state.history.error;
+                        error[0] += certain_error(state.history);
+                      error[1] += certain_error(state.history);
                     });
       Utilities::MPI::sum(error, communicator(bodies), error);
       if (error[0] > 0.5 * error[1])

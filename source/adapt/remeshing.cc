@@ -19,6 +19,10 @@ namespace mortise
     /// fifth.
     constexpr double least_part_of_vertex = 0.5;
 
+    /// Likewise of the vertex with most of all: what is left follows when its
+    /// error is gone.
+    constexpr double least_part_of_all = 0.3;
+
     /// The mean length of the edges.
     double
     size_of(const Triangulation<dim>::active_cell_iterator &cell)
@@ -97,9 +101,13 @@ namespace mortise
         [&](const unsigned int v, const double error) {
           largest[v] = std::max(largest[v], error);
         });
+      const double most_of_all =
+        Utilities::MPI::max(*std::max_element(sum.begin(), sum.end()),
+                            triangulation.get_communicator());
       std::vector<double> result(sum.size(), 1.);
       for (unsigned int v = 0; v < result.size(); ++v)
-        if (number[v] > 0 && sum[v] >= least_part_of_vertex * largest[v])
+        if (number[v] > 0 && sum[v] >= least_part_of_vertex * largest[v] &&
+            sum[v] >= least_part_of_all * most_of_all)
           {
             // beside an edge, where u is as r^(1/2), a cell has as much of the
             // square of the error as the square of its size
@@ -147,7 +155,7 @@ namespace mortise
     std::vector<double> split(states.size(), 0.);
     for (unsigned int k = 0; k < states.size(); ++k)
       if (refinements[k] == Refinement::split)
-        split[k] = states[k].history.error;
+        split[k] = certain_error(states[k].history);
     const auto sizes   = sizes_at_vertices(triangulation);
     const auto factors = factors_at_vertices(triangulation,
                                              split,

@@ -18,11 +18,11 @@ namespace mortise
     /// A calibration makes estimates smaller by less than larger.
     constexpr double least_calibration = 0.77, most_calibration = 1.5;
 
-    /// Edges of a new mesh are at most 2^-5 of what they were: errors are not
+    /// Edges of a new mesh are at least 2^-3 of what they were: errors are not
     /// known well.
-    constexpr unsigned int most_halvings = 5;
+    constexpr unsigned int most_halvings = 3;
 
-    constexpr double least_growth = 1.2; ///< of unknowns, of a new mesh
+    constexpr double least_growth = 1.02; ///< of unknowns, of a new mesh
 
     /// By which an estimate is multiplied if the square of the one before was too small by @p ratio, as
     /// the change that followed has shown, to which the error that is left is

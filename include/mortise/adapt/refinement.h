@@ -4,6 +4,7 @@
 
 #include <mortise/adapt/cell_states.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace mortise
@@ -18,6 +19,14 @@ namespace mortise
   /// What a cell may have of the square of the error, of what all have in the
   /// mean.
   constexpr double share_of_cell = 0.25;
+
+  /// The square of the error that a cell has for certain: what it has changed
+  /// by is known, what follows after slow changes is not.
+  inline double
+  certain_error(const CellHistory &history)
+  {
+    return std::min(history.change, history.error);
+  }
 
   /// By body and active cell, of owned ones.
   using Refinements = std::vector<std::vector<Refinement>>;
