@@ -90,36 +90,39 @@ namespace mortise
                   const std::vector<std::vector<double>> &changes,
                   CellStates                             &states)
   {
-    for_each_cell(
-      bodies,
-      states,
-      [&](const Body &body, const auto &cell, CellState &state) {
-        CellHistory &history = state.history;
-        if (!history.is_refined)
-          return;
-        const auto  &of_body = changes[body.index];
-        const double change  = of_body[cell->active_cell_index()];
-        ErrorTail    left;
-        if (history.is_new && !history.is_split)
-          {
-            // from degree zero, which has no energy
-            left =
-              geometric_tail(change, history.change, history.degree - 1, 0.);
-            history.fall = left.ratio;
-          }
-        else
-          {
-            if (history.n_rises > 1)
-              history.fall = change / history.change;
-            left = tail(history,
-                        decay(body, state),
-                        change,
-                        history.is_split ? of_family(cell, of_body) : 0.);
-          }
-        history.error  = change * left.left;
-        history.ratio  = left.ratio;
-        history.change = change;
-        history.is_new = false;
-      });
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    CellHistory &history = state.history;
+                    if (!history.is_refined)
+                      return;
+                    const auto  &of_body = changes[body.index];
+                    const double change  = of_body[cell->active_cell_index()];
+                    ErrorTail    left;
+                    if (history.is_new && !history.is_split)
+                      {
+                        // from degree zero, which has no energy
+                        left         = geometric_tail(change,
+                                              history.change,
+                                              history.degree - 1,
+                                              history.least_ratio);
+                        history.fall = left.ratio;
+                      }
+                    else
+                      {
+                        if (history.n_rises > 1)
+                          history.fall = change / history.change;
+                        left =
+                          tail(history,
+                               decay(body, state),
+                               change,
+                               history.is_split ? of_family(cell, of_body) :
+                                                  0.);
+                      }
+                    history.error  = change * left.left;
+                    history.ratio  = left.ratio;
+                    history.change = change;
+                    history.is_new = false;
+                  });
   }
 } // namespace mortise

@@ -167,25 +167,28 @@ namespace mortise
     }
 
     /// A new mesh costs what is known of the old one: let tetrahedra rise
-    /// unless those that were to be split have most of the error. Collective.
+    /// unless those that were to be split have most of the error of all.
+    /// Collective.
     void
     split_few_tetrahedra(const Bodies     &bodies,
                          const CellStates &states,
                          RefinementOptions options,
                          Refinements      &refinements)
     {
-      double error[2] = {0., 0.}; // of those, of all
-      for_each_cell(bodies,
-                    states,
-                    [&](const Body      &body,
-                        const auto      &cell,
-                        const CellState &state) {
-                      if (body.mesh.tetrahedra &&
-                          refinements[body.index][cell->active_cell_index()] ==
-                            Refinement::split)
-                        error[0] += certain_error(state.history);
-                      error[1] += certain_error(state.history);
-                    });
+      double error[2] = {0., 0.}; // of those, of all tetrahedra
+      for_each_cell(
+        bodies,
+        states,
+        [&](const Body &body, const auto &cell, const CellState &state) {
+          if (!body.mesh.tetrahedra)
+            return;
+          const double certain = certain_error(state.history);
+          error[0] += refinements[body.index][cell->active_cell_index()] ==
+                          Refinement::split ?
+                        certain :
+                        0.;
+          error[1] += certain;
+        });
       Utilities::MPI::sum(error, communicator(bodies), error);
       if (error[0] > 0.5 * error[1])
         return;

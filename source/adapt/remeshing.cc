@@ -14,6 +14,10 @@ namespace mortise
 
   namespace
   {
+    /// Of squares of changes from degree to degree, which meshes that are small
+    /// towards a corner do not undercut.
+    constexpr double ratio_beside_corner = 0.15;
+
     /// Of the error around a vertex with most of it, that another one of the
     /// same cells has if a solution is not smooth there, too: beside a corner a
     /// fifth.
@@ -179,8 +183,11 @@ namespace mortise
               after[v]             = sizes[i] * factors[i];
               row[12 + v] = rounded(after[v] * std::pow(2., options.n_cuts));
             }
-          const unsigned int degree = states[cell->active_cell_index()].degree;
-          row[16] = std::max(options.least_degree + 2, degree) - 2;
+          // a high degree is of no use where a solution is not smooth
+          const unsigned int k = cell->active_cell_index();
+          row[16]              = split[k] > 0. ?
+                                   options.least_degree :
+                                   std::max(options.least_degree + 2, states[k].degree) - 2;
           own.push_back(row);
           number[0] += cell->measure() * cells_per_volume(before);
           number[1] += cell->measure() * cells_per_volume(after);
@@ -219,9 +226,12 @@ namespace mortise
     std::vector<CellState> result(body.triangulation().n_active_cells());
     for (const auto &cell : body.triangulation().active_cell_iterators())
       if (cell->is_locally_owned())
-        result[cell->active_cell_index()].history.degree =
-          remeshing
-            .degrees[remeshing.sizes->cell_at(motion.inverse(cell->center()))];
+        {
+          CellHistory &history = result[cell->active_cell_index()].history;
+          history.least_ratio  = ratio_beside_corner;
+          history.degree       = remeshing.degrees[remeshing.sizes->cell_at(
+            motion.inverse(cell->center()))];
+        }
     return result;
   }
 } // namespace mortise

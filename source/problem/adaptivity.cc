@@ -22,6 +22,10 @@ namespace mortise
     /// known well.
     constexpr unsigned int most_halvings = 3;
 
+    /// Edges are then 2^-9 of what they were, and degrees rise from there: else
+    /// meshes could go on without end.
+    constexpr unsigned int most_meshes = 3;
+
     constexpr double least_growth = 1.02; ///< of unknowns, of a new mesh
 
     /// By which an estimate is multiplied if the square of the one before was too small by @p ratio, as
@@ -307,7 +311,7 @@ namespace mortise
                               {}};
     for (const auto &body : bodies)
       options.may_remesh.push_back(
-        given.splits() &&
+        given.splits() && n_meshes < most_meshes &&
         can_be_remeshed(run.parameters.bodies[body->index], *body));
     meshes.clear();
     const auto choose = [&] {
@@ -325,6 +329,8 @@ namespace mortise
         options.may_remesh.assign(bodies.size(), false);
         choices = choose();
       }
+    if (!meshes.empty())
+      ++n_meshes;
     if (!meshes.empty()) // what else is refined would have no change
       for (auto &of_body : choices)
         std::fill(of_body.begin(), of_body.end(), Refinement::keep);

@@ -25,7 +25,8 @@ namespace mortise
   {
     double       target = 0.; ///< square of the error that a cell may have
     unsigned int most_halvings = 1; ///< of edges
-    /// Degrees begin two below those of the old mesh, but not below this.
+    /// Degrees begin two below those of the old mesh, but not below this, and
+    /// with this where cells were to be split.
     unsigned int least_degree = 1;
     RigidMotion  motion; ///< from the file to the scene
     unsigned int n_cuts =

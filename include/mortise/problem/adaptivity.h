@@ -96,8 +96,9 @@ namespace mortise
     unsigned int                   cycle = 0;
     CellStates                     states;
     std::vector<std::vector<bool>> splits;
-    std::vector<Remeshing>         meshes; ///< by body; empty: none is new
-    std::vector<BodySolution>      earlier;
+    std::vector<Remeshing>         meshes;  ///< by body; empty: none is new
+    unsigned int              n_meshes = 0; ///< how often there were new ones
+    std::vector<BodySolution> earlier;
     double                squared_error = 0.; ///< of all cells, not calibrated
     std::optional<double> estimated;
     std::string           stopped_by;
