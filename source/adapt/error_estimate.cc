@@ -40,7 +40,10 @@ namespace mortise
     {
       if (body.mesh.tetrahedra || state.degree < least_degree_of_decay)
         return {};
-      return legendre_decay(state.degree, state.coefficients);
+      // the pressure has another degree
+      return legendre_decay(state.degree,
+                            {state.coefficients.begin(),
+                             state.coefficients.begin() + dim});
     }
 
     std::optional<bool>
