@@ -15,6 +15,10 @@ namespace mortise
     /// degree three 0.2 (Fichera's).
     constexpr double fall_of_smooth = 0.1;
 
+    /// Of those that tell that a tetrahedron, of which nothing else is known,
+    /// is at a corner: there a quarter, an eighth beside it.
+    constexpr double fall_at_corner = 0.2;
+
     /// The sum over the family of @p cell, which is on one rank; as much as has not been
     /// cut further stands for it all.
     double
@@ -81,45 +85,51 @@ namespace mortise
   std::optional<bool>
   is_smooth(const Body &body, const CellState &state)
   {
+    if (body.mesh.tetrahedra && state.history.n_rises > 1 &&
+        state.history.fall > fall_at_corner)
+      return false;
     return is_smooth(state.history, decay(body, state));
   }
 
   void
   estimate_errors(const Bodies        &bodies,
                   const NumbersByCell &changes,
-                  const bool           is_first,
                   CellStates          &states)
   {
-    for_each_cell(
-      bodies,
-      states,
-      [&](const Body &body, const auto &cell, CellState &state) {
-        CellHistory &history = state.history;
-        if (!history.is_refined)
-          return;
-        const auto  &of_body = changes[body.index];
-        const double change  = of_body[cell->active_cell_index()];
-        ErrorTail    left;
-        if (is_first && !history.is_split)
-          {
-            // from degree zero, which has no energy
-            left =
-              geometric_tail(change, history.change, history.degree - 1, 0.);
-            history.fall = left.ratio;
-          }
-        else
-          {
-            if (history.n_rises > 1)
-              history.fall = change / history.change;
-            left = tail(history,
-                        decay(body, state),
-                        change,
-                        history.is_split ? of_family(cell, of_body) : 0.);
-          }
-        history.error  = change * left.left;
-        history.ratio  = left.ratio;
-        history.change = change;
-      });
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    CellHistory &history = state.history;
+                    if (!history.is_refined)
+                      return;
+                    const auto  &of_body = changes[body.index];
+                    const double change  = of_body[cell->active_cell_index()];
+                    ErrorTail    left;
+                    if (history.is_new && !history.is_split)
+                      {
+                        // from degree zero, which has no energy
+                        left         = geometric_tail(change,
+                                              history.change,
+                                              history.degree - 1,
+                                              history.least_ratio);
+                        history.fall = left.ratio;
+                      }
+                    else
+                      {
+                        if (history.n_rises > 1)
+                          history.fall = change / history.change;
+                        left =
+                          tail(history,
+                               decay(body, state),
+                               change,
+                               history.is_split ? of_family(cell, of_body) :
+                                                  0.);
+                      }
+                    history.error  = change * left.left;
+                    history.ratio  = left.ratio;
+                    history.change = change;
+                    history.is_new = false;
+                  });
   }
 
   void

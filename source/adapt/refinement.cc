@@ -14,9 +14,6 @@ namespace mortise
 
   namespace
   {
-    /// Of what a cell may have of the error if all have the same.
-    constexpr double share = 0.25;
-
     /// Of the square of the error that is allowed, what the next cycle is to
     /// have: what it will have is not known well.
     constexpr double aim = 0.5;
@@ -36,9 +33,11 @@ namespace mortise
          const CellState         &state,
          const RefinementOptions &options)
     {
-      const bool can_split = !body.mesh.tetrahedra && options.may_split;
-      const bool can_rise  = state.degree < options.largest_degree;
-      if (can_split && (options.only_splits || !can_rise ||
+      const bool hexahedron = !body.mesh.tetrahedra;
+      const bool can_split =
+        hexahedron ? options.may_split : options.may_remesh[body.index];
+      const bool can_rise = state.degree < options.largest_degree;
+      if (can_split && ((hexahedron && options.only_splits) || !can_rise ||
                         !is_smooth(body, state).value_or(true)))
         return Refinement::split;
       return can_rise ? Refinement::rise : Refinement::keep;
@@ -81,8 +80,9 @@ namespace mortise
         return Utilities::MPI::sum(left, comm);
       };
       // what is small beside others waits: they show through in it
-      double least = share * std::max(allowed, left_by_next(largest)) / n_cells,
-             most  = largest;
+      double least = share_of_cell * std::max(allowed, left_by_next(largest)) /
+                     n_cells,
+             most = largest;
       if (!(left_by_next(least) < aim * allowed))
         return least;
       while (most > 1.1 * least)
@@ -141,23 +141,79 @@ namespace mortise
     }
   } // namespace
 
+  namespace
+  {
+    /// The best on cells of which @p which holds; others are kept.
+    template <typename Which>
+    Refinements
+    refine_where(const Bodies            &bodies,
+                 const CellStates        &states,
+                 const RefinementOptions &options,
+                 const Which             &which)
+    {
+      Refinements result;
+      for (const auto &of_body : states)
+        result.emplace_back(of_body.size(), Refinement::keep);
+      for_each_cell(bodies,
+                    states,
+                    [&](const Body      &body,
+                        const auto      &cell,
+                        const CellState &state) {
+                      if (which(state.history))
+                        result[body.index][cell->active_cell_index()] =
+                          best(body, state, options);
+                    });
+      return result;
+    }
+
+    /// A new mesh costs what is known of the old one: let tetrahedra rise
+    /// unless those that were to be split have most of the error of all.
+    /// Collective.
+    void
+    split_few_tetrahedra(const Bodies     &bodies,
+                         const CellStates &states,
+                         RefinementOptions options,
+                         Refinements      &refinements)
+    {
+      double error[2] = {0., 0.}; // of those, of all tetrahedra
+      for_each_cell(
+        bodies,
+        states,
+        [&](const Body &body, const auto &cell, const CellState &state) {
+          if (!body.mesh.tetrahedra)
+            return;
+          const double certain = certain_error(state.history);
+          error[0] += refinements[body.index][cell->active_cell_index()] ==
+                          Refinement::split ?
+                        certain :
+                        0.;
+          error[1] += certain;
+        });
+      Utilities::MPI::sum(error, communicator(bodies), error);
+      if (error[0] > 0.5 * error[1])
+        return;
+      options.may_remesh.assign(bodies.size(), false);
+      for_each_cell(bodies,
+                    states,
+                    [&](const Body      &body,
+                        const auto      &cell,
+                        const CellState &state) {
+                      Refinement &choice =
+                        refinements[body.index][cell->active_cell_index()];
+                      if (body.mesh.tetrahedra && choice == Refinement::split)
+                        choice = best(body, state, options);
+                    });
+    }
+  } // namespace
+
   Refinements
-  refine_all(const Bodies            &bodies,
+  refine_new(const Bodies            &bodies,
              const CellStates        &states,
              const RefinementOptions &options)
   {
-    Refinements result;
-    for (const auto &of_body : states)
-      result.emplace_back(of_body.size(), Refinement::keep);
-    for_each_cell(bodies,
-                  states,
-                  [&](const Body      &body,
-                      const auto      &cell,
-                      const CellState &state) {
-                    result[body.index][cell->active_cell_index()] =
-                      best(body, state, options);
-                  });
-    return result;
+    return refine_where(bodies, states, options, [](const auto &history) {
+      return history.is_new;
+    });
   }
 
   Refinements
@@ -166,15 +222,16 @@ namespace mortise
                      const RefinementOptions &options,
                      const double             allowed)
   {
-    Refinements  result = refine_all(bodies, states, options);
-    const double least  = threshold(bodies, states, result, allowed);
-    for_each_cell(
-      bodies,
-      states,
-      [&](const Body &body, const auto &cell, const CellState &state) {
-        if (!(state.history.error > least))
-          result[body.index][cell->active_cell_index()] = Refinement::keep;
+    const auto   all   = [](const CellHistory &) { return true; };
+    const double least = threshold(bodies,
+                                   states,
+                                   refine_where(bodies, states, options, all),
+                                   allowed);
+    Refinements  result =
+      refine_where(bodies, states, options, [&](const auto &history) {
+        return history.error > least;
       });
+    split_few_tetrahedra(bodies, states, options, result);
     raise_around(bodies, states, result);
     return result;
   }

@@ -9,6 +9,7 @@
 #include <mortise/body/elements/hexahedral_mapping.h>
 #include <mortise/body/elements/legendre_elements.h>
 #include <mortise/body/elements/simplex_mapping.h>
+#include <mortise/body/elements/simplex_quadrature.h>
 
 #include <algorithm>
 #include <set>
@@ -117,23 +118,48 @@ namespace mortise
       pressure = std::make_unique<PressureSpace>(dof_handler);
   }
 
+  namespace
+  {
+    /// Where integrals over tetrahedra of degree 1 to @p degree, also those of coarser levels, want positive Jacobians.
+    std::vector<Point<dim>>
+    points_of_integrals(const unsigned int degree)
+    {
+      std::vector<Point<dim>> result;
+      for (unsigned int p = 1; p <= degree; ++p)
+        for (const unsigned int exact : {2 * p, degree + p})
+          {
+            const auto points = simplex_quadrature<dim>(exact).get_points();
+            result.insert(result.end(), points.begin(), points.end());
+          }
+      return result;
+    }
+  } // namespace
+
   void
   Body::create_mapping(const unsigned int least_degree)
   {
+    n_straightened = 0;
     mapping_degree = mesh.curved ? std::max(least_degree, max_degree()) : 1;
     if (mesh.geometry != nullptr)
       mapping_degree = 2; // what the file has, whatever the displacement
     const auto points = [&](const auto &cell, const auto &unit) {
       return mesh.geometry->points(cell, unit);
     };
+    if (mesh.tetrahedra && mesh.geometry != nullptr)
+      {
+        mapping = std::make_unique<SimplexMapping>(mapping_degree,
+                                                   triangulation(),
+                                                   points);
+        return;
+      }
     if (mesh.tetrahedra)
       {
-        mapping =
-          mesh.geometry != nullptr ?
-            std::make_unique<SimplexMapping>(mapping_degree,
-                                             triangulation(),
-                                             points) :
-            std::make_unique<SimplexMapping>(mapping_degree, triangulation());
+        auto curved =
+          std::make_unique<SimplexMapping>(mapping_degree, triangulation());
+        if (mapping_degree > 1)
+          n_straightened = curved->straighten_tangled_cells(
+            triangulation(), points_of_integrals(mapping_degree));
+        mapping = std::move(curved);
         return;
       }
     auto cache = std::make_unique<HexahedralMapping>(mapping_degree);

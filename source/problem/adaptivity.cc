@@ -2,8 +2,8 @@
 
 #include <mortise/adapt/error_estimate.h>
 #include <mortise/adapt/error_tail.h>
-#include <mortise/adapt/refinement.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/gmsh_model.h>
 #include <mortise/problem/adaptivity.h>
 #include <mortise/problem/formulation.h>
 
@@ -19,6 +19,16 @@ namespace mortise
     /// A calibration makes estimates smaller by less than larger.
     constexpr double least_calibration = 0.77, most_calibration = 1.5;
 
+    /// Edges of a new mesh are at least 2^-3 of what they were: errors are not
+    /// known well.
+    constexpr unsigned int most_halvings = 3;
+
+    /// Edges are then 2^-9 of what they were, and degrees rise from there: else
+    /// meshes could go on without end.
+    constexpr unsigned int most_meshes = 3;
+
+    constexpr double least_growth = 1.02; ///< of unknowns, of a new mesh
+
     /// By which an estimate is multiplied if the square of the one before was too small by @p ratio, as
     /// the change that followed has shown, to which the error that is left is
     /// orthogonal: half the way, since estimates go up and down.
@@ -32,6 +42,41 @@ namespace mortise
     /// The least part that a refinement leaves of what does not come from
     /// cells.
     constexpr double least_ratio_of_rest = 0.1;
+    /// Can gmsh make another mesh of these tetrahedra?
+    bool
+    can_be_remeshed(const BodyParameters &given, const Body &body)
+    {
+      return body.mesh.tetrahedra && given.mesh.source == "file" &&
+             is_geometry_file(given.mesh.file);
+    }
+
+    /// Is there a cell on which nothing is known of the error? Collective.
+    bool
+    has_unknown_errors(const Bodies &bodies, const CellStates &states)
+    {
+      unsigned int result = 0;
+      for_each_cell(bodies,
+                    states,
+                    [&](const Body &, const auto &, const CellState &state) {
+                      result |=
+                        state.history.is_new && !state.history.is_refined;
+                    });
+      return Utilities::MPI::max(
+               result, bodies.front()->triangulation().get_communicator()) == 1;
+    }
+
+    /// Collective.
+    bool
+    splits_tetrahedra(const Body                    &body,
+                      const std::vector<Refinement> &refinements)
+    {
+      const bool any =
+        body.mesh.tetrahedra &&
+        std::find(refinements.begin(), refinements.end(), Refinement::split) !=
+          refinements.end();
+      return Utilities::MPI::max(any ? 1 : 0,
+                                 body.triangulation().get_communicator()) == 1;
+    }
 
     double
     sum(const std::vector<std::vector<double>> &numbers, const MPI_Comm comm)
@@ -112,6 +157,20 @@ namespace mortise
           std::find(split.begin(), split.end(), true) != split.end();
         if (Utilities::MPI::max(any ? 1 : 0, run.comm) == 1)
           split_cells(*body, split, states[body->index]);
+        if (meshes.empty() || meshes[body->index].sizes == nullptr)
+          continue;
+        auto       stage = run.log.stage(run.timers, "mesh");
+        const auto n     = body->triangulation().n_global_active_cells();
+        body->pressure.reset();
+        body->dof_handler.clear();
+        create_mesh(run, meshes[body->index].sizes, *body);
+        states[body->index] =
+          states_after(*body,
+                       meshes[body->index],
+                       rigid_motion(run.parameters.bodies[body->index].mesh));
+        stage.details(
+          "body " + body->name + ", " + std::to_string(n) + " cells become " +
+          std::to_string(body->triangulation().n_global_active_cells()));
       }
   }
 
@@ -128,7 +187,7 @@ namespace mortise
   const std::vector<BodySolution> &
   Adaptivity::start(const Bodies &bodies)
   {
-    if (cycle > 0)
+    if (cycle > 0 && meshes.empty())
       earlier = embedded(bodies, states);
     return earlier;
   }
@@ -136,7 +195,7 @@ namespace mortise
   const std::vector<BodySolution> &
   Adaptivity::dual_start(const Bodies &bodies)
   {
-    if (cycle > 0)
+    if (cycle > 0 && meshes.empty())
       earlier_dual = embedded(bodies, states, &CellState::dual);
     return earlier_dual;
   }
@@ -185,17 +244,25 @@ namespace mortise
     const double norm =
       dual ? std::fabs(dual->value) : std::sqrt(sum(size, run.comm));
     set_coefficients(bodies, solutions, states);
-    if (cycle == 0)
-      for_each_cell(bodies,
-                    states,
-                    [&](const Body &body, const auto &cell, CellState &state) {
-                      state.history.degree = state.degree;
-                      state.history.change = state.history.error =
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    CellHistory &history = state.history;
+                    history.degree       = state.degree;
+                    if (history.is_new && !history.is_refined)
+                      history.change = history.error =
                         size[body.index][cell->active_cell_index()];
-                    });
+                  });
     /// By which the error is what those of cells are together.
     double share = 1.;
-    if (cycle > 0)
+    if (has_unknown_errors(bodies, states))
+      {
+        sum_of_cells = 0.;
+        rest         = {};
+        estimated.reset();
+        signed_error.reset();
+      }
+    else
       {
         const double before  = sum_of_cells,
                      change  = learn(bodies, solutions, dual);
@@ -208,7 +275,7 @@ namespace mortise
             signed_error = sums.with_sign + rest.error;
             share        = sums.all > 0. ? error / sums.all : 1.;
           }
-        else if (cycle > 1 && before > 0.)
+        else if (before > 0.)
           share = calibration_by((change + sums.all) / before);
         estimated = (dual ? 1. : share) * error / (norm > 0. ? norm : 1.);
       }
@@ -233,12 +300,13 @@ namespace mortise
     if (dual)
       subtract(earlier_dual, dual->solutions);
     const auto changes = measure(bodies, earlier, earlier_dual);
-    estimate_errors(bodies, changes, cycle == 1, states);
+    estimate_errors(bodies, changes, states);
     if (dual)
       {
         const auto products = products_by_cell(bodies, earlier, earlier_dual);
         set_shares(bodies, products, states);
-        const double before = cycle == 1 ? last_value : rest.change;
+        // the first change is that from nothing
+        const double before = rest.change == 0. ? last_value : rest.change;
         rest.change = dual->value - last_value - sum(products, run.comm);
         rest.error  = rest.change * geometric_tail(std::fabs(rest.change),
                                                   std::fabs(before),
@@ -251,22 +319,103 @@ namespace mortise
     return sum(changes, run.comm);
   }
 
+  double
+  Adaptivity::next_unknowns(const Bodies      &bodies,
+                            const Refinements &choices) const
+  {
+    double now = 0., more = 0.;
+    for (const auto &body : bodies)
+      {
+        const double n = body->dof_handler.n_dofs();
+        now += n;
+        if (!meshes.empty())
+          more += n * (meshes[body->index].growth - 1.);
+      }
+    return now * growth(bodies, states, choices) + more;
+  }
+
+  bool
+  Adaptivity::plan_meshes(const Bodies      &bodies,
+                          const Refinements &choices,
+                          const double       allowed)
+  {
+    Refinements none;
+    double      n_cells = 0., now = 0.;
+    for (const auto &body : bodies)
+      {
+        none.emplace_back(choices[body->index].size(), Refinement::keep);
+        n_cells += body->triangulation().n_global_active_cells();
+        now += body->dof_handler.n_dofs();
+      }
+    for (unsigned int most = most_halvings; most > 0; --most)
+      {
+        meshes.assign(bodies.size(), {});
+        for (const auto &body : bodies)
+          if (splits_tetrahedra(*body, choices[body->index]))
+            {
+              const BodyParameters &given = run.parameters.bodies[body->index];
+              meshes[body->index] =
+                plan_remeshing(*body,
+                               choices[body->index],
+                               states[body->index],
+                               {share_of_cell * allowed / n_cells,
+                                most,
+                                *given_degrees(given).begin(),
+                                rigid_motion(given.mesh),
+                                given.mesh.refinements});
+            }
+        // one that is hardly finer is not worth what it costs
+        const double next = next_unknowns(bodies, none);
+        if (next < least_growth * now)
+          break;
+        if (next <= run.parameters.adaptivity.most_unknowns)
+          return true;
+      }
+    meshes.clear();
+    return false;
+  }
+
   void
   Adaptivity::choose(const Bodies &bodies, const double allowed)
   {
     const AdaptivityParameters &given = run.parameters.adaptivity;
-    const RefinementOptions     options{given.splits(),
-                                    given.strategy == "h",
-                                    given.largest_degree};
-    // the first changes are those of all cells
-    const auto choices = cycle == 1 ?
-                           refine_all(bodies, states, options) :
-                           choose_refinements(bodies, states, options, allowed);
-    double     now     = 0.;
+    RefinementOptions           options{given.splits(),
+                              given.strategy == "h",
+                              given.largest_degree,
+                              {}};
     for (const auto &body : bodies)
-      now += body->dof_handler.n_dofs();
-    const double next = now * growth(bodies, states, choices);
-    if (next == now)
+      options.may_remesh.push_back(
+        given.splits() && n_meshes < most_meshes &&
+        can_be_remeshed(run.parameters.bodies[body->index], *body));
+    if (cycle == 1 && given.splits())
+      for (const auto &body : bodies)
+        if (body->mesh.tetrahedra && !options.may_remesh[body->index])
+          run.log.line("  body " + body->name +
+                       ": tetrahedra without a geometry keep their size, "
+                       "degrees alone rise");
+    meshes.clear();
+    const auto choose = [&] {
+      // the first changes are those of all cells
+      return estimated ? choose_refinements(bodies, states, options, allowed) :
+                         refine_new(bodies, states, options);
+    };
+    auto       choices = choose();
+    const bool wants_meshes =
+      std::any_of(bodies.begin(), bodies.end(), [&](const auto &body) {
+        return splits_tetrahedra(*body, choices[body->index]);
+      });
+    if (wants_meshes && !plan_meshes(bodies, choices, allowed))
+      {
+        options.may_remesh.assign(bodies.size(), false);
+        choices = choose();
+      }
+    if (!meshes.empty())
+      ++n_meshes;
+    if (!meshes.empty()) // what else is refined would have no change
+      for (auto &of_body : choices)
+        std::fill(of_body.begin(), of_body.end(), Refinement::keep);
+    const double next = next_unknowns(bodies, choices);
+    if (meshes.empty() && growth(bodies, states, choices) == 1.)
       stopped_by = "Largest degree = " + std::to_string(given.largest_degree);
     else if (next > given.most_unknowns)
       stopped_by =
@@ -334,7 +483,7 @@ namespace mortise
   {
     return "The error is " +
            (estimated ? "estimated as " + RunLog::number(*estimated) :
-                        std::string("not known after one cycle")) +
+                        std::string("not known after one cycle on a mesh")) +
            "; Adaptivity/Target error is " +
            RunLog::number(*run.parameters.adaptivity.target_error) +
            ", and Adaptivity/" + stopped_by +

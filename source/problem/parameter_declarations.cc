@@ -215,7 +215,8 @@ namespace mortise
         adaptivity.strategy,
         "From cycle to cycle, from the mesh and the degrees that are given, where the error is: p: the degree rises by one; "
         "h: cells are cut into eight; hp: what makes the error smaller there, by how Legendre coefficients fall. "
-        "Tetrahedra are not cut: their degree rises.",
+        "Tetrahedra rise; with h and hp gmsh meshes those of a geometry (.geo, .step, .brep) again, up to three times, "
+        "with small cells where solutions are not smooth.",
         Allowed::one_of({"h", "p", "hp"}));
       section.add(
         "Largest number of unknowns",

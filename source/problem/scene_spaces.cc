@@ -34,17 +34,32 @@ namespace mortise
     return false;
   }
 
+  void
+  create_mesh(const RunContext                &run,
+              std::shared_ptr<const SizeField> sizes,
+              Body                            &body)
+  {
+    const Parameters     &parameters = run.parameters;
+    std::set<std::string> tied_boundaries;
+    for (const InterfaceParameters &interface : parameters.interfaces)
+      for (const SideParameters &side : {interface.slave, interface.master})
+        if (side.body == body.index)
+          tied_boundaries.insert(side.boundary);
+    MeshParameters mesh   = parameters.bodies[body.index].mesh;
+    mesh.is_refined_later = parameters.adaptivity.splits();
+    mesh.sizes            = std::move(sizes);
+    body.create_mesh(mesh,
+                     run.comm,
+                     "Body " + body.name + ", Mesh",
+                     tied_boundaries);
+  }
+
   Bodies
   create_meshes(const RunContext &run)
   {
     auto              stage      = run.log.stage(run.timers, "mesh");
     const Parameters &parameters = run.parameters;
-    std::vector<std::set<std::string>> tied_boundaries(
-      parameters.bodies.size());
-    for (const InterfaceParameters &interface : parameters.interfaces)
-      for (const SideParameters &side : {interface.slave, interface.master})
-        tied_boundaries[side.body].insert(side.boundary);
-    Bodies                                bodies;
+    Bodies            bodies;
     std::vector<std::vector<std::string>> boundary_names;
     std::uint64_t                         n_cells = 0;
     for (unsigned int b = 0; b < parameters.bodies.size(); ++b)
@@ -52,12 +67,7 @@ namespace mortise
         const BodyParameters &body = parameters.bodies[b];
         bodies.push_back(
           std::make_unique<Body>(body.name, b, materials(parameters)[b]));
-        MeshParameters mesh   = body.mesh;
-        mesh.is_refined_later = parameters.adaptivity.splits();
-        bodies[b]->create_mesh(mesh,
-                               run.comm,
-                               "Body " + body.name + ", Mesh",
-                               tied_boundaries[b]);
+        create_mesh(run, nullptr, *bodies[b]);
         n_cells += bodies[b]->triangulation().n_global_active_cells();
         boundary_names.emplace_back();
         for (const auto &name : bodies[b]->mesh.names.boundaries)
@@ -144,6 +154,11 @@ namespace mortise
         else
           body->create_space(degrees[body->index]);
         handlers.push_back(&body->dof_handler);
+        if (body->n_straightened > 0)
+          run.log.warning("body " + body->name +
+                          ": curved cells would be tangled and are straight: " +
+                          std::to_string(body->n_straightened) +
+                          "; a finer mesh is more accurate there");
         if (locks(given))
           run.log.warning(
             "body " + body->name + " with Poisson ratio " +

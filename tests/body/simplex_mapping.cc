@@ -1,5 +1,6 @@
 // Proves that SimplexMapping curves tetrahedra at the rate of its degree, with
-// no gap between cells however vertices are numbered.
+// no gap between cells however vertices are numbered, and that cells that would
+// be tangled become straight, with no gap to others.
 
 #include <deal.II/base/mpi.h>
 
@@ -112,6 +113,46 @@ verdict(const bool ok, const std::string &what, const double got)
     std::cout << "FAILED  " << what << ": got " << got << std::endl;
 }
 
+/// Vertices stay where they are; where y is large points of lines pass each
+/// other if @p size is above 0.16.
+void
+check_tangled(const unsigned int degree, const double size, const bool expected)
+{
+  const std::string at =
+    "waves of " + std::to_string(size) + ", degree " + std::to_string(degree);
+  const auto triangulation =
+    create_distributed("cube", 3, true, MPI_COMM_WORLD);
+  mortise::SimplexMapping mapping(
+    degree,
+    *triangulation,
+    [&](const auto &cell, const std::vector<Point<3>> &unit) {
+      std::vector<Point<3>> points;
+      for (const Point<3> &xi : unit)
+        {
+          Point<3> x = cell->vertex(0);
+          for (unsigned int d = 0; d < 3; ++d)
+            x += xi[d] * (cell->vertex(d + 1) - cell->vertex(0));
+          x[0] += size * x[1] * x[1] * std::sin(4. * numbers::PI * x[0]) / 2.;
+          points.push_back(x);
+        }
+      return points;
+    });
+  const double gap = largest_gap(mapping, *triangulation);
+  verdict(gap <= 1e-13, at + ": no gap, 1e-13", gap);
+  const auto points = mortise::simplex_quadrature<3>(2 * degree).get_points();
+  const unsigned int n =
+    mapping.straighten_tangled_cells(*triangulation, points);
+  verdict(expected == (n > 0), at + ": tangled cells are found", n);
+  verdict(n < triangulation->n_active_cells(), at + ": others stay", n);
+  const unsigned int after =
+    mapping.straighten_tangled_cells(*triangulation, points);
+  verdict(after == 0, at + ": none is left", after);
+  const double closed = largest_gap(mapping, *triangulation);
+  verdict(closed <= 1e-13, at + ": no gap then, 1e-13", closed);
+  const double leak = largest_leak(mapping, *triangulation, degree);
+  verdict(leak <= 1e-12, at + ": flux through faces, 1e-12", leak);
+}
+
 int
 main(int argc, char **argv)
 {
@@ -144,5 +185,10 @@ main(int argc, char **argv)
       verdict(rate >= degree + 0.75 || errors[1] < 1e-12,
               at + ": volume, rate >= degree + 0.75",
               rate);
+    }
+  for (const unsigned int degree : {3, 4})
+    {
+      check_tangled(degree, 0.05, false);
+      check_tangled(degree, 0.4, true);
     }
 }

@@ -76,7 +76,7 @@ namespace
       }
   }
 
-  struct Refinement
+  struct LocalRefinement
   {
     std::string name, lower, upper;
   };
@@ -92,9 +92,9 @@ main(int argc, char **argv)
     "Body outer/Mesh/Subdivisions=3, 1",
     "Output/Points=i: inner: 0, 0, 1; o: outer: 2, 0, 0"};
   for (const auto &[name, inner, outer] :
-       {Refinement{"slave", "0, 0, 1.5, 0.6, 1", ""},
-        Refinement{"master", "", "1.5, 0, 0, 0.5, 1"},
-        Refinement{"both", "0, 0, 1.5, 0.6, 1", "0, 0, 1.5, 0.3, 2"}})
+       {LocalRefinement{"slave", "0, 0, 1.5, 0.6, 1", ""},
+        LocalRefinement{"master", "", "1.5, 0, 0, 0.5, 1"},
+        LocalRefinement{"both", "0, 0, 1.5, 0.6, 1", "0, 0, 1.5, 0.3, 2"}})
     {
       const Settings meshes =
         coarse + Settings{"Body inner/Mesh/Refine near=" + inner,
@@ -119,8 +119,8 @@ main(int argc, char **argv)
         }
     }
   for (const auto &[name, lower, upper] :
-       {Refinement{"slave", "0, 0, 0.5, 0.3, 2", ""},
-        Refinement{"master", "", "1, 0, 0.5, 0.3, 2"}})
+       {LocalRefinement{"slave", "0, 0, 0.5, 0.3, 2", ""},
+        LocalRefinement{"master", "", "1, 0, 0.5, 0.3, 2"}})
     check_solution("clamped rim, " + name,
                    manufactured(),
                    degree(3, "lower", "upper") +

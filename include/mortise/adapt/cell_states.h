@@ -24,18 +24,23 @@ namespace mortise
     /// The change of the last rise of the degree by that of the rise before it,
     /// of cells that have not been split since; before the first rise one.
     double fall = 1.;
+    /// By which the first change is taken to be multiplied, at least, by the
+    /// next.
+    double least_ratio = 0.;
     /// Rises of the degree that stand behind one another; of a cell that has
     /// been split none.
     unsigned int n_rises    = 0;
     bool         is_refined = false; ///< by the last refinement
     bool         is_split   = false; ///< likewise, and has siblings
+    bool         is_new =
+      true; ///< has not changed yet: change and error are the solution itself
 
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &share &fall &n_rises &is_refined
-        &is_split;
+      archive &degree &change &error &ratio &share &fall &least_ratio &n_rises
+        &is_refined &is_split &is_new;
     }
   };
 

@@ -12,11 +12,10 @@ namespace mortise
 {
   /// Histories in @p states, which have the coefficients of the new solution, from the squares @p changes of the
   /// energy norm, by body and active cell, by which the last refinement
-  /// changed it. @p is_first: no cell had been refined before.
+  /// changed it.
   void
   estimate_errors(const Bodies        &bodies,
                   const NumbersByCell &changes,
-                  bool                 is_first,
                   CellStates          &states);
 
   /// Shares in @p states of the cells that were refined from the @p products (products_by_cell()) of

@@ -4,6 +4,7 @@
 
 #include <mortise/adapt/cell_states.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace mortise
@@ -12,27 +13,42 @@ namespace mortise
   {
     keep,
     rise,
-    split
+    split ///< of tetrahedra: a new mesh with smaller cells
   };
+
+  /// What a cell may have of the square of the error, of what all have in the
+  /// mean.
+  constexpr double share_of_cell = 0.25;
+
+  /// The square of the error that a cell has for certain: what it has changed
+  /// by is known, what follows after slow changes is not.
+  inline double
+  certain_error(const CellHistory &history)
+  {
+    return std::min(history.change, history.error);
+  }
 
   /// By body and active cell, of owned ones.
   using Refinements = std::vector<std::vector<Refinement>>;
 
   struct RefinementOptions
   {
-    bool         may_split      = true;  ///< hexahedra
-    bool         only_splits    = false; ///< where cells may be cut
-    unsigned int largest_degree = max_degree;
+    bool              may_split      = true;  ///< hexahedra
+    bool              only_splits    = false; ///< hexahedra that may be split
+    unsigned int      largest_degree = max_degree;
+    std::vector<bool> may_remesh; ///< by body, tetrahedra
   };
 
-  /// The best on every cell.
+  /// The best on every cell that has not been refined since its mesh was made;
+  /// others are kept.
   Refinements
-  refine_all(const Bodies            &bodies,
+  refine_new(const Bodies            &bodies,
              const CellStates        &states,
              const RefinementOptions &options);
 
   /// On as few cells as leave the square @p allowed of the energy norm of the error, as histories say, or on those that
-  /// have most of it, so that all have about the same. Collective.
+  /// have most of it, so that all have about the same. Tetrahedra are split
+  /// only where they have most of it. Collective.
   Refinements
   choose_refinements(const Bodies            &bodies,
                      const CellStates        &states,

@@ -45,7 +45,7 @@ namespace mortise
 
     /// Spaces of degree @p degree, or of the degree that @p degree_by_region gives to the material id
     /// of a cell, or the last of @p degree_near that touches it; mapping of the largest degree on curved meshes, at least
-    /// of @p least_mapping_degree; conformity
+    /// of @p least_mapping_degree, tetrahedra straight that would be tangled; conformity
     /// constraints; pressures if the material is mixed, which needs degrees
     /// above one. Replaces those of an earlier call. Collective; throws
     /// InputError for a region that the mesh does not have and for a ball that
@@ -109,6 +109,7 @@ namespace mortise
 
     std::unique_ptr<dealii::Mapping<dim>> mapping;
     unsigned int                          mapping_degree = 1;
+    unsigned int                          n_straightened = 0; ///< cells
 
     dealii::IndexSet
       relevant_dofs; ///< of owned and ghost cells, and their masters

@@ -2,7 +2,7 @@
 // how much it has changed, cell by cell, when they were refined.
 #pragma once
 
-#include <mortise/adapt/cell_states.h>
+#include <mortise/adapt/remeshing.h>
 #include <mortise/problem/quantity.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/scene_spaces.h>
@@ -27,8 +27,8 @@ namespace mortise
     /// @p run must live on; it has a target.
     explicit Adaptivity(const RunContext &run);
 
-    /// Cut the meshes of @p bodies, which lose their spaces, as chosen
-    /// by the last add(), if there was one. Collective.
+    /// Cut the meshes of @p bodies, or make new ones, as chosen by the last add(), if there was one; those bodies lose
+    /// their spaces. Collective; throws InputError where gmsh cannot.
     void
     refine(Bodies &bodies);
 
@@ -37,7 +37,7 @@ namespace mortise
     degrees() const;
 
     /// The solution of the cycle before in the spaces that @p bodies have now; empty in
-    /// the first cycle. Collective.
+    /// the first cycle and on a new mesh. Collective.
     const std::vector<BodySolution> &
     start(const Bodies &bodies);
 
@@ -60,7 +60,7 @@ namespace mortise
         const std::optional<DualSolution> &dual);
 
     /// Error of the quantity beside its value, or in the energy norm beside
-    /// that of the solution; nothing in the first cycle.
+    /// that of the solution; nothing in the first cycle and on a new mesh.
     const std::optional<double> &
     estimate() const
     {
@@ -68,7 +68,7 @@ namespace mortise
     }
 
     /// The part of each cell in the error, beside the same as estimate(),
-    /// by body and active cell; empty in the first cycle.
+    /// by body and active cell; empty where estimate() is nothing.
     std::vector<std::vector<double>>
     cell_estimates() const;
 
@@ -107,18 +107,28 @@ namespace mortise
     learn(const Bodies                      &bodies,
           const std::vector<BodySolution>   &solutions,
           const std::optional<DualSolution> &dual);
-    /// The next degrees and splits; @p allowed: of the sum over cells. Collective.
+    /// The next degrees, splits and meshes; @p allowed: of the sum over cells. Collective.
     void
     choose(const Bodies &bodies, double allowed);
+    /// New meshes for tetrahedra that @p choices split, as small as unknowns allow; false if they allow none. Collective.
+    bool
+    plan_meshes(const Bodies      &bodies,
+                const Refinements &choices,
+                double             allowed);
+    /// Unknowns of the next cycle, about. Collective.
+    double
+    next_unknowns(const Bodies &bodies, const Refinements &choices) const;
 
     const RunContext              &run;
     const std::optional<Quantity>  goal;
     unsigned int                   cycle = 0;
     CellStates                     states;
     std::vector<std::vector<bool>> splits;
-    std::vector<BodySolution>      earlier, earlier_dual;
-    double                         sum_of_cells = 0.; ///< ErrorSums::all
-    double                         last_value   = 0.; ///< of the quantity
+    std::vector<Remeshing>         meshes;  ///< by body; empty: none is new
+    unsigned int              n_meshes = 0; ///< how often there were new ones
+    std::vector<BodySolution> earlier, earlier_dual;
+    double                    sum_of_cells = 0.; ///< ErrorSums::all
+    double                    last_value   = 0.; ///< of the quantity
     /// How much the last refinement changed the quantity beyond what cells have
     /// in it, since prescribed values, loads and ties are others on other
     /// meshes, and what is left of that.

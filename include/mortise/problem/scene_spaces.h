@@ -43,6 +43,13 @@ namespace mortise
   Bodies
   create_meshes(const RunContext &run);
 
+  /// Make the mesh of @p body, which has no spaces, with edges of at most @p sizes if they are not null. Collective; throws
+  /// InputError.
+  void
+  create_mesh(const RunContext                &run,
+              std::shared_ptr<const SizeField> sizes,
+              Body                            &body);
+
   /// By body and active cell of its mesh; empty: those of the parameters.
   using CellDegrees = std::vector<std::vector<unsigned int>>;
 

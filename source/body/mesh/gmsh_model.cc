@@ -199,7 +199,9 @@ namespace mortise
     }
 
     GmshModel
-    read(const std::string &file_name, const double mesh_size)
+    read(const std::string &file_name,
+         const double       mesh_size,
+         const SizeField   *sizes)
     {
       gmsh::open(file_name);
       if (is_cad_file(file_name))
@@ -208,6 +210,11 @@ namespace mortise
         {
           if (mesh_size > 0.)
             gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
+          if (sizes != nullptr)
+            gmsh::model::mesh::setSizeCallback(
+              [sizes](int, int, double x, double y, double z) {
+                return (*sizes)(Point<3>(x, y, z));
+              });
           gmsh::model::mesh::generate(3);
         }
       GmshModel model;
@@ -227,14 +234,16 @@ namespace mortise
   }
 
   GmshModel
-  read_gmsh_model(const std::string &file_name, const double mesh_size)
+  read_gmsh_model(const std::string &file_name,
+                  const double       mesh_size,
+                  const SizeField   *sizes)
   {
     const Session session(mesh_size);
     std::string   problem;
     GmshModel     model;
     try
       {
-        model = read(file_name, mesh_size);
+        model = read(file_name, mesh_size, sizes);
       }
     catch (const std::exception &error)
       {

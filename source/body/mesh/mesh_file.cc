@@ -78,7 +78,9 @@ namespace mortise
         check_cad_content(file, content, fail);
       try
         {
-          return read_gmsh_model(file, parameters.mesh_size);
+          return read_gmsh_model(file,
+                                 parameters.mesh_size,
+                                 parameters.sizes.get());
         }
       catch (const std::runtime_error &error)
         {

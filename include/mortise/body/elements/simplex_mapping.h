@@ -62,6 +62,13 @@ namespace mortise
       return *nodal;
     }
 
+    /// Make cells straight the determinant of whose Jacobian is not positive at one of @p unit_points: their lines, and
+    /// faces and cells that share one. Number of such cells on all ranks.
+    /// Collective; before anything else uses the mapping.
+    unsigned int
+    straighten_tangled_cells(const dealii::Triangulation<3>      &triangulation,
+                             const std::vector<dealii::Point<3>> &unit_points);
+
     /// The same as the base class, but quick, and without the second
     /// derivatives that it wants. Also outside of the cell.
     dealii::Point<3>

@@ -5,6 +5,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <mortise/body/mesh/size_field.h>
+
 #include <map>
 #include <string>
 #include <vector>
@@ -54,9 +56,11 @@ namespace mortise
 
   /// Read the mesh of @p file_name, or make one if it is a geometry: with
   /// edges of at most @p mesh_size if that is positive, and that number for the
-  /// constant mesh_size of a .geo file. Surfaces and volumes of a .step or
+  /// constant mesh_size of a .geo file, and of at most @p sizes if it is not null. Surfaces and volumes of a .step or
   /// .brep file are physical groups of their own. Throws std::runtime_error
   /// with what gmsh says.
   GmshModel
-  read_gmsh_model(const std::string &file_name, double mesh_size);
+  read_gmsh_model(const std::string &file_name,
+                  double             mesh_size,
+                  const SizeField   *sizes = nullptr);
 } // namespace mortise

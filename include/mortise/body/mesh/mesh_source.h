@@ -4,9 +4,9 @@
 
 #include <deal.II/distributed/tria_base.h>
 
-#include <mortise/body/mesh/balls.h>
 #include <mortise/base/rigid_motion.h>
 #include <mortise/base/types.h>
+#include <mortise/body/mesh/balls.h>
 #include <mortise/body/mesh/coarse_geometry.h>
 #include <mortise/body/mesh/lattice_coarsening.h>
 
@@ -19,6 +19,8 @@
 
 namespace mortise
 {
+  class SizeField;
+
   /// The subsection "Mesh" of a body. Lengths are in the unit of the scene.
   ///
   /// | Source          | Extent                     | Subdivisions          | boundaries           |
@@ -50,11 +52,13 @@ namespace mortise
     bool is_refined_later = false; ///< cells of hexahedra may be cut, any time
 
     /// Of Source = file; see curved_boundaries.h for "Curved boundaries".
-    std::string           file;
-    std::string           part;
-    double                mesh_size = 0.;
-    std::string           curved_boundaries;
-    std::string           directory; ///< where a relative File may be, too
+    std::string file;
+    std::string part;
+    double      mesh_size = 0.;
+    std::string curved_boundaries;
+    std::string directory; ///< where a relative File may be, too
+    std::shared_ptr<const SizeField>
+      sizes; ///< of edges, at most, where gmsh meshes a geometry; null: none
     std::array<double, 3> rotate{};
     std::array<double, 3> translate{};
 
@@ -78,7 +82,8 @@ namespace mortise
     std::map<dealii::types::material_id, std::string> materials;
   };
 
-  /// Those of "Refine near": refine Ball::number times the cells that one touches. Throws InputError.
+  /// Those of "Refine near": refine Ball::number times the cells that one
+  /// touches. Throws InputError.
   std::vector<Ball>
   refinement_balls(const MeshParameters &parameters, const std::string &where);
 
