@@ -147,6 +147,30 @@ namespace mortise
     {
       return static_cast<float>(size);
     }
+
+    /// Of a cell: vertices, sizes at them, degree.
+    using Row = std::array<double, 17>;
+
+    Remeshing
+    remeshing_of(const std::vector<Row> &rows)
+    {
+      Remeshing                    result;
+      std::vector<SizeField::Cell> cells;
+      for (const Row &row : rows)
+        {
+          SizeField::Cell cell;
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              cell.vertices[v] =
+                Point<dim>(row[3 * v], row[3 * v + 1], row[3 * v + 2]);
+              cell.sizes[v] = row[12 + v];
+            }
+          cells.push_back(cell);
+          result.degrees.push_back(row[16]);
+        }
+      result.sizes = std::make_shared<SizeField>(std::move(cells));
+      return result;
+    }
   } // namespace
 
   Remeshing
@@ -160,13 +184,11 @@ namespace mortise
     for (unsigned int k = 0; k < states.size(); ++k)
       if (refinements[k] == Refinement::split)
         split[k] = certain_error(states[k].history);
-    const auto sizes   = sizes_at_vertices(triangulation);
-    const auto factors = factors_at_vertices(triangulation,
+    const auto       sizes   = sizes_at_vertices(triangulation);
+    const auto       factors = factors_at_vertices(triangulation,
                                              split,
                                              options.target,
                                              options.most_halvings);
-    // vertices, sizes, degree
-    using Row = std::array<double, 17>;
     std::vector<Row> own;
     double           number[2] = {0., 0.};
     for (const auto &cell : triangulation.active_cell_iterators())
@@ -197,22 +219,7 @@ namespace mortise
     for (const auto &of_rank : Utilities::MPI::all_gather(comm, own))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
     std::sort(all.begin(), all.end()); // the same whatever the ranks
-
-    Remeshing                    result;
-    std::vector<SizeField::Cell> cells;
-    for (const Row &row : all)
-      {
-        SizeField::Cell cell;
-        for (unsigned int v = 0; v < 4; ++v)
-          {
-            cell.vertices[v] =
-              Point<dim>(row[3 * v], row[3 * v + 1], row[3 * v + 2]);
-            cell.sizes[v] = row[12 + v];
-          }
-        cells.push_back(cell);
-        result.degrees.push_back(row[16]);
-      }
-    result.sizes = std::make_shared<SizeField>(std::move(cells));
+    Remeshing result = remeshing_of(all);
     Utilities::MPI::sum(number, comm, number);
     result.growth = number[1] / number[0];
     return result;

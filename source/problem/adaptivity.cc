@@ -313,6 +313,12 @@ namespace mortise
       options.may_remesh.push_back(
         given.splits() && n_meshes < most_meshes &&
         can_be_remeshed(run.parameters.bodies[body->index], *body));
+    if (cycle == 1 && given.splits())
+      for (const auto &body : bodies)
+        if (body->mesh.tetrahedra && !options.may_remesh[body->index])
+          run.log.line("  body " + body->name +
+                       ": tetrahedra without a geometry keep their size, "
+                       "degrees alone rise");
     meshes.clear();
     const auto choose = [&] {
       // the first changes are those of all cells
