@@ -164,10 +164,12 @@ namespace mortise
         choices = choose();
       }
     if (!meshes.empty())
-      ++n_meshes;
-    if (!meshes.empty()) // what else is refined would have no change
-      for (auto &of_body : choices)
-        std::fill(of_body.begin(), of_body.end(), Refinement::keep);
+      {
+        ++n_meshes;
+        // what else is refined would have no change
+        for (auto &of_body : choices)
+          std::fill(of_body.begin(), of_body.end(), Refinement::keep);
+      }
     const double next = next_unknowns(bodies, choices);
     if (meshes.empty() && growth(bodies, states, choices) == 1.)
       stopped_by = "Largest degree = " + std::to_string(given.largest_degree);
