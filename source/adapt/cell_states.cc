@@ -62,16 +62,9 @@ namespace mortise
     for_each_cell(bodies,
                   states,
                   [&](const Body &body, const auto &cell, CellState &state) {
-                    const BodySolution &solution = solutions[body.index];
-                    state.degree                 = body.degree(cell);
-                    const auto u =
-                      cell_coefficients(cell, solution.displacement);
-                    (state.*coefficients).assign(u.begin(), u.end());
-                    if (body.pressure)
-                      (state.*coefficients)
-                        .push_back(
-                          scalar_coefficients(body.pressure->cell(cell),
-                                              solution.pressure));
+                    state.degree = body.degree(cell);
+                    state.*coefficients =
+                      cell_coefficients(body, cell, solutions[body.index]);
                   });
   }
 
@@ -108,6 +101,12 @@ namespace mortise
 
   namespace
   {
+    Quadrature<dim>
+    energy_rule(const FiniteElement<dim> &element)
+    {
+      return gauss_quadrature<dim>(element, element.degree + 1);
+    }
+
     /// Integrals over the owned cells of what @p density has at point q of both @p fields, which are those
     /// of @p solutions.
     template <std::size_t n, typename Density>
@@ -124,10 +123,7 @@ namespace mortise
             result.emplace_back(body->triangulation().n_active_cells(), 0.);
           std::vector<std::unique_ptr<CellFields>> fields;
           for (unsigned int k = 0; k < n; ++k)
-            fields.push_back(std::make_unique<CellFields>(
-              *body, [](const FiniteElement<dim> &element) {
-                return gauss_quadrature<dim>(element, element.degree + 1);
-              }));
+            fields.push_back(std::make_unique<CellFields>(*body, energy_rule));
           for (const auto &cell : body->dof_handler.active_cell_iterators())
             if (cell->is_locally_owned())
               {
@@ -166,6 +162,39 @@ namespace mortise
   }
 
   NumbersByCell
+  energy_of_highest_modes(const Bodies &bodies, const CellStates &states)
+  {
+    NumbersByCell result;
+    for (const auto &body : bodies)
+      {
+        auto &of_body =
+          result.emplace_back(body->triangulation().n_active_cells(), 0.);
+        CellFields fields(*body, energy_rule);
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            {
+              const unsigned int k     = cell->active_cell_index();
+              const CellState   &state = states[body->index][k];
+              CellCoefficients   modes = state.coefficients;
+              for (unsigned int c = 0; c < modes.size(); ++c)
+                if (const unsigned int degree =
+                      c < dim ? state.degree : state.degree - 1;
+                    degree > 1)
+                  for (const unsigned int i :
+                       nested_modes(cell->reference_cell(), degree - 1, degree))
+                    modes[c][i] = 0.;
+              fields.reinit(cell, modes);
+              for (unsigned int q = 0; q < fields.weights.size(); ++q)
+                of_body[k] +=
+                  fields.weights[q] *
+                  body->material.twice_energy(fields.gradients[q],
+                                              pressure_at(fields, q));
+            }
+      }
+    return result;
+  }
+
+  NumbersByCell
   products_by_cell(const Bodies                    &bodies,
                    const std::vector<BodySolution> &a,
                    const std::vector<BodySolution> &b)
@@ -198,7 +227,8 @@ namespace mortise
       result.history.is_split   = true;
       result.history.n_rises    = 0;
       result.history.fall       = 1.;
-      result.history.error /= GeometryInfo<dim>::max_children_per_cell;
+      for (double *error : {&result.history.error, &result.history.own_error})
+        *error /= GeometryInfo<dim>::max_children_per_cell;
       for (const OfState part : {&CellState::coefficients, &CellState::dual})
         for (unsigned int c = 0; c < (result.*part).size(); ++c)
           {

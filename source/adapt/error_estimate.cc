@@ -4,11 +4,14 @@
 #include <mortise/adapt/error_tail.h>
 #include <mortise/adapt/smoothness.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mortise
 {
+  using namespace dealii;
+
   namespace
   {
     /// Of the squares of changes from degree to degree; corners have more, at
@@ -18,6 +21,12 @@ namespace mortise
     /// Of those that tell that a tetrahedron, of which nothing else is known,
     /// is at a corner: there a quarter, an eighth beside it.
     constexpr double fall_at_corner = 0.2;
+
+    /// The change of a cell by its own rise is at most so many times what its
+    /// new modes have, which would be all of it if they were orthogonal to the
+    /// others. Cells with a corner have up to four times as much, those beside
+    /// something that is too coarse a hundred times.
+    constexpr double largest_by_modes = 4.;
 
     /// The sum over the family of @p cell, which is on one rank; as much as has not been
     /// cut further stands for it all.
@@ -91,44 +100,101 @@ namespace mortise
     return is_smooth(state.history, decay(body, state));
   }
 
+  namespace
+  {
+    /// The new @p history of a cell after a refinement that made the square @p change on it by its own.
+    void
+    learn_own(const Body                &body,
+              const Body::CellIterator  &cell,
+              const std::vector<double> &changes,
+              const double               change,
+              CellState                 &state)
+    {
+      CellHistory &history = state.history;
+      ErrorTail    left;
+      if (history.is_new && !history.is_split)
+        {
+          // from degree zero, which has no energy
+          left         = geometric_tail(change,
+                                history.change,
+                                history.degree - 1,
+                                history.least_ratio);
+          history.fall = left.ratio;
+        }
+      else
+        {
+          if (history.n_rises > 1)
+            history.fall = change / history.change;
+          left = tail(history,
+                      decay(body, state),
+                      change,
+                      history.is_split ? of_family(cell, changes) : 0.);
+        }
+      history.own_error = change * left.left;
+      history.ratio     = left.ratio;
+      history.change    = change;
+      history.is_new    = false;
+    }
+  } // namespace
+
+  NumbersByCell
+  own_parts(const Bodies        &bodies,
+            const NumbersByCell &changes,
+            const CellStates    &states)
+  {
+    NumbersByCell result = energy_of_highest_modes(bodies, states);
+    for_each_cell(
+      bodies,
+      states,
+      [&](const Body &body, const auto &cell, const CellState &state) {
+        const unsigned int k      = cell->active_cell_index();
+        double            &part   = result[body.index][k];
+        const double       change = changes[body.index][k];
+        const double       most   = largest_by_modes * part;
+        // halves have no modes that their whole had not
+        part = state.history.is_split || !(most < change) ? 1. : most / change;
+      });
+    return result;
+  }
+
   void
   estimate_errors(const Bodies        &bodies,
                   const NumbersByCell &changes,
+                  const NumbersByCell &own_parts,
                   CellStates          &states)
   {
+    double own[2] = {0., 0.}; // changes and errors of refined cells
     for_each_cell(bodies,
                   states,
                   [&](const Body &body, const auto &cell, CellState &state) {
                     CellHistory &history = state.history;
                     if (!history.is_refined)
                       return;
-                    const auto  &of_body = changes[body.index];
-                    const double change  = of_body[cell->active_cell_index()];
-                    ErrorTail    left;
-                    if (history.is_new && !history.is_split)
-                      {
-                        // from degree zero, which has no energy
-                        left         = geometric_tail(change,
-                                              history.change,
-                                              history.degree - 1,
-                                              history.least_ratio);
-                        history.fall = left.ratio;
-                      }
-                    else
-                      {
-                        if (history.n_rises > 1)
-                          history.fall = change / history.change;
-                        left =
-                          tail(history,
-                               decay(body, state),
-                               change,
-                               history.is_split ? of_family(cell, of_body) :
-                                                  0.);
-                      }
-                    history.error  = change * left.left;
-                    history.ratio  = left.ratio;
-                    history.change = change;
-                    history.is_new = false;
+                    const unsigned int k       = cell->active_cell_index();
+                    const auto        &of_body = changes[body.index];
+                    const double       change =
+                      (own_parts.empty() ? 1. : own_parts[body.index][k]) *
+                      of_body[k];
+                    learn_own(body, cell, of_body, change, state);
+                    history.error = history.own_error;
+                    own[0] += change;
+                    own[1] += history.own_error;
+                  });
+    if (own_parts.empty())
+      return;
+    Utilities::MPI::sum(own,
+                        bodies.front()->triangulation().get_communicator(),
+                        own);
+    const double left = own[0] > 0. ? own[1] / own[0] : 0.;
+    for_each_cell(bodies,
+                  states,
+                  [&](const Body &body, const auto &cell, CellState &state) {
+                    CellHistory       &history = state.history;
+                    const unsigned int k       = cell->active_cell_index();
+                    const double       by_others =
+                      changes[body.index][k] -
+                      (history.is_refined ? history.change : 0.);
+                    history.error = history.own_error + left * by_others;
                   });
   }
 
@@ -153,20 +219,24 @@ namespace mortise
   ErrorSums
   error_sums(const Bodies &bodies, const CellStates &states)
   {
-    std::array<double, 3> sums{{0., 0., 0.}};
+    ErrorSums sums;
+    sums.by_body.resize(bodies.size(), 0.);
     for_each_cell(bodies,
                   states,
-                  [&](const Body &, const auto &, const CellState &state) {
+                  [&](const Body &body, const auto &, const CellState &state) {
                     const CellHistory &history = state.history;
                     const double       part    = history.share * history.error;
-                    sums[0] += history.error;
-                    sums[1] += history.n_rises == 0 ? part : 0.;
-                    sums[2] += part * part;
+                    sums.by_body[body.index] += history.error;
+                    sums.with_sign += history.n_rises == 0 ? part : 0.;
+                    sums.by_lot += part * part;
+                    sums.own += history.own_error;
                   });
-    dealii::Utilities::MPI::sum(
-      dealii::ArrayView<const double>(sums.data(), sums.size()),
-      bodies.front()->triangulation().get_communicator(),
-      dealii::ArrayView<double>(sums.data(), sums.size()));
-    return {sums[0], sums[1], std::sqrt(sums[2])};
+    const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
+    Utilities::MPI::sum(sums.by_body, comm, sums.by_body);
+    for (double *number : {&sums.with_sign, &sums.by_lot, &sums.own})
+      *number = Utilities::MPI::sum(*number, comm);
+    sums.all    = std::accumulate(sums.by_body.begin(), sums.by_body.end(), 0.);
+    sums.by_lot = std::sqrt(sums.by_lot);
+    return sums;
   }
 } // namespace mortise

@@ -57,7 +57,7 @@ namespace mortise
       for_each_cell(bodies,
                     states,
                     [&](const Body &, const auto &, const CellState &state) {
-                      largest = std::max(largest, state.history.error);
+                      largest = std::max(largest, state.history.own_error);
                     });
       largest                 = Utilities::MPI::max(largest, comm);
       const auto left_by_next = [&](const double least) {
@@ -73,9 +73,9 @@ namespace mortise
                                            std::max(after_rise, history.ratio) :
                                            after_split;
             left +=
-              history.error *
-              (choice != Refinement::keep && history.error > least ? ratio :
-                                                                     1.);
+              history.own_error *
+              (choice != Refinement::keep && history.own_error > least ? ratio :
+                                                                         1.);
           });
         return Utilities::MPI::sum(left, comm);
       };
@@ -229,7 +229,7 @@ namespace mortise
                                    allowed);
     Refinements  result =
       refine_where(bodies, states, options, [&](const auto &history) {
-        return history.error > least;
+        return history.own_error > least;
       });
     split_few_tetrahedra(bodies, states, options, result);
     raise_around(bodies, states, result);

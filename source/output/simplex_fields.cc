@@ -82,7 +82,9 @@ namespace mortise
               const auto own             = body.pressure->cell(cell);
               auto      &pressure_values = pressure_by_element(own);
               pressure_values.reinit(Triangulation<dim>::cell_iterator(own));
-              pressures = pressures_at(own, pressure_values, solution.pressure);
+              pressures =
+                pressures_at(pressure_values,
+                             scalar_coefficients(own, solution.pressure));
             }
           auto data =
             evaluate_cell(values,

@@ -129,6 +129,8 @@ namespace mortise
       visit("value", adaptivity.value);
       visit("target", adaptivity.target);
       visit("estimate", adaptivity.estimate);
+      visit("estimate_bulk", adaptivity.estimate_bulk);
+      visit("estimate_interface", adaptivity.estimate_interface);
       visit("correction", adaptivity.correction);
       visit("effectivity", adaptivity.effectivity);
     }

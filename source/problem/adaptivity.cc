@@ -1,6 +1,5 @@
 #include <deal.II/base/mpi.h>
 
-#include <mortise/adapt/error_estimate.h>
 #include <mortise/adapt/error_tail.h>
 #include <mortise/base/quotes.h>
 #include <mortise/problem/adaptivity.h>
@@ -156,79 +155,87 @@ namespace mortise
             }
     }
 
-    /// Cell by cell the square of the energy norm of @p u, or with a dual solution @p z its product with that
-    /// of @p z.
+    /// The roots of the products of both.
     NumbersByCell
-    measure(const Bodies                    &bodies,
-            const std::vector<BodySolution> &u,
-            const std::vector<BodySolution> &z)
+    geometric_mean(NumbersByCell a, const NumbersByCell &b)
     {
-      NumbersByCell result = energy_by_cell(bodies, u);
-      if (z.empty())
-        return result;
-      const NumbersByCell dual = energy_by_cell(bodies, z);
-      for (unsigned int b = 0; b < result.size(); ++b)
-        for (unsigned int k = 0; k < result[b].size(); ++k)
-          result[b][k] = std::sqrt(result[b][k] * dual[b][k]);
-      return result;
+      for (unsigned int i = 0; i < a.size(); ++i)
+        for (unsigned int k = 0; k < a[i].size(); ++k)
+          a[i][k] = std::sqrt(a[i][k] * b[i][k]);
+      return a;
     }
   } // namespace
 
   void
   Adaptivity::add(const Bodies                      &bodies,
                   const std::vector<BodySolution>   &solutions,
-                  const std::optional<DualSolution> &dual)
+                  const std::optional<DualSolution> &dual,
+                  const std::vector<Violation>      &violations)
   {
-    const std::vector<BodySolution> none;
-    const auto size = measure(bodies, solutions, dual ? dual->solutions : none);
+    NumbersByCell size = energy_by_cell(bodies, solutions);
+    set_coefficients(bodies, solutions, states);
+    if (dual)
+      {
+        size = geometric_mean(std::move(size),
+                              energy_by_cell(bodies, dual->solutions));
+        set_coefficients(bodies, dual->solutions, states, &CellState::dual);
+      }
     const double norm =
       dual ? std::fabs(dual->value) : std::sqrt(sum(size, run.comm));
-    set_coefficients(bodies, solutions, states);
     for_each_cell(bodies,
                   states,
                   [&](const Body &body, const auto &cell, CellState &state) {
                     CellHistory &history = state.history;
                     history.degree       = state.degree;
                     if (history.is_new && !history.is_refined)
-                      history.change = history.error =
+                      history.change = history.error = history.own_error =
                         size[body.index][cell->active_cell_index()];
                   });
+    interfaces = violations;
+    for (Violation &of : interfaces)
+      of.size = norm > 0. ? of.size / norm : 0.;
     /// By which the error is what those of cells are together.
     double share = 1.;
     if (has_unknown_errors(bodies, states))
       {
-        sum_of_cells = 0.;
-        rest         = {};
+        sums = {};
+        rest = {};
         estimated.reset();
         signed_error.reset();
       }
     else
-      {
-        const double before  = sum_of_cells,
-                     change  = learn(bodies, solutions, dual);
-        const ErrorSums sums = error_sums(bodies, states);
-        sum_of_cells         = sums.all;
-        double error         = std::sqrt(sums.all);
-        if (dual)
-          {
-            error        = std::hypot(sums.of_quantity(), rest.error);
-            signed_error = sums.with_sign + rest.error;
-            share        = sums.all > 0. ? error / sums.all : 1.;
-          }
-        else if (before > 0.)
-          share = calibration_by((change + sums.all) / before);
-        estimated = (dual ? 1. : share) * error / (norm > 0. ? norm : 1.);
-      }
+      share = estimate(bodies, solutions, dual, norm);
     if (dual)
-      {
-        set_coefficients(bodies, dual->solutions, states, &CellState::dual);
-        last_value = dual->value;
-      }
+      last_value = dual->value;
     ++cycle;
     const double allowed =
       *run.parameters.adaptivity.target_error * norm / share;
     if (!reached())
-      choose(bodies, dual ? allowed : allowed * allowed);
+      choose(bodies,
+             (dual ? allowed : allowed * allowed) *
+               (sums.all > 0. ? sums.own / sums.all : 1.));
+  }
+
+  double
+  Adaptivity::estimate(const Bodies                      &bodies,
+                       const std::vector<BodySolution>   &solutions,
+                       const std::optional<DualSolution> &dual,
+                       const double                       norm)
+  {
+    const double before = sums.all, change = learn(bodies, solutions, dual);
+    sums         = error_sums(bodies, states);
+    double error = std::sqrt(sums.all);
+    if (dual)
+      {
+        error        = std::hypot(sums.of_quantity(), rest.error);
+        signed_error = sums.with_sign + rest.error;
+      }
+    else if (before > 0.)
+      error *= calibration_by((change + sums.all) / before);
+    estimated = std::max(error / (norm > 0. ? norm : 1.), interface_error());
+    if (!(sums.all > 0. && norm > 0.))
+      return 1.;
+    return *estimated * norm / (dual ? sums.all : std::sqrt(sums.all));
   }
 
   double
@@ -237,10 +244,16 @@ namespace mortise
                     const std::optional<DualSolution> &dual)
   {
     subtract(earlier, solutions);
+    NumbersByCell changes = energy_by_cell(bodies, earlier), own;
     if (dual)
-      subtract(earlier_dual, dual->solutions);
-    const auto changes = measure(bodies, earlier, earlier_dual);
-    estimate_errors(bodies, changes, states);
+      {
+        subtract(earlier_dual, dual->solutions);
+        changes = geometric_mean(std::move(changes),
+                                 energy_by_cell(bodies, earlier_dual));
+      }
+    else
+      own = own_parts(bodies, changes, states);
+    estimate_errors(bodies, changes, own, states);
     if (dual)
       {
         const auto products = products_by_cell(bodies, earlier, earlier_dual);
@@ -259,6 +272,15 @@ namespace mortise
     return sum(changes, run.comm);
   }
 
+  double
+  Adaptivity::interface_error() const
+  {
+    double square = 0.;
+    for (const Violation &of : interfaces)
+      square += of.size * of.size;
+    return std::sqrt(square);
+  }
+
   std::vector<std::vector<double>>
   Adaptivity::cell_estimates() const
   {
@@ -268,8 +290,7 @@ namespace mortise
     const auto part = [&](const double error) {
       return goal ? error : std::sqrt(error);
     };
-    const double factor =
-      sum_of_cells > 0. ? *estimated / part(sum_of_cells) : 0.;
+    const double factor = sums.all > 0. ? *estimated / part(sums.all) : 0.;
     for (const auto &of_body : states)
       {
         result.emplace_back();
@@ -301,7 +322,44 @@ namespace mortise
       }
     if (estimated && error && *error > 0.)
       result.effectivity = *estimated / *error;
+    if (estimated && !goal)
+      {
+        const double of_interfaces = interface_error();
+        result.estimate_interface  = of_interfaces;
+        result.estimate_bulk       = std::sqrt(square_of_bulk());
+      }
     return result;
+  }
+
+  double
+  Adaptivity::square_of_bulk() const
+  {
+    return std::max(0.,
+                    *estimated * *estimated - std::pow(interface_error(), 2));
+  }
+
+  std::string
+  Adaptivity::worst_part() const
+  {
+    if (goal || !(sums.all > 0.))
+      return "";
+    std::string  name;
+    double       worst = 0.;
+    const double bulk  = square_of_bulk();
+    for (unsigned int b = 0; b < sums.by_body.size(); ++b)
+      if (const double part = bulk * sums.by_body[b] / sums.all; part > worst)
+        {
+          worst = part;
+          name  = "body " + run.parameters.bodies[b].name;
+        }
+    for (const Violation &of : interfaces)
+      if (const double part = of.size * of.size; part > worst)
+        {
+          worst = part;
+          name  = "interface " + of.interface + ", whose sides are apart";
+        }
+    return " (the worst part " + RunLog::number(std::sqrt(worst)) + ": " +
+           name + ")";
   }
 
   std::string
@@ -309,7 +367,8 @@ namespace mortise
   {
     return (goal ? goal->name() + " = " + RunLog::number(last_value) + ", " :
                    std::string()) +
-           "estimated error " + RunLog::number(*estimated) + ", target " +
+           "estimated error " + RunLog::number(*estimated) + worst_part() +
+           ", target " +
            RunLog::number(*run.parameters.adaptivity.target_error);
   }
 

@@ -157,7 +157,7 @@ namespace mortise
   }
 
   void
-  Simulation::learn(StepFields &fields)
+  Simulation::learn(const SolvedStep &solved, StepFields &fields)
   {
     std::optional<DualSolution> dual;
     if (const auto &quantity = adaptivity->quantity())
@@ -167,7 +167,12 @@ namespace mortise
                         *quantity,
                         fields.solutions,
                         adaptivity->dual_start(bodies));
-    adaptivity->add(bodies, fields.solutions, dual);
+    adaptivity->add(bodies,
+                    fields.solutions,
+                    dual,
+                    dual ?
+                      std::vector<Violation>() :
+                      violations(context, *discretisation, solved, fields));
     if (dual)
       report.converged = report.converged && dual->report.converged;
     fields.estimates = adaptivity->cell_estimates();
@@ -238,7 +243,7 @@ namespace mortise
                                         std::vector<bool>()};
       fields = step_fields(context, *discretisation, solved);
       if (adaptivity)
-        learn(fields);
+        learn(solved, fields);
       summary.steps.push_back(summarise(solved, fields));
     }
     state = std::move(next);

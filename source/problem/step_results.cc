@@ -1,5 +1,6 @@
 #include <mortise/output/functionals.h>
 #include <mortise/problem/contact_results.h>
+#include <mortise/problem/interface_law.h>
 #include <mortise/problem/step_results.h>
 
 #include <algorithm>
@@ -29,6 +30,33 @@ namespace mortise
         std::find(asked.begin(), asked.end(), "traction") != asked.end())
       fields.contact = contact_fields(run, discretisation, solved);
     return fields;
+  }
+
+  std::vector<Violation>
+  violations(const RunContext     &run,
+             const Discretisation &discretisation,
+             const SolvedStep     &solved,
+             const StepFields     &fields)
+  {
+    const SceneCouplings   &interfaces = discretisation.interfaces();
+    const TraceDisplacement displacement =
+      discretisation.trace_displacement(solved.load, fields.solutions);
+    std::vector<Violation> result;
+    for (unsigned int i = 0; i < interfaces.all().size(); ++i)
+      {
+        const InterfaceParameters &given = interfaces.sides()[i];
+        const double               energy =
+          violation_energy(interfaces.all()[i],
+                           displacement,
+                           fields.tractions[i],
+                           {{solved.data.offset(given),
+                             given.law == "contact" &&
+                               given.mesh_gap == "real"},
+                            spring_stiffness(run.parameters, given)},
+                           run.comm);
+        result.push_back({given.name, std::sqrt(energy)});
+      }
+    return result;
   }
 
   namespace

@@ -21,6 +21,20 @@ namespace
     return {"Adaptivity/Target error=" + number(error)};
   }
 
+  /// The sides of an interface are apart by less than the solution is off one
+  /// whose sides are not.
+  void
+  check_parts(const std::string       &what,
+              const AdaptivitySummary &of,
+              const double             error)
+  {
+    verdict(what + ": parts 1e-12",
+            std::fabs(std::hypot(*of.estimate_bulk, *of.estimate_interface) -
+                      *of.estimate),
+            1e-12);
+    verdict(what + ": interface", *of.estimate_interface, error);
+  }
+
   void
   check(const std::string &what,
         const std::string &text,
@@ -44,8 +58,35 @@ namespace
         verdict(cycle + ": number of it",
                 std::fabs(double(steps[c].cycle) - c),
                 0.);
+        check_parts(cycle, *steps[c].adaptivity, *steps[c].errors->energy);
       }
     verdict(what + ": error", *steps.back().errors->energy, error);
+  }
+
+  /// One cell below many: what these change by comes from it, and that it
+  /// cannot follow them is told as the error of the interface.
+  void
+  check_coarse_slave()
+  {
+    const auto steps =
+      run_scene(manufactured(),
+                target(5e-3) + Settings{"Body lower/Mesh/Subdivisions=1, 1, 1",
+                                        "Body upper/Mesh/Subdivisions=5, 5, "
+                                        "5"})
+        .steps;
+    for (unsigned int c = 1; c < steps.size(); ++c)
+      check_parts("coarse slave, cycle " + std::to_string(c),
+                  *steps[c].adaptivity,
+                  *steps[c].errors->energy);
+    double most = 0.; // of the error
+    for (unsigned int c = 1; c < steps.size(); ++c)
+      most = std::max(most,
+                      *steps[c].adaptivity->estimate_interface /
+                        *steps[c].errors->energy);
+    verdict("coarse slave: interface has half of the error", 0.5 / most, 1.);
+    verdict("coarse slave: error", *steps.back().errors->energy, 5e-3);
+    // 198,375 by changes alone
+    verdict("coarse slave: unknowns", steps.back().dofs.displacement, 1e5);
   }
 
   /// Seven cubes, the upper three as tetrahedra that gmsh makes.
@@ -106,6 +147,7 @@ main(int argc, char *argv[])
          "Exact solution/Displacement=0.1*(x^2 + y^2 + z^2)^0.3; 0.05*(x^2 + "
          "y^2 + z^2)^0.3; 0"});
 
+  check_coarse_slave();
   check_new_meshes();
 
   const auto few =

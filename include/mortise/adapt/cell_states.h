@@ -3,7 +3,7 @@
 // that contain the old ones keep to the last digit.
 #pragma once
 
-#include <mortise/operators/scene_solution.h>
+#include <mortise/operators/cells/cell_fields.h>
 
 #include <vector>
 
@@ -18,6 +18,9 @@ namespace mortise
     /// is estimated to be left of the error, and by which factor another such
     /// refinement makes it smaller.
     double change = 0., error = 0., ratio = 1.;
+    /// What of that error refining the cell itself makes smaller; the rest
+    /// comes from others.
+    double own_error = 0.;
     /// What the last refinement brought to the quantity by the change: between
     /// -1 and 1 but in mixed form. One without a quantity.
     double share = 1.;
@@ -39,22 +42,17 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &share &fall &least_ratio &n_rises
-        &is_refined &is_split &is_new;
+      archive &degree &change &error &ratio &own_error &share &fall &least_ratio
+        &n_rises &is_refined &is_split &is_new;
     }
   };
 
   struct CellState
   {
-    /// Of the displacement, component by component, and of the pressure in
-    /// mixed form, in the order of the scalar elements of the degree that the
-    /// cell had when they were taken.
-    using Coefficients = std::vector<std::vector<double>>;
+    CellHistory      history;
+    CellCoefficients coefficients, dual; ///< the latter with a quantity
 
-    CellHistory  history;
-    Coefficients coefficients, dual; ///< the latter with a quantity
-
-    /// That degree.
+    /// That the cell had when they were taken.
     unsigned int degree = 0;
 
     template <typename Archive>
@@ -70,7 +68,7 @@ namespace mortise
   using CellStates = std::vector<std::vector<CellState>>;
 
   /// Coefficients that a state has.
-  using OfState = CellState::Coefficients CellState::*;
+  using OfState = CellCoefficients CellState::*;
 
   /// Take the coefficients of @p solutions into @p states, which become as many as there
   /// are cells.
@@ -94,6 +92,11 @@ namespace mortise
   NumbersByCell
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions);
+
+  /// Likewise, of what the coefficients of @p states have in the modes of the highest
+  /// degree of each cell.
+  NumbersByCell
+  energy_of_highest_modes(const Bodies &bodies, const CellStates &states);
 
   /// What the operator of a scene has between @p a and @p b: without pressures the product that belongs to
   /// the energy norm.

@@ -10,12 +10,22 @@
 
 namespace mortise
 {
-  /// Histories in @p states, which have the coefficients of the new solution, from the squares @p changes of the
-  /// energy norm, by body and active cell, by which the last refinement
-  /// changed it.
+  /// The part of the squares @p changes of the energy norm, by body and active cell, by which the last refinement
+  /// changed the solution, that cells which were refined have changed by
+  /// themselves: where a cell that rose has changed by much more than what its
+  /// new modes have, others have changed it.
+  NumbersByCell
+  own_parts(const Bodies        &bodies,
+            const NumbersByCell &changes,
+            const CellStates    &states);
+
+  /// Histories in @p states, which have the coefficients of the new solution, from these @p changes and own_parts();
+  /// empty: no cell has changed by others. What is left of what they have
+  /// changed falls as their errors do. Collective.
   void
   estimate_errors(const Bodies        &bodies,
                   const NumbersByCell &changes,
+                  const NumbersByCell &own_parts,
                   CellStates          &states);
 
   /// Shares in @p states of the cells that were refined from the @p products (products_by_cell()) of
@@ -31,9 +41,11 @@ namespace mortise
   /// (doc/adaptivity.md).
   struct ErrorSums
   {
-    double all       = 0.; ///< as if all had one sign
-    double with_sign = 0.; ///< of cells that were cut
-    double by_lot    = 0.; ///< of all, the root of the sum of squares
+    double              all       = 0.; ///< as if all had one sign
+    double              with_sign = 0.; ///< of cells that were cut
+    double              by_lot = 0.; ///< of all, the root of the sum of squares
+    double              own    = 0.; ///< CellHistory::own_error, as all
+    std::vector<double> by_body;     ///< as all
 
     /// Of a quantity, two standard deviations of what goes by lot.
     double

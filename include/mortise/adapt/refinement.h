@@ -25,7 +25,7 @@ namespace mortise
   inline double
   certain_error(const CellHistory &history)
   {
-    return std::min(history.change, history.error);
+    return std::min(history.change, history.own_error);
   }
 
   /// By body and active cell, of owned ones.
@@ -46,7 +46,7 @@ namespace mortise
              const CellStates        &states,
              const RefinementOptions &options);
 
-  /// On as few cells as leave the square @p allowed of the energy norm of the error, as histories say, or on those that
+  /// On as few cells as leave the square @p allowed of the energy norm of their own errors, as histories say, or on those that
   /// have most of it, so that all have about the same. Tetrahedra are split
   /// only where they have most of it. Collective.
   Refinements

@@ -103,6 +103,9 @@ namespace mortise
     std::optional<double>      value;    ///< of the quantity
     double                     target = 0.;
     std::optional<double>      estimate; ///< absent in the first cycle
+    /// What of it comes from cells and from where an interface's sides are
+    /// apart; absent with a quantity. The sum of squares is that of estimate.
+    std::optional<double> estimate_bulk, estimate_interface;
     std::optional<double>
       correction; ///< what is to be added to it, as far as the sign is known
     std::optional<double>

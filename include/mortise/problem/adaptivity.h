@@ -2,6 +2,7 @@
 // how much it has changed, cell by cell, when they were refined.
 #pragma once
 
+#include <mortise/adapt/error_estimate.h>
 #include <mortise/adapt/remeshing.h>
 #include <mortise/problem/quantity.h>
 #include <mortise/problem/run_context.h>
@@ -20,6 +21,14 @@ namespace mortise
   /// With a target linear solves need no more digits than leave it what it is.
   Parameters
   with_tolerance(Parameters parameters);
+
+  /// What an interface has in the error because its sides are apart, inside
+  /// each other or pull.
+  struct Violation
+  {
+    std::string interface;
+    double      size = 0.; ///< energy norm, see violation_energy()
+  };
 
   class Adaptivity
   {
@@ -53,11 +62,12 @@ namespace mortise
     }
 
     /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: with a
-    /// quantity(). Collective.
+    /// quantity(), @p violations: without. Collective.
     void
     add(const Bodies                      &bodies,
         const std::vector<BodySolution>   &solutions,
-        const std::optional<DualSolution> &dual);
+        const std::optional<DualSolution> &dual,
+        const std::vector<Violation>      &violations);
 
     /// Error of the quantity beside its value, or in the energy norm beside
     /// that of the solution; nothing in the first cycle and on a new mesh.
@@ -101,6 +111,23 @@ namespace mortise
     missed() const;
 
   private:
+    /// The error from what the last refinement changed, beside @p norm; by which it is what those of cells are
+    /// together. Collective.
+    double
+    estimate(const Bodies                      &bodies,
+             const std::vector<BodySolution>   &solutions,
+             const std::optional<DualSolution> &dual,
+             double                             norm);
+    /// Of all interfaces. Such solutions are at least as far from one of which
+    /// no side is apart from its partner, and so from the exact one.
+    double
+    interface_error() const;
+    /// What estimate() has beyond it.
+    double
+    square_of_bulk() const;
+    /// Body or interface with most of the error, in words.
+    std::string
+    worst_part() const;
     /// Histories from the change that the refinement before this cycle made;
     /// its square over all cells. Collective.
     double
@@ -127,8 +154,9 @@ namespace mortise
     std::vector<Remeshing>         meshes;  ///< by body; empty: none is new
     unsigned int              n_meshes = 0; ///< how often there were new ones
     std::vector<BodySolution> earlier, earlier_dual;
-    double                    sum_of_cells = 0.; ///< ErrorSums::all
-    double                    last_value   = 0.; ///< of the quantity
+    ErrorSums                 sums;
+    std::vector<Violation>    interfaces;      ///< relative
+    double                    last_value = 0.; ///< of the quantity
     /// How much the last refinement changed the quantity beyond what cells have
     /// in it, since prescribed values, loads and ties are others on other
     /// meshes, and what is left of that.

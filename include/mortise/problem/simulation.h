@@ -75,7 +75,7 @@ namespace mortise
     solve(const SceneLoad &load);
     /// Tell how the cycle changed the solution, and that of a quantity.
     void
-    learn(StepFields &fields);
+    learn(const SolvedStep &solved, StepFields &fields);
     StepSummary
     summarise(const SolvedStep &solved, const StepFields &fields);
     void

@@ -3,6 +3,7 @@
 
 #include <mortise/output/errors.h>
 #include <mortise/output/summary.h>
+#include <mortise/problem/adaptivity.h>
 #include <mortise/problem/discretisation.h>
 
 #include <vector>
@@ -46,6 +47,13 @@ namespace mortise
   step_fields(const RunContext     &run,
               const Discretisation &discretisation,
               const SolvedStep     &solved);
+
+  /// Of all interfaces. Collective.
+  std::vector<Violation>
+  violations(const RunContext     &run,
+             const Discretisation &discretisation,
+             const SolvedStep     &solved,
+             const StepFields     &fields);
 
   /// Add to @p summary the balance of interfaces, errors against the exact solution, and the
   /// quantities that were asked for. Collective.

@@ -6,6 +6,19 @@ namespace mortise
 {
   using namespace dealii;
 
+  CellCoefficients
+  cell_coefficients(const Body               &body,
+                    const Body::CellIterator &cell,
+                    const BodySolution       &solution)
+  {
+    const auto       u = cell_coefficients(cell, solution.displacement);
+    CellCoefficients result(u.begin(), u.end());
+    if (body.pressure)
+      result.push_back(
+        scalar_coefficients(body.pressure->cell(cell), solution.pressure));
+    return result;
+  }
+
   struct CellFields::Hexahedra
   {
     Hexahedra(const Body            &body,
@@ -49,13 +62,19 @@ namespace mortise
   CellFields::reinit(const Body::CellIterator &cell,
                      const BodySolution       &solution)
   {
+    reinit(cell, cell_coefficients(body, cell, solution));
+  }
+
+  void
+  CellFields::reinit(const Body::CellIterator &cell,
+                     const CellCoefficients   &coefficients)
+  {
     if (!body.mesh.tetrahedra)
-      return evaluate_hexahedron(cell, solution);
+      return evaluate_hexahedron(cell, coefficients);
     auto &from = tetrahedra(cell);
     from.reinit(Triangulation<dim>::cell_iterator(cell));
-    const auto coefficients = cell_coefficients(cell, solution.displacement);
-    points                  = from.get_quadrature_points();
-    weights                 = from.get_JxW_values();
+    points  = from.get_quadrature_points();
+    weights = from.get_JxW_values();
     values.clear();
     gradients.clear();
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -73,21 +92,20 @@ namespace mortise
                                                        from.get_quadrature(),
                                                        update_values);
         own_values->reinit(Triangulation<dim>::cell_iterator(own));
-        pressures = pressures_at(own, *own_values, solution.pressure);
+        pressures = pressures_at(*own_values, coefficients.back());
       }
   }
 
   void
   CellFields::evaluate_hexahedron(const Body::CellIterator &cell,
-                                  const BodySolution       &solution)
+                                  const CellCoefficients   &coefficients)
   {
     auto &shared = hexahedra[body.degree(cell)];
     if (!shared)
       shared = std::make_unique<Hexahedra>(body,
                                            body.degree(cell),
                                            rule(cell->get_fe()));
-    const auto  coefficients = cell_coefficients(cell, solution.displacement);
-    const auto &jacobians    = shared->geometry.jacobians(cell);
+    const auto        &jacobians = shared->geometry.jacobians(cell);
     const unsigned int n_points = jacobians.size(), n = shared->degree + 1;
     points = shared->geometry.points(cell);
     values.resize(n_points);
@@ -112,11 +130,9 @@ namespace mortise
       }
     if (body.pressure)
       {
-        const auto own =
-          scalar_coefficients(body.pressure->cell(cell), solution.pressure);
         TensorArray modes{{{n - 1, n - 1, n - 1}}, {}};
         for (const unsigned int i : shared->pressure_modes)
-          modes.values.push_back(own[i]);
+          modes.values.push_back(coefficients.back()[i]);
         pressures = apply_derivative(shared->pressure_lines, dim, modes).values;
       }
     weights.resize(n_points);

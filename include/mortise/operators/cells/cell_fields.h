@@ -12,6 +12,15 @@
 
 namespace mortise
 {
+  /// Of the displacement, component by component, and of the pressure in mixed
+  /// form, on one cell in the order of the scalar elements.
+  using CellCoefficients = std::vector<std::vector<double>>;
+
+  CellCoefficients
+  cell_coefficients(const Body               &body,
+                    const Body::CellIterator &cell,
+                    const BodySolution       &solution);
+
   class CellFields
   {
   public:
@@ -27,6 +36,11 @@ namespace mortise
     void
     reinit(const Body::CellIterator &cell, const BodySolution &solution);
 
+    /// Likewise, of what has these coefficients.
+    void
+    reinit(const Body::CellIterator &cell,
+           const CellCoefficients   &coefficients);
+
     std::vector<dealii::Point<dim>>     points;
     std::vector<double>                 weights; ///< JxW
     std::vector<dealii::Tensor<1, dim>> values;
@@ -38,7 +52,7 @@ namespace mortise
 
     void
     evaluate_hexahedron(const Body::CellIterator &cell,
-                        const BodySolution       &solution);
+                        const CellCoefficients   &coefficients);
 
     const Body                                        &body;
     const Rule                                         rule;

@@ -43,12 +43,12 @@ namespace mortise
     return coefficients;
   }
 
-  /// Gradient at point @p q of a function with these coefficients.
-  template <typename Values>
+  /// Gradient at point @p q of a function with these coefficients, by component.
+  template <typename Values, typename Coefficients>
   dealii::Tensor<2, dim>
-  gradient(const Values                               &values,
-           const std::array<std::vector<double>, dim> &coefficients,
-           const unsigned int                          q)
+  gradient(const Values       &values,
+           const Coefficients &coefficients,
+           const unsigned int  q)
   {
     dealii::Tensor<2, dim> result;
     for (unsigned int i = 0; i < coefficients[0].size(); ++i)
@@ -60,11 +60,11 @@ namespace mortise
     return result;
   }
 
-  template <typename Values>
+  template <typename Values, typename Coefficients>
   dealii::Tensor<1, dim>
-  value(const Values                               &values,
-        const std::array<std::vector<double>, dim> &coefficients,
-        const unsigned int                          q)
+  value(const Values       &values,
+        const Coefficients &coefficients,
+        const unsigned int  q)
   {
     dealii::Tensor<1, dim> result;
     for (unsigned int i = 0; i < coefficients[0].size(); ++i)
@@ -73,14 +73,11 @@ namespace mortise
     return result;
   }
 
-  /// The pressure at all points of @p values; @p cell is one of the pressure's.
+  /// The pressure with @p coefficients on a cell at all points of @p values.
   template <typename Values>
   std::vector<double>
-  pressures_at(const PressureSpace::CellIterator &cell,
-               const Values                      &values,
-               const BodyVector                  &pressure)
+  pressures_at(const Values &values, const std::vector<double> &coefficients)
   {
-    const auto          coefficients = scalar_coefficients(cell, pressure);
     std::vector<double> result(values.n_quadrature_points);
     for (unsigned int q = 0; q < result.size(); ++q)
       for (unsigned int i = 0; i < coefficients.size(); ++i)

@@ -1,0 +1,137 @@
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/numbers.h>
+
+#include <mortise/mortar/violation.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    Point<dim>
+    slave_point(const IntegrationPoints &points, const unsigned int q)
+    {
+      return {points.slave_x[0][q], points.slave_x[1][q], points.slave_x[2][q]};
+    }
+  } // namespace
+
+  double
+  GapOfSurfaces::open(const IntegrationPoints &points,
+                      const unsigned int       q,
+                      const Tensor<1, dim>    &normal,
+                      const Tensor<1, dim>    &jump) const
+  {
+    const Point<dim> position = slave_point(points, q);
+    Tensor<1, dim>   between  = jump;
+    if (of_meshes)
+      for (unsigned int c = 0; c < dim; ++c)
+        between[c] += points.master_x[c][q] - position[c];
+    return normal * between + (offset ? offset(position) : 0.);
+  }
+
+  namespace
+  {
+    /// k / (2 (1/E_1 + 1/E_2))
+    double
+    stiffness_of_sides(const SurfaceFace &face,
+                       const FaceTrace   &slave,
+                       const FaceTrace   &master)
+    {
+      const auto  &tangent = face.frame.tangent;
+      const double h =
+        std::sqrt(cross_product_3d(tangent[0], tangent[1]).norm());
+      return numbers::PI * slave.degree / h /
+             (2. * (1. / slave.modulus + 1. / master.modulus));
+    }
+
+    /// Per area, of contact. @p open: a length; @p pressure: positive if pressing; @p c: see violation_energy().
+    double
+    violation_of_contact(const double open,
+                         const double pressure,
+                         const double c)
+    {
+      const double of_gap      = c * open * open,
+                   of_pressure = pressure * pressure / c;
+      if (open > 0. && pressure > 0.)
+        return std::min(of_gap, of_pressure);
+      return (open < 0. ? of_gap : 0.) + (pressure < 0. ? of_pressure : 0.);
+    }
+
+    /// Per area, of a tie or a spring. @p open: along the normal; @p traction: on the master.
+    double
+    violation_of_spring(const double          open,
+                        const Tensor<1, dim> &jump,
+                        const Tensor<1, dim> &traction,
+                        const Tensor<1, dim> &normal,
+                        const Stiffness      &spring,
+                        const double          c)
+    {
+      const double pull   = normal * traction;
+      double       square = 0.;
+      if (spring.normal > 0.)
+        square +=
+          std::pow((open + pull / spring.normal) / (1. + c / spring.normal), 2);
+      if (spring.tangential > 0.)
+        square += (jump - (normal * jump) * normal +
+                   (traction - pull * normal) / spring.tangential)
+                    .norm_square() /
+                  std::pow(1. + c / spring.tangential, 2);
+      return c * square;
+    }
+  } // namespace
+
+  double
+  violation_energy(const Coupling                         &coupling,
+                   const TraceDisplacement                &displacement,
+                   const std::vector<std::vector<double>> &tractions,
+                   const InterfaceLaw                     &law,
+                   const MPI_Comm                          comm)
+  {
+    InterfaceHandler   &interface = *coupling.interface;
+    DisplacementJump    jump_at(interface, displacement, comm);
+    double              energy = 0.;
+    std::vector<double> values;
+    interface.visit_pairs([&](const unsigned int       s,
+                              const unsigned int       m,
+                              const IntegrationPoints &points) {
+      const SurfaceFace &face  = interface.slave().faces[s];
+      const FaceTrace   &slave = interface.slave().traces[s];
+      const unsigned int n     = slave.n_functions();
+      const double       c =
+        stiffness_of_sides(face, slave, interface.master_traces()[m]);
+      values.resize(n);
+      jump_at.reinit(s);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const Point<2>       xi(points.slave_xi[0][q], points.slave_xi[1][q]);
+          const Tensor<1, dim> normal = face_normal(face, xi),
+                               jump   = jump_at(m, points, q);
+          Tensor<1, dim> traction;
+          slave.basis().evaluate(xi[0], xi[1], values.data());
+          for (unsigned int d = 0; d < dim; ++d)
+            for (unsigned int k = 0; k < n; ++k)
+              traction[d] += values[k] * tractions[s][d * n + k];
+          const double open = law.gap.open(points, q, normal, jump);
+          double       of_point;
+          if (coupling.is_contact)
+            of_point = violation_of_contact(open, traction * normal, c);
+          else
+            {
+              Stiffness spring;
+              if (law.stiffness)
+                spring = law.stiffness(slave_point(points, q));
+              if (coupling.directions == TiedDirections::normal)
+                spring.tangential = 0.;
+              of_point =
+                violation_of_spring(open, jump, traction, normal, spring, c);
+            }
+          energy += points.weight[q] * of_point;
+        }
+    });
+    return Utilities::MPI::sum(energy, comm);
+  }
+} // namespace mortise
