@@ -146,7 +146,7 @@ TEXT = """# An error in place of a mesh
 
 Regenerate: `tests/benchmarks/adaptivity.py build/mortise` (writes this page and the plot). AMD EPYC without AVX-512, one core.
 
-Missed or not there: estimates of quantities within 0.8 to 4 times their error; estimates of interfaces apart from bodies; targets together with steps; checkpoints; peers beside it. Estimates leave 0.8 to 4 times the error in single cycles: 0.69 (curved blocks at 1e-3, the last cycle; the
+Missed or not there: estimates of quantities within 0.8 to 4 times their error; estimates of interfaces apart from bodies; targets together with steps; checkpoints. Edges, cracks, contact and NGSolve beside it: [adaptivity_scenes.md](adaptivity_scenes.md). Estimates leave 0.8 to 4 times the error in single cycles: 0.69 (curved blocks at 1e-3, the last cycle; the
 target is met), 0.67 to 0.79 (Fichera, first estimates and one more), 4.5, 4.7, 5.9 and 12 (see below). Seconds are up to 4.8 times those of cells graded by hand and 5.9 times those of the best uniform degree, unknowns up to 1.52 times (curved blocks at 1e-7).
 
 ![Fichera's corner: error over unknowns and over seconds](adaptivity.png)
