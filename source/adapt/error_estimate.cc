@@ -22,29 +22,14 @@ namespace mortise
     /// is at a corner: there a quarter, an eighth beside it.
     constexpr double fall_at_corner = 0.2;
 
+    /// As which first changes may fall: Fichera's corner has 0.2 to 0.3 at first.
+    constexpr double doubtful_ratio = 0.2;
+
     /// The change of a cell by its own rise is at most so many times what its
     /// new modes have, which would be all of it if they were orthogonal to the
     /// others. Cells with a corner have up to four times as much, those beside
     /// something that is too coarse a hundred times.
     constexpr double largest_by_modes = 4.;
-
-    /// The sum over the family of @p cell, which is on one rank; as much as has not been
-    /// cut further stands for it all.
-    double
-    of_family(const Body::CellIterator  &cell,
-              const std::vector<double> &of_cells)
-    {
-      const auto   parent = cell->parent();
-      double       sum    = 0.;
-      unsigned int n      = 0;
-      for (unsigned int c = 0; c < parent->n_children(); ++c)
-        if (parent->child(c)->is_active())
-          {
-            sum += of_cells[parent->child(c)->active_cell_index()];
-            ++n;
-          }
-      return sum * parent->n_children() / n;
-    }
 
     /// Nothing of tetrahedra and of low degrees.
     std::optional<double>
@@ -66,29 +51,6 @@ namespace mortise
       return falls ? std::optional<bool>(mortise::is_smooth(*falls)) :
                      std::nullopt;
     }
-
-    /// After the refinement that made the square @p change on a cell, and @p of_family in all on
-    /// its siblings and it; coefficients fall by @p falls.
-    ErrorTail
-    tail(const CellHistory           &history,
-         const std::optional<double> &falls,
-         const double                 change,
-         const double                 of_family)
-    {
-      const bool smooth = is_smooth(history, falls).value_or(false);
-      if (history.is_split && smooth)
-        return smooth_split_tail(history.degree);
-      if (history.is_split)
-        return geometric_tail(of_family,
-                              history.change,
-                              1,
-                              std::pow(0.25, history.degree));
-      if (smooth)
-        return smooth_tail(change, history.change, falls.value_or(0.));
-      if (history.n_rises == 1)
-        return geometric_tail(change, history.change, 1, 0.);
-      return power_tail(history.degree, change, history.change);
-    }
   } // namespace
 
   std::optional<bool>
@@ -102,38 +64,116 @@ namespace mortise
 
   namespace
   {
-    /// The new @p history of a cell after a refinement that made the square @p change on it by its own.
     void
-    learn_own(const Body                &body,
-              const Body::CellIterator  &cell,
-              const std::vector<double> &changes,
-              const double               change,
-              CellState                 &state)
+    learn(const double change, const ErrorTail &left, CellHistory &history)
+    {
+      history.own_error = change * left.left;
+      history.doubt     = 0.;
+      history.ratio     = left.ratio;
+      history.change    = change;
+      history.is_new    = false;
+    }
+
+    /// Of a cell that was cut.
+    struct FamilyChange
+    {
+      double own  = 0.;
+      double all  = 0.; ///< of its siblings and it
+      double part = 0.; ///< of that, what goes on in it
+    };
+
+    /// @p cell is on one rank with its siblings; as much as has not been cut further stands for them all. What is
+    /// at an edge or a corner makes changes around it, too, which do not go on there: all goes on in those
+    /// siblings whose coefficients fall about as slowly as the slowest do.
+    FamilyChange
+    of_family(const Body                   &body,
+              const Body::CellIterator     &cell,
+              const std::vector<CellState> &states,
+              const std::vector<double>    &changes)
+    {
+      constexpr double about  = 0.7;
+      const auto       parent = cell->parent();
+      const auto       falls  = [&](const unsigned int k) {
+        return decay(body, states[k]).value_or(1.);
+      };
+      std::vector<unsigned int> family;
+      double                    slowest = 0., all = 0., rough = 0.;
+      for (unsigned int c = 0; c < parent->n_children(); ++c)
+        if (parent->child(c)->is_active())
+          {
+            family.push_back(parent->child(c)->active_cell_index());
+            slowest = std::max(slowest, falls(family.back()));
+          }
+      for (const unsigned int k : family)
+        {
+          all += changes[k];
+          rough += falls(k) >= about * slowest ? changes[k] : 0.;
+        }
+      const unsigned int k = cell->active_cell_index();
+      return {changes[k],
+              all * parent->n_children() / family.size(),
+              falls(k) >= about * slowest && rough > 0. ?
+                changes[k] * all / rough :
+                changes[k]};
+    }
+
+    /// After the last of several rises in degree, by which the square of the solution changed by @p change.
+    ErrorTail
+    tail_of_rises(const CellHistory           &history,
+                  const std::optional<double> &falls,
+                  const double                 change)
+    {
+      if (is_smooth(history, falls).value_or(false))
+        return smooth_tail(change, history.change, falls.value_or(0.));
+      if (history.n_rises == 1)
+        return geometric_tail(change, history.change, 1, 0.);
+      return power_tail(history.degree, change, history.change);
+    }
+
+    /// The new history of a cell with @p state after its degree has risen, which changed the solution by @p change.
+    void
+    learn_rise(const Body &body, double change, CellState &state)
     {
       CellHistory &history = state.history;
       ErrorTail    left;
-      if (history.is_new && !history.is_split)
+      if (history.is_new)
         {
-          // from degree zero, which has no energy
-          left         = geometric_tail(change,
-                                history.change,
-                                history.degree - 1,
-                                history.least_ratio);
+          // from degree zero, which has no energy; a state of constant strain
+          // may have most of that of degree one, and hide how slowly changes
+          // of another fall
+          const auto tail = [&](const double least) {
+            return geometric_tail(change,
+                                  history.change,
+                                  history.degree - 1,
+                                  std::max(least, history.least_ratio));
+          };
+          left         = tail(0.);
           history.fall = left.ratio;
+          learn(change, left, history);
+          history.doubt = change * (tail(doubtful_ratio).left - left.left);
+          return;
         }
       else
         {
           if (history.n_rises > 1)
             history.fall = change / history.change;
-          left = tail(history,
-                      decay(body, state),
-                      change,
-                      history.is_split ? of_family(cell, changes) : 0.);
+          left = tail_of_rises(history, decay(body, state), change);
         }
-      history.own_error = change * left.left;
-      history.ratio     = left.ratio;
-      history.change    = change;
-      history.is_new    = false;
+      learn(change, left, history);
+    }
+
+    /// Likewise, after it was cut.
+    void
+    learn_split(const Body &body, const FamilyChange &change, CellState &state)
+    {
+      CellHistory       &history = state.history;
+      const unsigned int p       = history.degree;
+      if (is_smooth(body, state).value_or(false))
+        learn(change.own, smooth_split_tail(p), history);
+      else
+        learn(change.part,
+              geometric_tail(change.all, history.change, 1, std::pow(0.25, p)),
+              history);
     }
   } // namespace
 
@@ -172,12 +212,21 @@ namespace mortise
                       return;
                     const unsigned int k       = cell->active_cell_index();
                     const auto        &of_body = changes[body.index];
-                    const double       change =
-                      (own_parts.empty() ? 1. : own_parts[body.index][k]) *
-                      of_body[k];
-                    learn_own(body, cell, of_body, change, state);
+                    if (history.is_split)
+                      learn_split(
+                        body,
+                        of_family(body, cell, states[body.index], of_body),
+                        state);
+                    else
+                      learn_rise(body,
+                                 (own_parts.empty() ? 1. :
+                                                      own_parts[body.index][k]) *
+                                   of_body[k],
+                                 state);
                     history.error = history.own_error;
-                    own[0] += change;
+                    if (own_parts.empty())
+                      history.doubt = 0.;
+                    own[0] += history.change;
                     own[1] += history.own_error;
                   });
     if (own_parts.empty())
@@ -192,8 +241,9 @@ namespace mortise
                     CellHistory       &history = state.history;
                     const unsigned int k       = cell->active_cell_index();
                     const double       by_others =
-                      changes[body.index][k] -
-                      (history.is_refined ? history.change : 0.);
+                      std::max(0.,
+                               changes[body.index][k] -
+                                 (history.is_refined ? history.change : 0.));
                     history.error = history.own_error + left * by_others;
                   });
   }
@@ -230,10 +280,11 @@ namespace mortise
                     sums.with_sign += history.n_rises == 0 ? part : 0.;
                     sums.by_lot += part * part;
                     sums.own += history.own_error;
+                    sums.doubt += history.doubt;
                   });
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     Utilities::MPI::sum(sums.by_body, comm, sums.by_body);
-    for (double *number : {&sums.with_sign, &sums.by_lot, &sums.own})
+    for (double *number : {&sums.with_sign, &sums.by_lot, &sums.own, &sums.doubt})
       *number = Utilities::MPI::sum(*number, comm);
     sums.all    = std::accumulate(sums.by_body.begin(), sums.by_body.end(), 0.);
     sums.by_lot = std::sqrt(sums.by_lot);

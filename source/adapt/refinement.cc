@@ -22,6 +22,13 @@ namespace mortise
     /// and edges, and a rise at least.
     constexpr double after_split = 0.5, after_rise = 0.02;
 
+    /// What refining the cell can make smaller.
+    double
+    largest_error(const CellHistory &history)
+    {
+      return history.own_error + history.doubt;
+    }
+
     MPI_Comm
     communicator(const Bodies &bodies)
     {
@@ -57,7 +64,7 @@ namespace mortise
       for_each_cell(bodies,
                     states,
                     [&](const Body &, const auto &, const CellState &state) {
-                      largest = std::max(largest, state.history.own_error);
+                      largest = std::max(largest, largest_error(state.history));
                     });
       largest                 = Utilities::MPI::max(largest, comm);
       const auto left_by_next = [&](const double least) {
@@ -73,8 +80,8 @@ namespace mortise
                                            std::max(after_rise, history.ratio) :
                                            after_split;
             left +=
-              history.own_error *
-              (choice != Refinement::keep && history.own_error > least ? ratio :
+              largest_error(history) *
+              (choice != Refinement::keep && largest_error(history) > least ? ratio :
                                                                          1.);
           });
         return Utilities::MPI::sum(left, comm);
@@ -229,7 +236,7 @@ namespace mortise
                                    allowed);
     Refinements  result =
       refine_where(bodies, states, options, [&](const auto &history) {
-        return history.own_error > least;
+        return largest_error(history) > least;
       });
     split_few_tetrahedra(bodies, states, options, result);
     raise_around(bodies, states, result);

@@ -27,6 +27,9 @@ namespace mortise
                       std::max(least_calibration, std::pow(ratio, 0.25)));
     }
 
+    /// Less is not worth saying.
+    constexpr double noticeable = 1.1;
+
     /// The least part that a refinement leaves of what does not come from
     /// cells.
     constexpr double least_ratio_of_rest = 0.1;
@@ -201,6 +204,7 @@ namespace mortise
         sums = {};
         rest = {};
         estimated.reset();
+        at_most.reset();
         signed_error.reset();
       }
     else
@@ -213,7 +217,9 @@ namespace mortise
     if (!reached())
       choose(bodies,
              (dual ? allowed : allowed * allowed) *
-               (sums.all > 0. ? sums.own / sums.all : 1.));
+               (sums.all > 0. ?
+                  (sums.own + sums.doubt) / (sums.all + sums.doubt) :
+                  1.));
   }
 
   double
@@ -233,6 +239,8 @@ namespace mortise
     else if (before > 0.)
       error *= calibration_by((change + sums.all) / before);
     estimated = std::max(error / (norm > 0. ? norm : 1.), interface_error());
+    at_most   = *estimated *
+              (sums.all > 0. ? std::sqrt(1. + sums.doubt / sums.all) : 1.);
     if (!(sums.all > 0. && norm > 0.))
       return 1.;
     return *estimated * norm / (dual ? sums.all : std::sqrt(sums.all));
@@ -363,11 +371,21 @@ namespace mortise
   }
 
   std::string
+  Adaptivity::doubt() const
+  {
+    return *at_most > noticeable * *estimated ?
+             ", perhaps " + RunLog::number(*at_most) + "," :
+             "";
+  }
+
+  std::string
   Adaptivity::found() const
   {
     return (goal ? goal->name() + " = " + RunLog::number(last_value) + ", " :
                    std::string()) +
-           "estimated error " + RunLog::number(*estimated) + worst_part() +
+           "estimated error " + RunLog::number(*estimated) +
+           doubt() +
+           worst_part() +
            ", target " +
            RunLog::number(*run.parameters.adaptivity.target_error);
   }
@@ -376,7 +394,8 @@ namespace mortise
   Adaptivity::missed() const
   {
     return "The error is " +
-           (estimated ? "estimated as " + RunLog::number(*estimated) :
+           (estimated ? "estimated as " + RunLog::number(*estimated) +
+                          doubt() :
                         std::string("not known after one cycle on a mesh")) +
            "; Adaptivity/Target error is " +
            RunLog::number(*run.parameters.adaptivity.target_error) +

@@ -21,6 +21,8 @@ namespace mortise
     /// What of that error refining the cell itself makes smaller; the rest
     /// comes from others.
     double own_error = 0.;
+    /// By which the error may be larger, since nothing is known of how changes fall.
+    double doubt = 0.;
     /// What the last refinement brought to the quantity by the change: between
     /// -1 and 1 but in mixed form. One without a quantity.
     double share = 1.;
@@ -42,8 +44,8 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &own_error &share &fall &least_ratio
-        &n_rises &is_refined &is_split &is_new;
+      archive &degree &change &error &ratio &own_error &doubt &share &fall
+        &least_ratio &n_rises &is_refined &is_split &is_new;
     }
   };
 

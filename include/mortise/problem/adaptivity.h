@@ -95,7 +95,7 @@ namespace mortise
     bool
     reached() const
     {
-      return estimated && *estimated <= *run.parameters.adaptivity.target_error;
+      return at_most && *at_most <= *run.parameters.adaptivity.target_error;
     }
 
     /// Why there is no next cycle, although the target is not reached, in
@@ -125,6 +125,9 @@ namespace mortise
     /// What estimate() has beyond it.
     double
     square_of_bulk() const;
+    /// That it may be larger, in words.
+    std::string
+    doubt() const;
     /// Body or interface with most of the error, in words.
     std::string
     worst_part() const;
@@ -165,6 +168,8 @@ namespace mortise
       double change = 0., error = 0.;
     } rest;
     std::optional<double> estimated;
+    /// What it may be where cells have risen but once, from degree one.
+    std::optional<double> at_most;
     std::optional<double> signed_error; ///< AdaptivitySummary::correction
     std::string           stopped_by;
   };
