@@ -22,7 +22,8 @@ namespace mortise
     /// is at a corner: there a quarter, an eighth beside it.
     constexpr double fall_at_corner = 0.2;
 
-    /// As which first changes may fall: Fichera's corner has 0.2 to 0.3 at first.
+    /// As which first changes may fall: Fichera's corner has 0.2 to 0.3 at
+    /// first.
     constexpr double doubtful_ratio = 0.2;
 
     /// The change of a cell by its own rise is at most so many times what its
@@ -83,8 +84,9 @@ namespace mortise
     };
 
     /// @p cell is on one rank with its siblings; as much as has not been cut further stands for them all. What is
-    /// at an edge or a corner makes changes around it, too, which do not go on there: all goes on in those
-    /// siblings whose coefficients fall about as slowly as the slowest do.
+    /// at an edge or a corner makes changes around it, too, which do not go on
+    /// there: all goes on in those siblings whose coefficients fall about as
+    /// slowly as the slowest do.
     FamilyChange
     of_family(const Body                   &body,
               const Body::CellIterator     &cell,
@@ -204,31 +206,30 @@ namespace mortise
                   CellStates          &states)
   {
     double own[2] = {0., 0.}; // changes and errors of refined cells
-    for_each_cell(bodies,
-                  states,
-                  [&](const Body &body, const auto &cell, CellState &state) {
-                    CellHistory &history = state.history;
-                    if (!history.is_refined)
-                      return;
-                    const unsigned int k       = cell->active_cell_index();
-                    const auto        &of_body = changes[body.index];
-                    if (history.is_split)
-                      learn_split(
-                        body,
-                        of_family(body, cell, states[body.index], of_body),
-                        state);
-                    else
-                      learn_rise(body,
-                                 (own_parts.empty() ? 1. :
-                                                      own_parts[body.index][k]) *
-                                   of_body[k],
-                                 state);
-                    history.error = history.own_error;
-                    if (own_parts.empty())
-                      history.doubt = 0.;
-                    own[0] += history.change;
-                    own[1] += history.own_error;
-                  });
+    for_each_cell(
+      bodies,
+      states,
+      [&](const Body &body, const auto &cell, CellState &state) {
+        CellHistory &history = state.history;
+        if (!history.is_refined)
+          return;
+        const unsigned int k       = cell->active_cell_index();
+        const auto        &of_body = changes[body.index];
+        if (history.is_split)
+          learn_split(body,
+                      of_family(body, cell, states[body.index], of_body),
+                      state);
+        else
+          learn_rise(body,
+                     (own_parts.empty() ? 1. : own_parts[body.index][k]) *
+                       of_body[k],
+                     state);
+        history.error = history.own_error;
+        if (own_parts.empty())
+          history.doubt = 0.;
+        own[0] += history.change;
+        own[1] += history.own_error;
+      });
     if (own_parts.empty())
       return;
     Utilities::MPI::sum(own,
@@ -284,7 +285,8 @@ namespace mortise
                   });
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     Utilities::MPI::sum(sums.by_body, comm, sums.by_body);
-    for (double *number : {&sums.with_sign, &sums.by_lot, &sums.own, &sums.doubt})
+    for (double *number :
+         {&sums.with_sign, &sums.by_lot, &sums.own, &sums.doubt})
       *number = Utilities::MPI::sum(*number, comm);
     sums.all    = std::accumulate(sums.by_body.begin(), sums.by_body.end(), 0.);
     sums.by_lot = std::sqrt(sums.by_lot);

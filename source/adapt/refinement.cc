@@ -81,8 +81,9 @@ namespace mortise
                                            after_split;
             left +=
               largest_error(history) *
-              (choice != Refinement::keep && largest_error(history) > least ? ratio :
-                                                                         1.);
+              (choice != Refinement::keep && largest_error(history) > least ?
+                 ratio :
+                 1.);
           });
         return Utilities::MPI::sum(left, comm);
       };

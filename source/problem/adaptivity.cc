@@ -92,11 +92,6 @@ namespace mortise
                       RunLog::number(*parameters.adaptivity.target_error) +
                         " together with Steps",
                       "a scene without steps");
-    if (parameters.output.checkpoint_every > 0)
-      parameters.fail("Output/Checkpoint every",
-                      std::to_string(parameters.output.checkpoint_every) +
-                        " together with Adaptivity/Target error",
-                      "0");
     // the first rise tells the first error
     for (const BodyParameters &body : parameters.bodies)
       {
@@ -212,14 +207,13 @@ namespace mortise
     if (dual)
       last_value = dual->value;
     ++cycle;
-    const double allowed =
-      *run.parameters.adaptivity.target_error * norm / share;
-    if (!reached())
-      choose(bodies,
-             (dual ? allowed : allowed * allowed) *
-               (sums.all > 0. ?
-                  (sums.own + sums.doubt) / (sums.all + sums.doubt) :
-                  1.));
+    const double part =
+      sums.all > 0. ? (sums.own + sums.doubt) / (sums.all + sums.doubt) : 1.;
+    allowed = norm / share;
+    allowed = part * (dual ? allowed : allowed * allowed);
+    if (run.parameters.output.checkpoint_every > 0)
+      keep(bodies);
+    choose(bodies);
   }
 
   double
@@ -239,8 +233,8 @@ namespace mortise
     else if (before > 0.)
       error *= calibration_by((change + sums.all) / before);
     estimated = std::max(error / (norm > 0. ? norm : 1.), interface_error());
-    at_most   = *estimated *
-              (sums.all > 0. ? std::sqrt(1. + sums.doubt / sums.all) : 1.);
+    at_most =
+      *estimated * (sums.all > 0. ? std::sqrt(1. + sums.doubt / sums.all) : 1.);
     if (!(sums.all > 0. && norm > 0.))
       return 1.;
     return *estimated * norm / (dual ? sums.all : std::sqrt(sums.all));
@@ -366,6 +360,8 @@ namespace mortise
           worst = part;
           name  = "interface " + of.interface + ", whose sides are apart";
         }
+    if (name.empty()) // not known of a cycle before a restart
+      return "";
     return " (the worst part " + RunLog::number(std::sqrt(worst)) + ": " +
            name + ")";
   }
@@ -383,10 +379,8 @@ namespace mortise
   {
     return (goal ? goal->name() + " = " + RunLog::number(last_value) + ", " :
                    std::string()) +
-           "estimated error " + RunLog::number(*estimated) +
-           doubt() +
-           worst_part() +
-           ", target " +
+           "estimated error " + RunLog::number(*estimated) + doubt() +
+           worst_part() + ", target " +
            RunLog::number(*run.parameters.adaptivity.target_error);
   }
 
@@ -394,8 +388,7 @@ namespace mortise
   Adaptivity::missed() const
   {
     return "The error is " +
-           (estimated ? "estimated as " + RunLog::number(*estimated) +
-                          doubt() :
+           (estimated ? "estimated as " + RunLog::number(*estimated) + doubt() :
                         std::string("not known after one cycle on a mesh")) +
            "; Adaptivity/Target error is " +
            RunLog::number(*run.parameters.adaptivity.target_error) +

@@ -62,7 +62,9 @@ namespace mortise
         const auto n     = body->triangulation().n_global_active_cells();
         body->pressure.reset();
         body->dof_handler.clear();
-        create_mesh(run, meshes[body->index].sizes, *body);
+        sizes.resize(bodies.size());
+        sizes[body->index] = meshes[body->index].sizes;
+        create_mesh(run, sizes[body->index], *body);
         states[body->index] =
           states_after(*body,
                        meshes[body->index],
@@ -130,10 +132,14 @@ namespace mortise
   }
 
   void
-  Adaptivity::choose(const Bodies &bodies, const double allowed)
+  Adaptivity::choose(const Bodies &bodies)
   {
-    const AdaptivityParameters &given = run.parameters.adaptivity;
-    RefinementOptions           options{given.splits(),
+    if (reached())
+      return;
+    const AdaptivityParameters &given  = run.parameters.adaptivity;
+    const double                target = *given.target_error,
+                 most = allowed * (goal ? target : target * target);
+    RefinementOptions options{given.splits(),
                               given.strategy == "h",
                               given.largest_degree,
                               {}};
@@ -150,7 +156,7 @@ namespace mortise
     meshes.clear();
     const auto choose = [&] {
       // the first changes are those of all cells
-      return estimated ? choose_refinements(bodies, states, options, allowed) :
+      return estimated ? choose_refinements(bodies, states, options, most) :
                          refine_new(bodies, states, options);
     };
     auto       choices = choose();
@@ -158,7 +164,7 @@ namespace mortise
       std::any_of(bodies.begin(), bodies.end(), [&](const auto &body) {
         return splits_tetrahedra(*body, choices[body->index]);
       });
-    if (wants_meshes && !plan_meshes(bodies, choices, allowed))
+    if (wants_meshes && !plan_meshes(bodies, choices, most))
       {
         options.may_remesh.assign(bodies.size(), false);
         choices = choose();

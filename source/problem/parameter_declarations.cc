@@ -305,7 +305,7 @@ namespace mortise
       section.add(
         "Checkpoint every",
         output.checkpoint_every,
-        "After so many steps the state goes to DIRECTORY/checkpoint.bin, from which "
+        "After so many steps, or cycles of Adaptivity, the state goes to DIRECTORY/checkpoint.bin, from which "
         "--restart DIRECTORY goes on. 0: never.",
         Allowed::integer(0));
       section.add(

@@ -22,6 +22,7 @@ namespace mortise
                 {"time", checkpoint.time},
                 {"longest_step", checkpoint.longest_step},
                 {"n_steps", checkpoint.n_steps},
+                {"adaptivity", checkpoint.adaptivity},
                 {"steps", steps_to_json(checkpoint.steps)},
                 {"files", checkpoint.files}}
       .dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -44,6 +45,7 @@ namespace mortise
                                 std::numeric_limits<double>::infinity() :
                                 json.at("longest_step").get<double>();
     checkpoint.n_steps      = json.at("n_steps").get<unsigned int>();
+    checkpoint.adaptivity   = json.at("adaptivity").get<std::string>();
     checkpoint.steps = steps_from_json(json.at("steps").get<std::string>());
     checkpoint.files =
       json.at("files").get<std::vector<std::pair<unsigned int, double>>>();

@@ -32,10 +32,22 @@ namespace mortise
                      const std::string   &directory)
   {
     restart       = directory;
-    state.time    = checkpoint.time;
     summary.steps = checkpoint.steps;
-    steps.resume(checkpoint.time, checkpoint.n_steps, checkpoint.longest_step);
     files.resume(checkpoint.files);
+    if (!checkpoint.adaptivity.empty() && parameters.adaptivity.target_error)
+      {
+        adaptivity.emplace(context);
+        adaptivity->resume(checkpoint.adaptivity);
+        state.time = steps.next();
+        return;
+      }
+    if (parameters.adaptivity.target_error)
+      parameters.fail("Adaptivity/Target error",
+                      RunLog::number(*parameters.adaptivity.target_error) +
+                        " with the checkpoint of a run without one",
+                      "nothing, or a run from the beginning");
+    state.time = checkpoint.time;
+    steps.resume(checkpoint.time, checkpoint.n_steps, checkpoint.longest_step);
     clock.share = steps.share();
   }
 
@@ -110,7 +122,12 @@ namespace mortise
       contact->resume(load, state.solution);
     else
       solver->remember(load.rhs, state.solution);
-    context.log.line("continued from t = " + RunLog::number(state.time));
+    if (adaptivity)
+      adaptivity->restore(bodies, checkpoint.solutions);
+    context.log.line(adaptivity ?
+                       "continued after cycle " +
+                         std::to_string(summary.steps.size() - 1) :
+                       "continued from t = " + RunLog::number(state.time));
   }
 
   SystemVector
@@ -265,8 +282,18 @@ namespace mortise
   void
   Simulation::adapt(const bool writes)
   {
-    adaptivity.emplace(context);
-    do
+    if (!adaptivity)
+      adaptivity.emplace(context);
+    else if (adaptivity->reached())
+      context.log.line("the target was reached before: " + adaptivity->found());
+    else
+      {
+        create_meshes();
+        adaptivity->restore_meshes(bodies);
+        discretise();
+        restore(restart);
+      }
+    while (!is_last_cycle())
       {
         context.log.line("cycle " + std::to_string(summary.steps.size()));
         discretise();
@@ -276,7 +303,6 @@ namespace mortise
         if (adaptivity->estimate())
           context.log.line("  " + adaptivity->found());
       }
-    while (!is_last_cycle());
     summary.status = !report.converged     ? "not converged" :
                      adaptivity->reached() ? "done" :
                                              "target not reached";

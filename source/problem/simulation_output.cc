@@ -16,7 +16,8 @@ namespace mortise
         unwritten.push_back(error);
     const unsigned int every = context.parameters.output.checkpoint_every;
     if (every > 0 && report.converged &&
-        (steps.n_done() % every == 0 || steps.finished()))
+        ((adaptivity ? summary.steps.size() : steps.n_done()) % every == 0 ||
+         steps.finished()))
       write_checkpoint(fields);
   }
 
@@ -31,6 +32,7 @@ namespace mortise
       steps.time(),
       steps.longest(),
       steps.n_done(),
+      adaptivity ? adaptivity->checkpoint() : std::string(),
       summary.steps,
       files.written()};
     try

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Proves that a run of several steps, killed at random moments and continued each time on another number
+# Proves that a run of several steps or adaptive cycles, killed at random moments and continued each time on another number
 # of ranks, ends with the results of a run that nothing disturbed, whatever the source of the meshes; and
 # that checkpoints of other scenes, damaged ones and wrong options are refused.
 set -u
@@ -55,24 +55,24 @@ solution() {
     grep -v -e iterations -e residual -e preconditioner -e method -e timings | tr -d ,
 }
 
-same() { # DIRECTORY DIRECTORY
+same() { # DIRECTORY DIRECTORY TOLERANCE
   solution "$1" >"$work/first"
   solution "$2" >"$work/second"
-  numdiff -q -r 1e-6 -a 1e-9 "$work/first" "$work/second"
+  numdiff -q -r "$3" -a 1e-9 "$work/first" "$work/second"
 }
 
 times() { # in a collection
   grep -o 'timestep="[^"]*"' "$1"
 }
 
-# disturbed NAME SCENE OPTION...
+# disturbed NAME TOLERANCE SOME ALL OPTION...: options SOME for a run that ends early, ALL for one to the end
 disturbed() {
-  local name=$1 whole=$work/$1-whole parts=$work/$1-parts options=("${@:2}" --set "Steps/Step=0.1" --set
-    "Output/Checkpoint every=1" --set "Output/Fields=displacement" --set "Output/Points=")
+  local name=$1 tolerance=$2 some=$3 all=$4 whole=$work/$1-whole parts=$work/$1-parts
+  local options=("${@:5}" --set "Output/Checkpoint every=1" --set "Output/Fields=displacement" --set "Output/Points=")
   local start=$(date +%s%N) length kill=0
   on 1 --output "$whole" "${options[@]}"
   length=$((($(date +%s%N) - start) / 1000000)) # milliseconds
-  verdict "$name: ten steps" '[ $code -eq 0 ]' "[ \$(grep -c '\"time\"' $whole/summary.json) -eq 10 ]"
+  verdict "$name: ten steps or six cycles" '[ $code -eq 0 ]' "[ \$(grep -c -e '\"time\"' -e '\"adaptivity\"' $whole/summary.json) -ge 6 ]"
 
   while [ "$kill" -lt "$kills" ]; do
     kill=$((kill + 1))
@@ -83,16 +83,24 @@ disturbed() {
       killed "$(printf '%d.%03d' $((after / 1000)) $((after % 1000)))" --output "$parts" "${options[@]}"
     fi
   done
-  [ -f "$parts/checkpoint.bin" ] || on 1 --output "$parts" "${options[@]}" --set "Steps/End time=0.3"
-  on 3 --restart "$parts" --set "Steps/End time=1"
-  verdict "$name: killed $kills times, then to the end on 3 ranks" '[ $code -eq 0 ]' "same $whole $parts" \
+  [ -f "$parts/checkpoint.bin" ] || on 1 --output "$parts" "${options[@]}" --set "$some"
+  on 3 --restart "$parts" --set "$all"
+  verdict "$name: killed $kills times, then to the end on 3 ranks" '[ $code -eq 0 ]' "same $whole $parts $tolerance" \
     "[ \"\$(cat $parts/*.pvd | times -)\" = \"\$(cat $whole/*.pvd | times -)\" ]"
 }
 
-disturbed generator "$prm/thick_sphere.prm" --set "Body inner/Boundary inside/Pressure=sin(t)*(1+t*x)" \
+steps=("Steps/End time=0.3" "Steps/End time=1")
+disturbed generator 1e-6 "${steps[@]}" --set "Steps/Step=0.1" "$prm/thick_sphere.prm" --set "Body inner/Boundary inside/Pressure=sin(t)*(1+t*x)" \
   --set "Exact solution/Displacement="
-disturbed gmsh "$prm/thick_sphere_gmsh.prm" --set "Body inner/Boundary inner inside/Pressure=t^2"\
+disturbed gmsh 1e-6 "${steps[@]}" --set "Steps/Step=0.1" "$prm/thick_sphere_gmsh.prm" --set "Body inner/Boundary inner inside/Pressure=t^2"\
   --set "Exact solution/Displacement="
+
+# solvers go no further than a thousandth of the target
+targets=("Adaptivity/Target error=3e-2" "Adaptivity/Target error=1e-2")
+corner=("$prm/fichera_adaptive.prm" --set "Adaptivity/Target error=1e-2")
+disturbed cycles 1e-4 "${targets[@]}" "${corner[@]}"
+disturbed meshes 1e-4 "${targets[@]}" "${corner[@]}" --set "Body upper/Mesh/File=$prm/../meshes/l_shape_tet.geo" \
+  --set "Body upper/Mesh/Mesh size=0.7"
 
 scene=$work/generator-parts
 refused() { # WHAT PATTERN OPTION...
@@ -113,6 +121,12 @@ printf 'x' | dd of="$work/damaged/checkpoint.bin" bs=1 seek=3000 conv=notrunc 2>
 refused "a damaged checkpoint" "damaged" --restart "$work/damaged" --set "Steps/End time=2"
 on 1 --restart "$scene"
 verdict "nothing left to do" '[ $code -eq 0 ]' "grep -q 'was reached before' $work/log"
+on 1 --restart "$work/cycles-parts"
+verdict "no cycle left to do" '[ $code -eq 0 ]' "grep -q 'was reached before' $work/log"
+on 1 --restart "$work/cycles-parts" --set "Adaptivity/Target error=5e-3"
+verdict "a smaller target goes on" '[ $code -eq 0 ]' "grep -q 'continued after cycle' $work/log"
+refused "a target after a run without" "with the checkpoint of a run without one" --restart "$scene" \
+  --set "Steps/Step=" --set "Adaptivity/Target error=1e-2"
 
 echo "$passed passed, $failed failed"
 [ "$failed" -eq 0 ]

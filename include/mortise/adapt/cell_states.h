@@ -21,7 +21,8 @@ namespace mortise
     /// What of that error refining the cell itself makes smaller; the rest
     /// comes from others.
     double own_error = 0.;
-    /// By which the error may be larger, since nothing is known of how changes fall.
+    /// By which the error may be larger, since nothing is known of how changes
+    /// fall.
     double doubt = 0.;
     /// What the last refinement brought to the quantity by the change: between
     /// -1 and 1 but in mixed form. One without a quantity.

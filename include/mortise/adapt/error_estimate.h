@@ -45,8 +45,8 @@ namespace mortise
     double              with_sign = 0.; ///< of cells that were cut
     double              by_lot = 0.; ///< of all, the root of the sum of squares
     double              own    = 0.; ///< CellHistory::own_error, as all
-    double doubt = 0.; ///< CellHistory::doubt, likewise
-    std::vector<double> by_body; ///< as all
+    double              doubt  = 0.; ///< CellHistory::doubt, likewise
+    std::vector<double> by_body;     ///< as all
 
     /// Of a quantity, two standard deviations of what goes by lot.
     double

@@ -4,6 +4,7 @@
 
 #include <mortise/adapt/error_estimate.h>
 #include <mortise/adapt/remeshing.h>
+#include <mortise/output/checkpoint_scene.h>
 #include <mortise/problem/quantity.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/scene_spaces.h>
@@ -88,6 +89,29 @@ namespace mortise
             const ExactSolution               *exact,
             const std::optional<ErrorSummary> &errors) const;
 
+    /// What a checkpoint needs beside the solution of the last cycle, as text;
+    /// empty where none is to be written.
+    const std::string &
+    checkpoint() const
+    {
+      return kept;
+    }
+
+    /// Go on after the cycle of which checkpoint() is @p text. Throws InputError if it is of another quantity().
+    void
+    resume(const std::string &text);
+
+    /// After resume(): the meshes of that cycle from those of the first, before
+    /// there are spaces. Collective; throws InputError where gmsh cannot, and
+    /// if they are other ones.
+    void
+    restore_meshes(Bodies &bodies);
+
+    /// After both, in the spaces of degrees(): the solution of that cycle.
+    /// Collective.
+    void
+    restore(const Bodies &bodies, const std::vector<BodySolution> &solutions);
+
     /// Estimate and target, in words.
     std::string
     found() const;
@@ -137,9 +161,13 @@ namespace mortise
     learn(const Bodies                      &bodies,
           const std::vector<BodySolution>   &solutions,
           const std::optional<DualSolution> &dual);
-    /// The next degrees, splits and meshes; @p allowed: of the sum over cells. Collective.
+    /// The next degrees, splits and meshes, unless the target is reached.
+    /// Collective.
     void
-    choose(const Bodies &bodies, double allowed);
+    choose(const Bodies &bodies);
+    /// Set what checkpoint() gives. Collective.
+    void
+    keep(const Bodies &bodies);
     /// New meshes for tetrahedra that @p choices split, as small as unknowns allow; false if they allow none. Collective.
     bool
     plan_meshes(const Bodies      &bodies,
@@ -168,9 +196,17 @@ namespace mortise
       double change = 0., error = 0.;
     } rest;
     std::optional<double> estimated;
+    /// What the errors of cells may be together for each unit of the target:
+    /// the square of an energy norm, or of a quantity itself.
+    double allowed = 0.;
     /// What it may be where cells have risen but once, from degree one.
     std::optional<double> at_most;
     std::optional<double> signed_error; ///< AdaptivitySummary::correction
     std::string           stopped_by;
+    /// By body, those of the mesh; null: the file's.
+    std::vector<std::shared_ptr<const SizeField>> sizes;
+    std::string                                   kept;
+    /// After resume(): by body, the cells of the mesh.
+    std::vector<std::vector<std::pair<CellNumber, CellState>>> restored;
   };
 } // namespace mortise

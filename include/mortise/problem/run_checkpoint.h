@@ -12,12 +12,13 @@ namespace mortise
 {
   struct RunCheckpoint
   {
-    std::string             file; ///< the parameter file, absolute
+    std::string             file;        ///< the parameter file, absolute
     std::vector<Assignment> assignments; ///< its lines and those of --set
 
     double       time         = 0.; ///< that was reached
     double       longest_step = 0.; ///< see LoadSteps; may be infinite
     unsigned int n_steps      = 0;  ///< accepted
+    std::string  adaptivity;        ///< Adaptivity::checkpoint()
     std::vector<StepSummary>                     steps;
     std::vector<std::pair<unsigned int, double>> files; ///< see FieldFiles
   };

@@ -32,6 +32,13 @@ namespace mortise
     double
     operator()(const dealii::Point<3> &x) const;
 
+    /// As given.
+    const std::vector<Cell> &
+    all() const
+    {
+      return cells;
+    }
+
     /// Which cell has @p x, or one that is near.
     unsigned int
     cell_at(const dealii::Point<3> &x) const;
