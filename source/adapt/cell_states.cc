@@ -42,7 +42,8 @@ namespace mortise
         }
     }
 
-    /// Of a cell of @p degree, about, in any unit.
+    /// Of a cell of @p degree, in any unit: within a quarter what products with
+    /// the matrix-free operator take (doc/bulk.md).
     unsigned int
     work(const unsigned int degree)
     {

@@ -134,34 +134,31 @@ namespace mortise
 
     /// The new history of a cell with @p state after its degree has risen, which changed the solution by @p change.
     void
-    learn_rise(const Body &body, double change, CellState &state)
+    learn_rise(const Body &body, const double change, CellState &state)
     {
       CellHistory &history = state.history;
-      ErrorTail    left;
-      if (history.is_new)
-        {
-          // from degree zero, which has no energy; a state of constant strain
-          // may have most of that of degree one, and hide how slowly changes
-          // of another fall
-          const auto tail = [&](const double least) {
-            return geometric_tail(change,
-                                  history.change,
-                                  history.degree - 1,
-                                  std::max(least, history.least_ratio));
-          };
-          left         = tail(0.);
-          history.fall = left.ratio;
-          learn(change, left, history);
-          history.doubt = change * (tail(doubtful_ratio).left - left.left);
-          return;
-        }
-      else
+      if (!history.is_new)
         {
           if (history.n_rises > 1)
             history.fall = change / history.change;
-          left = tail_of_rises(history, decay(body, state), change);
+          learn(change,
+                tail_of_rises(history, decay(body, state), change),
+                history);
+          return;
         }
-      learn(change, left, history);
+      // from degree zero, which has no energy; a state of constant strain may
+      // have most of that of degree one, and hide how slowly changes of another
+      // fall
+      const auto tail = [&, before = history.change](const double least) {
+        return geometric_tail(change,
+                              before,
+                              history.degree - 1,
+                              std::max(least, history.least_ratio));
+      };
+      const double most = tail(doubtful_ratio).left;
+      history.fall      = tail(0.).ratio;
+      learn(change, tail(0.), history);
+      history.doubt = change * most - history.own_error;
     }
 
     /// Likewise, after it was cut.

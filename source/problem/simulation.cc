@@ -183,28 +183,6 @@ namespace mortise
     return solution;
   }
 
-  void
-  Simulation::learn(const SolvedStep &solved, StepFields &fields)
-  {
-    std::optional<DualSolution> dual;
-    if (const auto &quantity = adaptivity->quantity())
-      dual = solve_dual(context,
-                        *discretisation,
-                        *solver,
-                        *quantity,
-                        fields.solutions,
-                        adaptivity->dual_start(bodies));
-    adaptivity->add(bodies,
-                    fields.solutions,
-                    dual,
-                    dual ?
-                      std::vector<Violation>() :
-                      violations(context, *discretisation, solved, fields));
-    if (dual)
-      report.converged = report.converged && dual->report.converged;
-    fields.estimates = adaptivity->cell_estimates();
-  }
-
   StepSummary
   Simulation::summarise(const SolvedStep &solved, const StepFields &fields)
   {
@@ -281,61 +259,12 @@ namespace mortise
       print_progress();
   }
 
-  bool
-  Simulation::is_last_cycle() const
-  {
-    return !adaptivity || !report.converged || adaptivity->reached() ||
-           !adaptivity->limit().empty();
-  }
-
   void
   Simulation::announce_step() const
   {
     if (context.parameters.steps.given())
       context.log.line("step " + std::to_string(steps.n_done() + 1) +
                        ", t = " + RunLog::number(steps.next()));
-  }
-
-  void
-  Simulation::cycle(const bool writes)
-  {
-    announce_step();
-    while (!is_last_cycle())
-      {
-        context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
-        discretise();
-        if (const auto &quantity = adaptivity->quantity())
-          quantity->derivative(bodies); // tells of a point that is nowhere
-        step(writes);
-        if (adaptivity->estimate())
-          context.log.line("  " + adaptivity->found());
-      }
-  }
-
-  void
-  Simulation::adapt(const bool writes)
-  {
-    if (!adaptivity)
-      adaptivity.emplace(context);
-    else if (adaptivity->reached())
-      context.log.line("the target was reached before: " + adaptivity->found());
-    else
-      {
-        create_meshes();
-        adaptivity->restore_meshes(bodies);
-        discretise();
-        restore(restart);
-      }
-    cycle(writes);
-    while (parameters.steps.given() && report.converged &&
-           adaptivity->reached() && !steps.finished())
-      {
-        adaptivity.emplace(context);
-        cycle(writes);
-      }
-    summary.status = !report.converged     ? "not converged" :
-                     adaptivity->reached() ? "done" :
-                                             "target not reached";
   }
 
   void

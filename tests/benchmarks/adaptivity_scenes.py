@@ -11,7 +11,7 @@ import subprocess
 import sys
 
 from adaptivity import CORNER, TOP, degrees, error, rows_of_cycles, seconds, unknowns
-from contact import contact_of, last, run
+from contact import MODULUS, contact_of, last, run, westergaard
 
 COARSE = ["Body inner/Degree=1", "Body outer/Degree=1", "Body inner/Mesh/Subdivisions=1, 1", "Body outer/Mesh/Subdivisions=2, 1"]
 WAVE = [f"Body {body}/{s}" for body, cells in (("lower", "2, 1, 8"), ("upper", "3, 1, 12")) for s in ("Degree=1", "Mesh/Refine near=", f"Mesh/Subdivisions={cells}")]
@@ -27,37 +27,9 @@ SCENES = [("shell, stiff inside", "thick_sphere", COARSE + ["Body inner/Material
           ("wave", "wavy_surface", WAVE, (1e-1, 1e-2, 1e-3), 1e-2),
           ("ball", "hertz_adaptive", [], (1e-1, 1e-2, 2e-3), 1e-2),
           ("paraboloid", "hertz_half_spaces", [], (1e-1, 1e-2, 2e-3), 1e-2)]
-MODULUS = 1000 / (2 * (1 - 0.3**2))
 FORCES = {"stiff cube": "pull", "L": "plate", "L, slab the slave": "plate", "L, 24 cells": "plate"}
 REFERENCES = {}  # of forces, by name: of the finest run of the first scene that has it
 FICHERA = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3, 3e-4)
-
-
-def westergaard():
-    """Settings with the displacement between the planes of prm/wavy_surface.prm: Westergaard's functions of psi = pi (x + i z) / 2 above the contact, mirrored
-    below, and the stress that holds the sides. With s = sin(pi a / 2), R = sqrt(s^2 - sin^2(psi)), D = R - i sin(psi) and p the mean pressure:
-    Z = -2 p cos(psi) / D, its integral -2 p / pi (sin(psi) / D + arcsin(sin(psi) / s))."""
-    nu, pressure, z = 0.3, 8.631086 / 4, "abs(z)"
-    mu = 1000 / 2 / (1 + nu)
-    sine = (f"(sin(pi*x/2)*cosh(pi*{z}/2))", f"(cos(pi*x/2)*sinh(pi*{z}/2))")
-    cosine = (f"cos(pi*x/2)*cosh(pi*{z}/2)", f"sin(pi*x/2)*sinh(pi*{z}/2)")  # minus the imaginary part
-    real = f"(0.5*cos(pi*x)*cosh(pi*{z}) - 0.25)"  # of R^2, s^2 = 1/4
-    size = f"sqrt({real}^2 + 0.25*(sin(pi*x)*sinh(pi*{z}))^2)"
-    d = (f"(sqrt(0.5*({size} + {real}) + 1e-20) + {sine[1]})", f"(-sqrt(0.5*({size} - {real}) + 1e-20) - {sine[0]})")
-    square = f"({d[0]}^2 + {d[1]}^2)"
-    k, across, along = pressure / 2 / mu, 2 * (1 - 2 * nu) / math.pi, 4 * (1 - nu) / math.pi
-    x = (f"{k}*({1 - 2 * nu}*x - ((({across}*{sine[0]} + 2*{z}*{cosine[1]})*{d[0]} + ({across}*{sine[1]} + 2*{z}*{cosine[0]})*{d[1]})/{square}"
-         f" + {across}*atan2(-{d[1]}, {d[0]})))")
-    height = (f"{k}*((({along}*{sine[0]} - 2*{z}*{cosine[1]})*{d[1]} - ({along}*{sine[1]} - 2*{z}*{cosine[0]})*{d[0]})/{square}"
-              f" - {along}*(0.5*log({square}) + log(2)) - {nu * (1 - 2 * nu) / (1 - nu)}*{z})")
-    half_way = -exact_top() / 2  # each block is pressed together as much as the other
-    return [f"Exact solution/Displacement={x}; 0; if(z > 0, 1, -1)*({height}) + {-half_way}"] + [f"Body {body}/Body force=0; 0; 0" for body in ("lower", "upper")]
-
-
-def exact_top():
-    """Blocks of height 4 that cannot widen, and the approach of the waves, p l / (pi E*) (1 + log(p* / p))."""
-    pressure = 8.631086 / 4
-    return -(8 * pressure * 1.3 * 0.4 / 0.7 / 1000 + 2 * pressure / (math.pi * MODULUS) * (1 + math.log(4)))
 
 
 def rate(points):

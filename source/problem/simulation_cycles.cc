@@ -1,0 +1,80 @@
+// The cycles of Simulation: solve, estimate, refine, until the error is small
+// enough.
+#include <mortise/problem/simulation.h>
+
+namespace mortise
+{
+  void
+  Simulation::learn(const SolvedStep &solved, StepFields &fields)
+  {
+    std::optional<DualSolution> dual;
+    if (const auto &quantity = adaptivity->quantity())
+      dual = solve_dual(context,
+                        *discretisation,
+                        *solver,
+                        *quantity,
+                        fields.solutions,
+                        adaptivity->dual_start(bodies));
+    adaptivity->add(bodies,
+                    fields.solutions,
+                    dual,
+                    dual ?
+                      std::vector<Violation>() :
+                      violations(context, *discretisation, solved, fields));
+    if (dual && !dual->report.converged)
+      {
+        report = dual->report;
+        report.method += " of the dual problem";
+      }
+    fields.estimates = adaptivity->cell_estimates();
+  }
+
+  bool
+  Simulation::is_last_cycle() const
+  {
+    return !adaptivity || !report.converged || adaptivity->reached() ||
+           !adaptivity->limit().empty();
+  }
+
+  void
+  Simulation::cycle(const bool writes)
+  {
+    announce_step();
+    while (!is_last_cycle())
+      {
+        context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
+        discretise();
+        if (const auto &quantity = adaptivity->quantity())
+          quantity->derivative(bodies); // tells of a point that is nowhere
+        step(writes);
+        if (adaptivity->estimate())
+          context.log.line("  " + adaptivity->found());
+      }
+  }
+
+  void
+  Simulation::adapt(const bool writes)
+  {
+    if (!adaptivity)
+      adaptivity.emplace(context);
+    else if (adaptivity->reached())
+      context.log.line("the target was reached before: " + adaptivity->found());
+    else
+      {
+        create_meshes();
+        adaptivity->restore_meshes(bodies);
+        discretise();
+        restore(restart);
+      }
+    cycle(writes);
+    while (parameters.steps.given() && report.converged &&
+           adaptivity->reached() && !steps.finished())
+      {
+        adaptivity.emplace(context);
+        cycle(writes);
+      }
+    summary.status = !report.converged     ? "not converged" :
+                     adaptivity->reached() ? "done" :
+                                             "target not reached";
+  }
+} // namespace mortise
