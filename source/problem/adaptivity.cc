@@ -87,11 +87,6 @@ namespace mortise
                           "estimate in a run with a target");
         return;
       }
-    if (parameters.steps.given())
-      parameters.fail("Adaptivity/Target error",
-                      RunLog::number(*parameters.adaptivity.target_error) +
-                        " together with Steps",
-                      "a scene without steps");
     // the first rise tells the first error
     for (const BodyParameters &body : parameters.bodies)
       {

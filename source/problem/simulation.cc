@@ -34,20 +34,25 @@ namespace mortise
     restart       = directory;
     summary.steps = checkpoint.steps;
     files.resume(checkpoint.files);
+    state.time = checkpoint.time;
     if (!checkpoint.adaptivity.empty() && parameters.adaptivity.target_error)
       {
         adaptivity.emplace(context);
         adaptivity->resume(checkpoint.adaptivity);
         state.time = steps.next();
-        return;
       }
-    if (parameters.adaptivity.target_error)
+    else if (parameters.adaptivity.target_error && !parameters.steps.given())
       parameters.fail("Adaptivity/Target error",
                       RunLog::number(*parameters.adaptivity.target_error) +
                         " with the checkpoint of a run without one",
                       "nothing, or a run from the beginning");
-    state.time = checkpoint.time;
-    steps.resume(checkpoint.time, checkpoint.n_steps, checkpoint.longest_step);
+    // without steps the end was that of the last cycle
+    if (!adaptivity || parameters.steps.given())
+      steps.resume(checkpoint.time,
+                   checkpoint.n_steps,
+                   checkpoint.longest_step);
+    if (adaptivity)
+      state.time = steps.next();
     clock.share = steps.share();
   }
 
@@ -70,10 +75,15 @@ namespace mortise
       pressing = contact->active_places();
     else if (restart.empty())
       pressing = contact_start(context, steps.next(), bodies);
+    // meshes of the last step do not suit the next one
+    const bool again =
+      adaptivity && adaptivity->n_cycles() == 0 && discretisation != nullptr;
     contact.reset();
     solver.reset();
     discretisation.reset();
-    if (adaptivity)
+    if (again)
+      create_meshes();
+    else if (adaptivity)
       adaptivity->refine(bodies);
     discretisation =
       std::make_unique<Discretisation>(context,
@@ -90,7 +100,7 @@ namespace mortise
     options.max_iterations = given.max_iterations;
     options.max_gathered   = given.max_gathered;
     // steps of contact know themselves where to start
-    if (context.parameters.steps.given() &&
+    if (context.parameters.steps.given() && !adaptivity &&
         !discretisation->interfaces().have_contact())
       options.successive = 4;
     if (given.print_iterations)
@@ -126,7 +136,7 @@ namespace mortise
       adaptivity->restore(bodies, checkpoint.solutions);
     context.log.line(adaptivity ?
                        "continued after cycle " +
-                         std::to_string(summary.steps.size() - 1) :
+                         std::to_string(adaptivity->n_cycles() - 1) :
                        "continued from t = " + RunLog::number(state.time));
   }
 
@@ -211,7 +221,7 @@ namespace mortise
                      {},
                      {}};
     if (adaptivity)
-      result.cycle = summary.steps.size();
+      result.cycle = adaptivity->n_cycles() - 1;
     if (contact)
       {
         result.solver->active_sets       = contact->n_sets();
@@ -237,9 +247,8 @@ namespace mortise
   {
     const double    time = steps.next();
     const SceneData data(context.parameters, time, field_checks);
-    if (context.parameters.steps.given())
-      context.log.line("step " + std::to_string(steps.n_done() + 1) +
-                       ", t = " + RunLog::number(time));
+    if (!adaptivity)
+      announce_step();
     const SceneLoad load = discretisation->load(data);
     field_checks.throw_if_any(context.comm);
     check_loads(load.rhs);
@@ -268,7 +277,7 @@ namespace mortise
       steps.accept(report.converged);
     if (writes)
       write_results(fields);
-    if (context.parameters.steps.given())
+    if (context.parameters.steps.given() && is_last_cycle())
       print_progress();
   }
 
@@ -277,6 +286,30 @@ namespace mortise
   {
     return !adaptivity || !report.converged || adaptivity->reached() ||
            !adaptivity->limit().empty();
+  }
+
+  void
+  Simulation::announce_step() const
+  {
+    if (context.parameters.steps.given())
+      context.log.line("step " + std::to_string(steps.n_done() + 1) +
+                       ", t = " + RunLog::number(steps.next()));
+  }
+
+  void
+  Simulation::cycle(const bool writes)
+  {
+    announce_step();
+    while (!is_last_cycle())
+      {
+        context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
+        discretise();
+        if (const auto &quantity = adaptivity->quantity())
+          quantity->derivative(bodies); // tells of a point that is nowhere
+        step(writes);
+        if (adaptivity->estimate())
+          context.log.line("  " + adaptivity->found());
+      }
   }
 
   void
@@ -293,15 +326,12 @@ namespace mortise
         discretise();
         restore(restart);
       }
-    while (!is_last_cycle())
+    cycle(writes);
+    while (parameters.steps.given() && report.converged &&
+           adaptivity->reached() && !steps.finished())
       {
-        context.log.line("cycle " + std::to_string(summary.steps.size()));
-        discretise();
-        if (const auto &quantity = adaptivity->quantity())
-          quantity->derivative(bodies); // tells of a point that is nowhere
-        step(writes);
-        if (adaptivity->estimate())
-          context.log.line("  " + adaptivity->found());
+        adaptivity.emplace(context);
+        cycle(writes);
       }
     summary.status = !report.converged     ? "not converged" :
                      adaptivity->reached() ? "done" :
@@ -312,7 +342,7 @@ namespace mortise
   Simulation::march(const bool writes)
   {
     report.converged = true;
-    if (parameters.adaptivity.target_error)
+    if (parameters.adaptivity.target_error && !steps.finished())
       return adapt(writes);
     if (steps.finished()) // of a run that was continued
       context.log.line("the end at t = " + RunLog::number(steps.time()) +
@@ -348,7 +378,7 @@ namespace mortise
             write_summary(); // steps of this run are worth keeping
             if (adaptivity)
               context.log.line("the results of cycle " +
-                               std::to_string(summary.steps.size() - 1) +
+                               std::to_string(summary.steps.back().cycle) +
                                " are written");
           }
         throw;

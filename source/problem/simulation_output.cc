@@ -9,14 +9,16 @@ namespace mortise
   void
   Simulation::write_results(const StepFields &fields)
   {
-    // a later cycle may not come to its end
-    if (adaptivity || steps.output_due() || !report.converged)
+    // a later cycle may not come to its end, and has the same file
+    const bool each_cycle = adaptivity && !context.parameters.steps.given();
+    if (!report.converged || each_cycle ||
+        (is_last_cycle() && steps.output_due()))
       for (const OutputError &error :
            files.write(steps.n_done(), steps.time(), *discretisation, fields))
         unwritten.push_back(error);
     const unsigned int every = context.parameters.output.checkpoint_every;
     if (every > 0 && report.converged &&
-        ((adaptivity ? summary.steps.size() : steps.n_done()) % every == 0 ||
+        ((adaptivity ? adaptivity->n_cycles() : steps.n_done()) % every == 0 ||
          steps.finished()))
       write_checkpoint(fields);
   }
@@ -32,7 +34,9 @@ namespace mortise
       steps.time(),
       steps.longest(),
       steps.n_done(),
-      adaptivity ? adaptivity->checkpoint() : std::string(),
+      adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
+        adaptivity->checkpoint() :
+        std::string(),
       summary.steps,
       files.written()};
     try

@@ -55,6 +55,13 @@ namespace mortise
     const std::vector<BodySolution> &
     dual_start(const Bodies &bodies);
 
+    /// That were added.
+    unsigned int
+    n_cycles() const
+    {
+      return cycle;
+    }
+
     /// That the target is of; nothing: the energy norm.
     const std::optional<Quantity> &
     quantity() const

@@ -59,12 +59,17 @@ namespace mortise
     /// All steps, or cycles; with files if @p writes.
     void
     march(bool writes);
-    /// Solve with other degrees until the error is small enough, or no others
-    /// are allowed.
+    /// Solve with other meshes and degrees until the error is small enough, or
+    /// no others are allowed; every step from the first mesh on.
     void
     adapt(bool writes);
+    /// Likewise, for one step.
+    void
+    cycle(bool writes);
     bool
     is_last_cycle() const;
+    void
+    announce_step() const;
     /// One step, or half of it if it does not converge and may be halved.
     void
     step(bool writes);
