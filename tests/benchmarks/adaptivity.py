@@ -150,7 +150,7 @@ Edges, cracks, contact and NGSolve beside it: [adaptivity_scenes.md](adaptivity_
 Missed or not there:
 
 - Estimates of quantities within 0.8 to 4 times their error.
-- Targets together with steps.
+- Meshes that go on from step to step: with `Steps` each begins with the first mesh again and has all cycles of its own.
 - A solver tolerance that follows the estimate: tried. Solves are a tenth of the time of all cycles (curved blocks at 1e-7: 0.11 of 1.15 s); a tolerance ten times
   as large gains 3 %, one a hundred times as large makes estimates wrong.
 - Estimates 0.8 to 4 times the error in single cycles: 0.67 and 0.79 (Fichera, first estimates), 4.45 (tetrahedra of curved blocks, the first one) and 4.2 (curved blocks,
@@ -202,7 +202,7 @@ cells were too large, and a cycle passes without an estimate. Where both bodies 
   `estimate_interface` and `estimate_bulk` add up to that of `estimate`; the log names the worst body or interface. Of the true error it is two thirds with one cell below 8x8x8, 0.15
   to 0.4 with ratio 2:3 of curved blocks, a third at the crack, a thousandth or less on spheres; in contact 0.6 to 1.3 (the wave), so there it bounds nothing.
   With `Quantity` there are no own parts, doubts and shares.
-- **Checkpoints**: `Output/Checkpoint every` counts cycles; `--restart` goes on after any of them, on any number of ranks, also with another target or other limits.
+- **Checkpoints**: `Output/Checkpoint every` counts cycles (with `Steps` those of each step); `--restart` goes on after any of them, on any number of ranks, also with another target or other limits.
 - **h or p**: where the degree rises to three and more, Legendre coefficients of derivatives fall by 0.3 to 0.4 per degree on cells at Fichera's corner, by 0.2 to 0.26 on those beside it;
   at 0.28 and above a cell is cut, unless its changes have fallen tenfold per degree. Three is the least degree at which there are two coefficients beside the constant one.
 - **New meshes**: changes of tetrahedra at the corner fall by 0.26 from degree two to three, as squares, by 0.13 beside it; above 0.2 they are not smooth. If those have most of the error of all tetrahedra, edges shrink
