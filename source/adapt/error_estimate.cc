@@ -22,10 +22,6 @@ namespace mortise
     /// is at a corner: there a quarter, an eighth beside it.
     constexpr double fall_at_corner = 0.2;
 
-    /// As which first changes may fall: Fichera's corner has 0.2 to 0.3 at
-    /// first.
-    constexpr double doubtful_ratio = 0.2;
-
     /// The change of a cell by its own rise is at most so many times what its
     /// new modes have, which would be all of it if they were orthogonal to the
     /// others. Cells with a corner have up to four times as much, those beside
@@ -146,19 +142,18 @@ namespace mortise
                 history);
           return;
         }
-      // from degree zero, which has no energy; a state of constant strain may
-      // have most of that of degree one, and hide how slowly changes of another
-      // fall
-      const auto tail = [&, before = history.change](const double least) {
-        return geometric_tail(change,
-                              before,
-                              history.degree - 1,
-                              std::max(least, history.least_ratio));
-      };
-      const double most = tail(doubtful_ratio).left;
-      history.fall      = tail(0.).ratio;
-      learn(change, tail(0.), history);
-      history.doubt = change * most - history.own_error;
+      // from degree zero, which has no energy
+      const ErrorTail left = geometric_tail(change,
+                                            history.change,
+                                            history.degree - 1,
+                                            history.least_ratio);
+      history.fall         = left.ratio;
+      learn(change, left, history);
+      // a state of constant strain may have most of the solution of degree one,
+      // and hide how slowly changes of another fall: one change is known
+      constexpr double nothing = 0.;
+      history.doubt = change * geometric_tail(change, nothing, 1, 0.).left -
+                      history.own_error;
     }
 
     /// Likewise, after it was cut.

@@ -27,9 +27,6 @@ namespace mortise
                       std::max(least_calibration, std::pow(ratio, 0.25)));
     }
 
-    /// Less is not worth saying.
-    constexpr double noticeable = 1.1;
-
     /// The least part that a refinement leaves of what does not come from
     /// cells.
     constexpr double least_ratio_of_rest = 0.1;
@@ -227,7 +224,7 @@ namespace mortise
       }
     else if (before > 0.)
       error *= calibration_by((change + sums.all) / before);
-    estimated = std::max(error / (norm > 0. ? norm : 1.), interface_error());
+    limit_interfaces(error / (norm > 0. ? norm : 1.));
     at_most =
       *estimated * (sums.all > 0. ? std::sqrt(1. + sums.doubt / sums.all) : 1.);
     if (!(sums.all > 0. && norm > 0.))
@@ -269,6 +266,19 @@ namespace mortise
     return sum(changes, run.comm);
   }
 
+  void
+  Adaptivity::limit_interfaces(const double error)
+  {
+    double bound = 0., rest = 0.; // squares
+    for (const Violation &of : interfaces)
+      (of.is_bound ? bound : rest) += of.size * of.size;
+    estimated         = std::max(error, std::sqrt(bound));
+    const double room = *estimated * *estimated - bound;
+    for (Violation &of : interfaces)
+      if (!of.is_bound && rest > room)
+        of.size *= std::sqrt(room / rest);
+  }
+
   double
   Adaptivity::interface_error() const
   {
@@ -277,118 +287,4 @@ namespace mortise
       square += of.size * of.size;
     return std::sqrt(square);
   }
-
-  std::vector<std::vector<double>>
-  Adaptivity::cell_estimates() const
-  {
-    std::vector<std::vector<double>> result;
-    if (!estimated)
-      return result;
-    const auto part = [&](const double error) {
-      return goal ? error : std::sqrt(error);
-    };
-    const double factor = sums.all > 0. ? *estimated / part(sums.all) : 0.;
-    for (const auto &of_body : states)
-      {
-        result.emplace_back();
-        for (const CellState &state : of_body)
-          result.back().push_back(factor * part(state.history.error));
-      }
-    return result;
-  }
-
-  AdaptivitySummary
-  Adaptivity::summary(const Bodies                      &bodies,
-                      const ExactSolution               *exact,
-                      const std::optional<ErrorSummary> &errors) const
-  {
-    AdaptivitySummary result;
-    result.target   = *run.parameters.adaptivity.target_error;
-    result.estimate = estimated;
-    std::optional<double> error;
-    if (errors && !goal)
-      error = errors->energy;
-    if (goal)
-      {
-        result.quantity   = goal->name();
-        result.value      = last_value;
-        result.correction = signed_error;
-        if (exact)
-          error = std::fabs(goal->value(bodies, *exact) - last_value) /
-                  (last_value != 0. ? std::fabs(last_value) : 1.);
-      }
-    if (estimated && error && *error > 0.)
-      result.effectivity = *estimated / *error;
-    if (estimated && !goal)
-      {
-        const double of_interfaces = interface_error();
-        result.estimate_interface  = of_interfaces;
-        result.estimate_bulk       = std::sqrt(square_of_bulk());
-      }
-    return result;
-  }
-
-  double
-  Adaptivity::square_of_bulk() const
-  {
-    return std::max(0.,
-                    *estimated * *estimated - std::pow(interface_error(), 2));
-  }
-
-  std::string
-  Adaptivity::worst_part() const
-  {
-    if (goal || !(sums.all > 0.))
-      return "";
-    std::string  name;
-    double       worst = 0.;
-    const double bulk  = square_of_bulk();
-    for (unsigned int b = 0; b < sums.by_body.size(); ++b)
-      if (const double part = bulk * sums.by_body[b] / sums.all; part > worst)
-        {
-          worst = part;
-          name  = "body " + run.parameters.bodies[b].name;
-        }
-    for (const Violation &of : interfaces)
-      if (const double part = of.size * of.size; part > worst)
-        {
-          worst = part;
-          name  = "interface " + of.interface + ", whose sides are apart";
-        }
-    if (name.empty()) // not known of a cycle before a restart
-      return "";
-    return " (the worst part " + RunLog::number(std::sqrt(worst)) + ": " +
-           name + ")";
-  }
-
-  std::string
-  Adaptivity::doubt() const
-  {
-    return *at_most > noticeable * *estimated ?
-             ", perhaps " + RunLog::number(*at_most) + "," :
-             "";
-  }
-
-  std::string
-  Adaptivity::found() const
-  {
-    return (goal ? goal->name() + " = " + RunLog::number(last_value) + ", " :
-                   std::string()) +
-           "estimated error " + RunLog::number(*estimated) + doubt() +
-           worst_part() + ", target " +
-           RunLog::number(*run.parameters.adaptivity.target_error);
-  }
-
-  std::string
-  Adaptivity::missed() const
-  {
-    return "The error is " +
-           (estimated ? "estimated as " + RunLog::number(*estimated) + doubt() :
-                        std::string("not known after one cycle on a mesh")) +
-           "; Adaptivity/Target error is " +
-           RunLog::number(*run.parameters.adaptivity.target_error) +
-           ", and Adaptivity/" + stopped_by +
-           " allows no more. The last result is written";
-  }
-
 } // namespace mortise

@@ -54,7 +54,8 @@ namespace mortise
                                given.mesh_gap == "real"},
                             spring_stiffness(run.parameters, given)},
                            run.comm);
-        result.push_back({given.name, std::sqrt(energy)});
+        result.push_back(
+          {given.name, std::sqrt(energy), !interfaces.all()[i].is_contact});
       }
     return result;
   }
