@@ -216,17 +216,18 @@ namespace mortise
   {
     const double before = sums.all, change = learn(bodies, solutions, dual);
     sums         = error_sums(bodies, states);
-    double error = std::sqrt(sums.all);
+    double error = std::sqrt(sums.all), most = std::sqrt(sums.all + sums.doubt);
     if (dual)
       {
-        error        = std::hypot(sums.of_quantity(), rest.error);
+        error = most = std::hypot(sums.of_quantity(), rest.error);
         signed_error = sums.with_sign + rest.error;
       }
     else if (before > 0.)
-      error *= calibration_by((change + sums.all) / before);
-    limit_interfaces(error / (norm > 0. ? norm : 1.));
-    at_most =
-      *estimated * (sums.all > 0. ? std::sqrt(1. + sums.doubt / sums.all) : 1.);
+      for (double *size : {&error, &most})
+        *size *= calibration_by((change + sums.all) / before);
+    const double unit = norm > 0. ? norm : 1.;
+    limit_interfaces(error / unit);
+    at_most = std::max(*estimated, most / unit);
     if (!(sums.all > 0. && norm > 0.))
       return 1.;
     return *estimated * norm / (dual ? sums.all : std::sqrt(sums.all));
