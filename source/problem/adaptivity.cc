@@ -226,8 +226,8 @@ namespace mortise
       for (double *size : {&error, &most})
         *size *= calibration_by((change + sums.all) / before);
     const double unit = norm > 0. ? norm : 1.;
-    limit_interfaces(error / unit);
-    at_most = std::max(*estimated, most / unit);
+    estimated         = std::max(error / unit, interface_error());
+    at_most           = std::max(*estimated, most / unit);
     if (!(sums.all > 0. && norm > 0.))
       return 1.;
     return *estimated * norm / (dual ? sums.all : std::sqrt(sums.all));
@@ -265,19 +265,6 @@ namespace mortise
     earlier.clear();
     earlier_dual.clear();
     return sum(changes, run.comm);
-  }
-
-  void
-  Adaptivity::limit_interfaces(const double error)
-  {
-    double bound = 0., rest = 0.; // squares
-    for (const Violation &of : interfaces)
-      (of.is_bound ? bound : rest) += of.size * of.size;
-    estimated         = std::max(error, std::sqrt(bound));
-    const double room = *estimated * *estimated - bound;
-    for (Violation &of : interfaces)
-      if (!of.is_bound && rest > room)
-        of.size *= std::sqrt(room / rest);
   }
 
   double

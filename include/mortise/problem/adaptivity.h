@@ -29,9 +29,6 @@ namespace mortise
   {
     std::string interface;
     double      size = 0.; ///< energy norm, see violation_energy()
-    /// Is the error at least this? Under contact it may be less: half-spaces
-    /// are not what is at its edge.
-    bool is_bound = true;
   };
 
   class Adaptivity
@@ -152,11 +149,8 @@ namespace mortise
              const std::vector<BodySolution>   &solutions,
              const std::optional<DualSolution> &dual,
              double                             norm);
-    /// Set the estimate to this @p error, or to what interfaces have at least; they do not get more than it.
-    void
-    limit_interfaces(double error);
     /// Of all interfaces. A solution is at least as far from the exact one as
-    /// from those whose sides are not apart.
+    /// from those whose sides are not apart; under contact it is an estimate.
     double
     interface_error() const;
     /// What estimate() has beyond it.
