@@ -272,13 +272,13 @@ namespace mortise
                     sums.by_body[body.index] += history.error;
                     sums.with_sign += history.n_rises == 0 ? part : 0.;
                     sums.by_lot += part * part;
-                    sums.own += history.own_error;
+                    sums.largest += largest_error(history);
                     sums.doubt += history.doubt;
                   });
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     Utilities::MPI::sum(sums.by_body, comm, sums.by_body);
     for (double *number :
-         {&sums.with_sign, &sums.by_lot, &sums.own, &sums.doubt})
+         {&sums.with_sign, &sums.by_lot, &sums.largest, &sums.doubt})
       *number = Utilities::MPI::sum(*number, comm);
     sums.all    = std::accumulate(sums.by_body.begin(), sums.by_body.end(), 0.);
     sums.by_lot = std::sqrt(sums.by_lot);

@@ -22,13 +22,6 @@ namespace mortise
     /// and edges, and a rise at least.
     constexpr double after_split = 0.5, after_rise = 0.02;
 
-    /// What refining the cell can make smaller.
-    double
-    largest_error(const CellHistory &history)
-    {
-      return history.own_error + history.doubt;
-    }
-
     MPI_Comm
     communicator(const Bodies &bodies)
     {

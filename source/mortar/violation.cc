@@ -1,4 +1,3 @@
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
 #include <mortise/mortar/violation.h>
@@ -48,7 +47,7 @@ namespace mortise
              (2. * (1. / slave.modulus + 1. / master.modulus));
     }
 
-    /// Per area, of contact. @p open: a length; @p pressure: positive if pressing; @p c: see violation_energy().
+    /// Per area, of contact. @p open: a length; @p pressure: positive if pressing; @p c: see violation_energies().
     double
     violation_of_contact(const double open,
                          const double pressure,
@@ -84,16 +83,16 @@ namespace mortise
     }
   } // namespace
 
-  double
-  violation_energy(const Coupling                         &coupling,
-                   const TraceDisplacement                &displacement,
-                   const std::vector<std::vector<double>> &tractions,
-                   const InterfaceLaw                     &law,
-                   const MPI_Comm                          comm)
+  std::vector<double>
+  violation_energies(const Coupling                         &coupling,
+                     const TraceDisplacement                &displacement,
+                     const std::vector<std::vector<double>> &tractions,
+                     const InterfaceLaw                     &law,
+                     const MPI_Comm                          comm)
   {
     InterfaceHandler   &interface = *coupling.interface;
     DisplacementJump    jump_at(interface, displacement, comm);
-    double              energy = 0.;
+    std::vector<double> energies(interface.slave().faces.size(), 0.);
     std::vector<double> values;
     interface.visit_pairs([&](const unsigned int       s,
                               const unsigned int       m,
@@ -129,9 +128,9 @@ namespace mortise
               of_point =
                 violation_of_spring(open, jump, traction, normal, spring, c);
             }
-          energy += points.weight[q] * of_point;
+          energies[s] += points.weight[q] * of_point;
         }
     });
-    return Utilities::MPI::sum(energy, comm);
+    return energies;
   }
 } // namespace mortise

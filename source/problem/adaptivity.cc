@@ -181,11 +181,7 @@ namespace mortise
                       history.change = history.error = history.own_error =
                         size[body.index][cell->active_cell_index()];
                   });
-    interfaces = violations;
-    for (Violation &of : interfaces)
-      of.size = norm > 0. ? of.size / norm : 0.;
-    /// By which the error is what those of cells are together.
-    double share = 1.;
+    set_violations(violations, norm);
     if (has_unknown_errors(bodies, states))
       {
         sums = {};
@@ -195,20 +191,37 @@ namespace mortise
         signed_error.reset();
       }
     else
-      share = estimate(bodies, solutions, dual, norm);
+      estimate(bodies, solutions, dual, norm);
     if (dual)
       last_value = dual->value;
     ++cycle;
-    const double part =
-      sums.all > 0. ? (sums.own + sums.doubt) / (sums.all + sums.doubt) : 1.;
-    allowed = norm / share;
-    allowed = part * (dual ? allowed : allowed * allowed);
+    // of cells as of all
+    allowed = 0.;
+    if (at_most && *at_most > 0.)
+      allowed = sums.largest / (dual ? *at_most : *at_most * *at_most);
     if (run.parameters.output.checkpoint_every > 0)
       keep(bodies);
     choose(bodies);
   }
 
-  double
+  void
+  Adaptivity::set_violations(const std::vector<Violation> &violations,
+                             const double                  norm)
+  {
+    interfaces = violations;
+    for (auto &of_body : states)
+      for (CellState &state : of_body)
+        state.history.violation = 0.;
+    for (Violation &of : interfaces)
+      {
+        of.size       = norm > 0. ? of.size / norm : 0.;
+        auto &of_body = states[of.body];
+        for (unsigned int k = 0; k < of_body.size(); ++k)
+          of_body[k].history.violation += of.of_cells[k];
+      }
+  }
+
+  void
   Adaptivity::estimate(const Bodies                      &bodies,
                        const std::vector<BodySolution>   &solutions,
                        const std::optional<DualSolution> &dual,
@@ -228,9 +241,6 @@ namespace mortise
     const double unit = norm > 0. ? norm : 1.;
     estimated         = std::max(error / unit, interface_error());
     at_most           = std::max(*estimated, most / unit);
-    if (!(sums.all > 0. && norm > 0.))
-      return 1.;
-    return *estimated * norm / (dual ? sums.all : std::sqrt(sums.all));
   }
 
   double

@@ -1,3 +1,5 @@
+#include <deal.II/base/mpi.h>
+
 #include <mortise/output/functionals.h>
 #include <mortise/problem/contact_results.h>
 #include <mortise/problem/interface_law.h>
@@ -5,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mortise
 {
@@ -45,16 +48,25 @@ namespace mortise
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       {
         const InterfaceParameters &given = interfaces.sides()[i];
-        const double               energy =
-          violation_energy(interfaces.all()[i],
-                           displacement,
-                           fields.tractions[i],
-                           {{solved.data.offset(given),
-                             given.law == "contact" &&
-                               given.mesh_gap == "real"},
-                            spring_stiffness(run.parameters, given)},
-                           run.comm);
-        result.push_back({given.name, std::sqrt(energy)});
+        const std::vector<double>  energies =
+          violation_energies(interfaces.all()[i],
+                             displacement,
+                             fields.tractions[i],
+                             {{solved.data.offset(given),
+                               given.law == "contact" &&
+                                 given.mesh_gap == "real"},
+                              spring_stiffness(run.parameters, given)},
+                             run.comm);
+        const auto &cells = interfaces.all()[i].interface->slave().cells;
+        Violation   of{given.name, 0., given.slave.body, {}};
+        of.of_cells.resize(
+          discretisation.bodies()[of.body]->triangulation().n_active_cells(),
+          0.);
+        for (unsigned int s = 0; s < cells.size(); ++s)
+          of.of_cells[cells[s]->active_cell_index()] += energies[s];
+        of.size = std::sqrt(Utilities::MPI::sum(
+          std::accumulate(energies.begin(), energies.end(), 0.), run.comm));
+        result.push_back(std::move(of));
       }
     return result;
   }

@@ -1,8 +1,8 @@
 // Proves that what breaks the law of an interface is measured as the energy
-// that is derived with violation_energy(), of displacements and tractions that
-// are given: across a tie, along the normal where bodies slide, beside what
-// springs give way, and under contact of overlaps, tension, and the less of gap
-// and pressure at one point. The same on any number of ranks.
+// that is derived with violation_energies(), of displacements and tractions
+// that are given: across a tie, along the normal where bodies slide, beside
+// what springs give way, and under contact of overlaps, tension, and the less
+// of gap and pressure at one point. The same on any number of ranks.
 #include <mortise/mortar/violation.h>
 #include <scenes/scene.h>
 
@@ -57,7 +57,10 @@ namespace
             tractions.back().push_back(function.dimension == 0 ? traction[d] :
                                                                  0.);
       }
-    return violation_energy(scene.coupling(), u, tractions, law, scene.comm);
+    const auto by_face =
+      violation_energies(scene.coupling(), u, tractions, law, scene.comm);
+    return dealii::Utilities::MPI::sum(
+      std::accumulate(by_face.begin(), by_face.end(), 0.), scene.comm);
   }
 
   void

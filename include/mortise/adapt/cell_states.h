@@ -24,6 +24,8 @@ namespace mortise
     /// By which the error may be larger, since nothing is known of how changes
     /// fall.
     double doubt = 0.;
+    /// What is broken of the laws of interfaces of which it is the slave.
+    double violation = 0.;
     /// What the last refinement brought to the quantity by the change: between
     /// -1 and 1 but in mixed form. One without a quantity.
     double share = 1.;
@@ -45,8 +47,8 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &own_error &doubt &share &fall
-        &least_ratio &n_rises &is_refined &is_split &is_new;
+      archive &degree &change &error &ratio &own_error &doubt &violation &share
+        &fall &least_ratio &n_rises &is_refined &is_split &is_new;
     }
   };
 

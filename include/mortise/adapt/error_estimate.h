@@ -4,6 +4,7 @@
 
 #include <mortise/adapt/cell_states.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -44,9 +45,9 @@ namespace mortise
     double              all       = 0.; ///< as if all had one sign
     double              with_sign = 0.; ///< of cells that were cut
     double              by_lot = 0.; ///< of all, the root of the sum of squares
-    double              own    = 0.; ///< CellHistory::own_error, as all
-    double              doubt  = 0.; ///< CellHistory::doubt, likewise
-    std::vector<double> by_body;     ///< as all
+    double              largest = 0.; ///< largest_error(), as all
+    double              doubt   = 0.; ///< CellHistory::doubt, as all
+    std::vector<double> by_body;      ///< as all
 
     /// Of a quantity, two standard deviations of what goes by lot.
     double
@@ -55,6 +56,13 @@ namespace mortise
       return std::hypot(with_sign, 2. * by_lot);
     }
   };
+
+  /// What refining the cell can make smaller of the square of the error.
+  inline double
+  largest_error(const CellHistory &history)
+  {
+    return std::max(history.own_error + history.doubt, history.violation);
+  }
 
   /// Collective.
   ErrorSums

@@ -46,7 +46,7 @@ namespace mortise
              const CellStates        &states,
              const RefinementOptions &options);
 
-  /// On as few cells as leave the square @p allowed of the energy norm of their own errors, as histories say, or on those that
+  /// On as few cells as leave the square @p allowed of the energy norm of their largest errors, as histories say, or on those that
   /// have most of it, so that all have about the same. Tetrahedra are split
   /// only where they have most of it. Collective.
   Refinements

@@ -31,19 +31,19 @@ namespace mortise
     std::function<Stiffness(const dealii::Point<dim> &)> stiffness;
   };
 
-  /// Twice the energy that it takes to mend what is broken. With a length d by
-  /// which sides are apart or inside each other at a point, and the wave number
-  /// k = pi p / h of what multipliers of degree p on faces with sides of h
-  /// leave, two half-spaces take c d^2 per area, c = k / (2 (1/E_1 + 1/E_2)),
-  /// and a traction t that is not to be there t^2 / c. Ties: d is the jump of
-  /// the displacement, sliding: along the normal; springs of stiffness K: it is
-  /// beside what they give way, and they give way further: c (d / (1 + c/K))^2;
-  /// contact: overlaps, tension, and of gap and
+  /// Twice the energy that it takes to mend what is broken, by slave face. With
+  /// a length d by which sides are apart or inside each other at a point, and
+  /// the wave number k = pi p / h of what multipliers of degree p on faces with
+  /// sides of h leave, two half-spaces take c d^2 per area, c = k / (2 (1/E_1 +
+  /// 1/E_2)), and a traction t that is not to be there t^2 / c. Ties: d is the
+  /// jump of the displacement, sliding: along the normal; springs of stiffness
+  /// K: it is beside what they give way, and they give way further: c (d / (1 +
+  /// c/K))^2; contact: overlaps, tension, and of gap and
   /// pressure at the same point what is less. @p tractions: multiplier_on_faces(). Clips again. Collective.
-  double
-  violation_energy(const Coupling                         &coupling,
-                   const TraceDisplacement                &displacement,
-                   const std::vector<std::vector<double>> &tractions,
-                   const InterfaceLaw                     &law,
-                   MPI_Comm                                comm);
+  std::vector<double>
+  violation_energies(const Coupling                         &coupling,
+                     const TraceDisplacement                &displacement,
+                     const std::vector<std::vector<double>> &tractions,
+                     const InterfaceLaw                     &law,
+                     MPI_Comm                                comm);
 } // namespace mortise

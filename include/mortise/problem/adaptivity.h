@@ -27,8 +27,10 @@ namespace mortise
   /// each other or pull.
   struct Violation
   {
-    std::string interface;
-    double      size = 0.; ///< energy norm, see violation_energy()
+    std::string         interface;
+    double              size = 0.; ///< energy norm, see violation_energies()
+    unsigned int        body = 0;  ///< of the slave
+    std::vector<double> of_cells;  ///< squares, by active cell of that body
   };
 
   class Adaptivity
@@ -142,9 +144,11 @@ namespace mortise
     missed() const;
 
   private:
-    /// The error from what the last refinement changed, beside @p norm; by which it is what those of cells are
-    /// together. Collective.
-    double
+    /// Relative, and in cells that have slave faces.
+    void
+    set_violations(const std::vector<Violation> &violations, double norm);
+    /// The error from what the last refinement changed, beside @p norm. Collective.
+    void
     estimate(const Bodies                      &bodies,
              const std::vector<BodySolution>   &solutions,
              const std::optional<DualSolution> &dual,
