@@ -231,9 +231,9 @@ Missed:
 - At the crack estimates are 1.52 to 1.55 times the error from cycle 5 on, though the error falls by exactly the root of 2 from cycle to cycle: 17,792 unknowns would meet
   1e-1 (taken: 60,497), 288,856 3e-2 (573,897). Goal at the end 0.9 to 1.5; beyond it, too: shells 1.92, 1.81 and 0.73, the wave at 1e-3 0.82. In single cycles (0.8 to 4)
   0.74 and 0.73 (soft shell).
-- The wave meets 1e-3 with 183,247 unknowns, but ends with 682,191: estimates of cycles 6 and 7 are 1.1e-3 and 1.5e-3. The share of the interface, meant as a lower bound, is 0.6 to 1.3
-  times the error and in the last cycle all of the estimate. To 3e-4 the estimate of cycle 9 is 2.4e-3 after 6.1e-4 (1,507,725 unknowns; error not measured).
-- Contact, N^-1: over the last half of the cycles the wave's error falls as N^-0.45, the ball's estimate as N^-0.76 (from first to last N^-0.93 and N^-1.23). The ball's estimate of
+- The wave meets 1e-3 with 187,322 unknowns, but ends with 459,200: estimates of cycles 6 and 7 are 1.1e-3 and 1.5e-3. The share of the interface, meant as a lower bound, is 0.6 to 1.3
+  times the error and in the last cycle all of the estimate. To 3e-4 the estimate of cycle 9 is 2.3e-3 after 6.0e-4 (1,048,786 unknowns; error not measured).
+- Contact, N^-1: over the last half of the cycles the wave's error falls as N^-0.56, the ball's estimate as N^-0.78 (from first to last N^-0.97 and N^-1.24). The ball's estimate of
   cycle 7 is 2.4 times that of cycle 6.
 - Radius of the contact by its area, to 0.1 %: the ball at 1e-2 and 2e-3 (0.01 and 0.08 %), but the paraboloid 1.1 and 0.14 %. The half-width of the wave is 3.1 % off at 1e-2 and
   0.8 % at 1e-3: the area is known to a cell. Largest pressures are off by 1e-4 to 7e-4 at 1e-2.
@@ -258,7 +258,7 @@ cycles, without the exact solution of the wave; medians of 3, from 1.5e-2 down o
 |---|---|---|---|---|---|---|---|---|
 {whole}
 
-The wave to 3e-4 (without its exact solution, not in the script): 1,660,493 unknowns, 44 s, at most 11 iterations, estimate 7.6e-5, all of it the interface's.
+The wave to 3e-4 (without its exact solution, not in the script): 1,177,687 unknowns, 27 s, at most 12 iterations, estimate 7.4e-5, all of it the interface's.
 
 Errors at the L, in the energy norm, from `stress` in the `.vtu` files, integrated over the cells of both (not in the script), beside the run with 24 cells to 6.5e-3: 3,388,239
 unknowns, itself about 0.5e-2 off (estimate 5.4e-3; as squares fall from cycle to cycle 4.9e-3). Its square is added to that of errors, not to those of slab and L.
@@ -291,8 +291,8 @@ r of N^-r by least squares, of the last half of the cycles (at least four) and o
 ## Contact
 
 Half-width of the wave beside 1/3 and pressure beside 8.6311; radius and largest pressure of ball and paraboloid beside Hertz's for the force. Goal: radius to 1e-3.
-Westergaard's exact displacement is in the script (`westergaard`). How far the load moves, by whose root `doc/contact.md` measures the wave's energy error, is not that error: with cells
-graded twice at p = 2 and 3 times at p = 4 the errors are 6.9e-3 and 2.4e-4, the roots 5.0e-3 and 2.0e-3.
+Westergaard's exact displacement is that of `tests/benchmarks/contact.py` (`westergaard`). How far the load moves, by its root, is not the energy error: with cells
+graded twice at p = 2 and 3 times at p = 4 errors are 6.9e-3 and 2.4e-4, roots 5.0e-3 and 2.0e-3.
 Hertz's formulas hold to about (a/R)^2 = 1e-2 for the ball (a circle is not his parabola), to about (1/16)^3 for the paraboloid, between blocks of 16 radii.
 
 | scene | target | unknowns | width or radius - 1 | largest pressure - 1 | sets of the last cycle | iterations of all of them |
