@@ -108,14 +108,13 @@ namespace mortise
       return gauss_quadrature<dim>(element, element.degree + 1);
     }
 
-    /// Integrals over the owned cells of what @p density has at point q of both @p fields, which are those
-    /// of @p solutions.
-    template <std::size_t n, typename Density>
+    /// Integrals over owned cells of what @p density has at point q of n fields; @p set(body, cell, fields) gives
+    /// them their coefficients, or leaves out the cell, which is false.
+    template <std::size_t n, typename Set, typename Density>
     NumbersByCell
-    integrals_by_cell(
-      const Bodies                                           &bodies,
-      const std::array<const std::vector<BodySolution> *, n> &solutions,
-      const Density                                          &density)
+    integrals_by_cell(const Bodies  &bodies,
+                      const Set     &set,
+                      const Density &density)
     {
       NumbersByCell result;
       for (const auto &body : bodies)
@@ -126,23 +125,40 @@ namespace mortise
           for (unsigned int k = 0; k < n; ++k)
             fields.push_back(std::make_unique<CellFields>(*body, energy_rule));
           for (const auto &cell : body->dof_handler.active_cell_iterators())
-            if (cell->is_locally_owned())
-              {
-                for (unsigned int k = 0; k < n; ++k)
-                  fields[k]->reinit(cell, (*solutions[k])[body->index]);
-                for (unsigned int q = 0; q < fields[0]->weights.size(); ++q)
-                  of_body[cell->active_cell_index()] +=
-                    fields[0]->weights[q] *
-                    density(body->material, *fields[0], *fields[n - 1], q);
-              }
+            if (cell->is_locally_owned() && set(*body, cell, fields))
+              for (unsigned int q = 0; q < fields[0]->weights.size(); ++q)
+                of_body[cell->active_cell_index()] +=
+                  fields[0]->weights[q] *
+                  density(body->material, *fields[0], *fields[n - 1], q);
         }
       return result;
+    }
+
+    /// The first argument after @p bodies of integrals_by_cell().
+    template <std::size_t n>
+    auto
+    set_to(const std::array<const std::vector<BodySolution> *, n> &solutions)
+    {
+      return [solutions](const Body &body, const auto &cell, auto &fields) {
+        for (unsigned int k = 0; k < n; ++k)
+          fields[k]->reinit(cell, (*solutions[k])[body.index]);
+        return true;
+      };
     }
 
     double
     pressure_at(const CellFields &fields, const unsigned int q)
     {
       return fields.pressures.empty() ? 0. : fields.pressures[q];
+    }
+
+    double
+    twice_energy(const Material   &material,
+                 const CellFields &fields,
+                 const CellFields &,
+                 const unsigned int q)
+    {
+      return material.twice_energy(fields.gradients[q], pressure_at(fields, q));
     }
   } // namespace
 
@@ -151,48 +167,29 @@ namespace mortise
                  const std::vector<BodySolution> &solutions)
   {
     return integrals_by_cell<1>(bodies,
-                                {{&solutions}},
-                                [](const Material   &material,
-                                   const CellFields &fields,
-                                   const CellFields &,
-                                   const unsigned int q) {
-                                  return material.twice_energy(
-                                    fields.gradients[q],
-                                    pressure_at(fields, q));
-                                });
+                                set_to<1>({{&solutions}}),
+                                twice_energy);
   }
 
   NumbersByCell
-  energy_of_highest_modes(const Bodies &bodies, const CellStates &states)
+  energy_of_new_modes(const Bodies &bodies, const CellStates &states)
   {
-    NumbersByCell result;
-    for (const auto &body : bodies)
-      {
-        auto &of_body =
-          result.emplace_back(body->triangulation().n_active_cells(), 0.);
-        CellFields fields(*body, energy_rule);
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            {
-              const unsigned int k     = cell->active_cell_index();
-              const CellState   &state = states[body->index][k];
-              CellCoefficients   modes = state.coefficients;
-              for (unsigned int c = 0; c < modes.size(); ++c)
-                if (const unsigned int degree =
-                      c < dim ? state.degree : state.degree - 1;
-                    degree > 1)
-                  for (const unsigned int i :
-                       nested_modes(cell->reference_cell(), degree - 1, degree))
-                    modes[c][i] = 0.;
-              fields.reinit(cell, modes);
-              for (unsigned int q = 0; q < fields.weights.size(); ++q)
-                of_body[k] +=
-                  fields.weights[q] *
-                  body->material.twice_energy(fields.gradients[q],
-                                              pressure_at(fields, q));
-            }
-      }
-    return result;
+    const auto set = [&](const Body &body, const auto &cell, auto &fields) {
+      const CellState &state = states[body.index][cell->active_cell_index()];
+      if (!state.history.is_refined || state.history.is_split)
+        return false;
+      CellCoefficients modes = state.coefficients;
+      for (unsigned int c = 0; c < modes.size(); ++c)
+        if (const unsigned int degree =
+              c < dim ? state.degree : state.degree - 1;
+            degree > 1)
+          for (const unsigned int i :
+               nested_modes(cell->reference_cell(), degree - 1, degree))
+            modes[c][i] = 0.;
+      fields[0]->reinit(cell, modes);
+      return true;
+    };
+    return integrals_by_cell<1>(bodies, set, twice_energy);
   }
 
   NumbersByCell
@@ -202,7 +199,7 @@ namespace mortise
   {
     return integrals_by_cell<2>(
       bodies,
-      {{&a, &b}},
+      set_to<2>({{&a, &b}}),
       [](const Material    &material,
          const CellFields  &a,
          const CellFields  &b,

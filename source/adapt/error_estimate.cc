@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace mortise
@@ -30,14 +31,18 @@ namespace mortise
 
     /// Nothing of tetrahedra and of low degrees.
     std::optional<double>
-    decay(const Body &body, const CellState &state)
+    decay(const Body               &body,
+          const Body::CellIterator &cell,
+          const CellState          &state)
     {
       if (body.mesh.tetrahedra || state.degree < least_degree_of_decay)
         return {};
-      // the pressure has another degree
+      const auto &given = state.coefficients;
       return legendre_decay(state.degree,
-                            {state.coefficients.begin(),
-                             state.coefficients.begin() + dim});
+                            {given.begin(), given.begin() + dim},
+                            body.pressure ? given[dim] : std::vector<double>(),
+                            std::cbrt(cell->measure()) /
+                              body.material.modulus());
     }
 
     std::optional<bool>
@@ -51,12 +56,14 @@ namespace mortise
   } // namespace
 
   std::optional<bool>
-  is_smooth(const Body &body, const CellState &state)
+  is_smooth(const Body               &body,
+            const Body::CellIterator &cell,
+            const CellState          &state)
   {
     if (body.mesh.tetrahedra && state.history.n_rises > 1 &&
         state.history.fall > fall_at_corner)
       return false;
-    return is_smooth(state.history, decay(body, state));
+    return is_smooth(state.history, decay(body, cell, state));
   }
 
   namespace
@@ -89,28 +96,27 @@ namespace mortise
               const std::vector<CellState> &states,
               const std::vector<double>    &changes)
     {
-      constexpr double about  = 0.7;
-      const auto       parent = cell->parent();
-      const auto       falls  = [&](const unsigned int k) {
-        return decay(body, states[k]).value_or(1.);
-      };
-      std::vector<unsigned int> family;
-      double                    slowest = 0., all = 0., rough = 0.;
+      constexpr double               about  = 0.7;
+      const auto                     parent = cell->parent();
+      std::map<unsigned int, double> falls; // by active cell
+      double                         slowest = 0., all = 0., rough = 0.;
       for (unsigned int c = 0; c < parent->n_children(); ++c)
         if (parent->child(c)->is_active())
           {
-            family.push_back(parent->child(c)->active_cell_index());
-            slowest = std::max(slowest, falls(family.back()));
+            const Body::CellIterator child = parent->child(c);
+            const unsigned int       k     = child->active_cell_index();
+            falls[k] = decay(body, child, states[k]).value_or(1.);
+            slowest  = std::max(slowest, falls[k]);
           }
-      for (const unsigned int k : family)
+      for (const auto &[k, fall] : falls)
         {
           all += changes[k];
-          rough += falls(k) >= about * slowest ? changes[k] : 0.;
+          rough += fall >= about * slowest ? changes[k] : 0.;
         }
       const unsigned int k = cell->active_cell_index();
       return {changes[k],
-              all * parent->n_children() / family.size(),
-              falls(k) >= about * slowest && rough > 0. ?
+              all * parent->n_children() / falls.size(),
+              falls[k] >= about * slowest && rough > 0. ?
                 changes[k] * all / rough :
                 changes[k]};
     }
@@ -130,7 +136,10 @@ namespace mortise
 
     /// The new history of a cell with @p state after its degree has risen, which changed the solution by @p change.
     void
-    learn_rise(const Body &body, const double change, CellState &state)
+    learn_rise(const Body               &body,
+               const Body::CellIterator &cell,
+               const double              change,
+               CellState                &state)
     {
       CellHistory &history = state.history;
       if (!history.is_new)
@@ -138,7 +147,7 @@ namespace mortise
           if (history.n_rises > 1)
             history.fall = change / history.change;
           learn(change,
-                tail_of_rises(history, decay(body, state), change),
+                tail_of_rises(history, decay(body, cell, state), change),
                 history);
           return;
         }
@@ -150,19 +159,27 @@ namespace mortise
       history.fall         = left.ratio;
       learn(change, left, history);
       // a state of constant strain may have most of the solution of degree one,
-      // and hide how slowly changes of another fall: one change is known
-      constexpr double nothing = 0.;
-      history.doubt = change * geometric_tail(change, nothing, 1, 0.).left -
-                      history.own_error;
+      // and hide how slowly changes of another fall: one change is known, and
+      // what coefficients say
+      const auto   falls = decay(body, cell, state);
+      const double before =
+        falls && mortise::is_smooth(*falls) ? change / (*falls * *falls) : 0.;
+      history.doubt =
+        std::max(0.,
+                 change * geometric_tail(change, before, 1, 0.).left -
+                   history.own_error);
     }
 
     /// Likewise, after it was cut.
     void
-    learn_split(const Body &body, const FamilyChange &change, CellState &state)
+    learn_split(const Body               &body,
+                const Body::CellIterator &cell,
+                const FamilyChange       &change,
+                CellState                &state)
     {
       CellHistory       &history = state.history;
       const unsigned int p       = history.degree;
-      if (is_smooth(body, state).value_or(false))
+      if (is_smooth(body, cell, state).value_or(false))
         learn(change.own, smooth_split_tail(p), history);
       else
         learn(change.part,
@@ -176,7 +193,7 @@ namespace mortise
             const NumbersByCell &changes,
             const CellStates    &states)
   {
-    NumbersByCell result = energy_of_highest_modes(bodies, states);
+    NumbersByCell result = energy_of_new_modes(bodies, states);
     for_each_cell(
       bodies,
       states,
@@ -209,10 +226,12 @@ namespace mortise
         const auto        &of_body = changes[body.index];
         if (history.is_split)
           learn_split(body,
+                      cell,
                       of_family(body, cell, states[body.index], of_body),
                       state);
         else
           learn_rise(body,
+                     cell,
                      (own_parts.empty() ? 1. : own_parts[body.index][k]) *
                        of_body[k],
                      state);

@@ -29,16 +29,17 @@ namespace mortise
     }
 
     Refinement
-    best(const Body              &body,
-         const CellState         &state,
-         const RefinementOptions &options)
+    best(const Body               &body,
+         const Body::CellIterator &cell,
+         const CellState          &state,
+         const RefinementOptions  &options)
     {
       const bool hexahedron = !body.mesh.tetrahedra;
       const bool can_split =
         hexahedron ? options.may_split : options.may_remesh[body.index];
       const bool can_rise = state.degree < options.largest_degree;
       if (can_split && ((hexahedron && options.only_splits) || !can_rise ||
-                        !is_smooth(body, state).value_or(true)))
+                        !is_smooth(body, cell, state).value_or(true)))
         return Refinement::split;
       return can_rise ? Refinement::rise : Refinement::keep;
     }
@@ -162,7 +163,7 @@ namespace mortise
                         const CellState &state) {
                       if (which(state.history))
                         result[body.index][cell->active_cell_index()] =
-                          best(body, state, options);
+                          best(body, cell, state, options);
                     });
       return result;
     }
@@ -202,7 +203,7 @@ namespace mortise
                       Refinement &choice =
                         refinements[body.index][cell->active_cell_index()];
                       if (body.mesh.tetrahedra && choice == Refinement::split)
-                        choice = best(body, state, options);
+                        choice = best(body, cell, state, options);
                     });
     }
   } // namespace

@@ -20,6 +20,29 @@ namespace mortise
       return k < 2 ? 1. / 3. : 1. / (2. * (2. * k - 3.) * (2. * k + 1.));
     }
 
+    /// Call visit(weight, at) for the functions of x_d, at(k) is the
+    /// coefficient of that with number k in evaluate_lobatto(), that
+    /// a function of @p degree has beside products of functions of the other two
+    /// coordinates, of about this square.
+    template <typename Visit>
+    void
+    for_each_line(const unsigned int         degree,
+                  const unsigned int         d,
+                  const std::vector<double> &coefficients,
+                  const Visit               &visit)
+    {
+      const auto                        modes = cell_dof_indices(degree);
+      const unsigned int                n     = degree + 1;
+      const std::array<unsigned int, 3> stride{{1, n, n * n}};
+      const unsigned int                e = (d + 1) % 3, f = (d + 2) % 3;
+      for (unsigned int j = 0; j < n; ++j)
+        for (unsigned int i = 0; i < n; ++i)
+          visit(square(i) * square(j), [&](const unsigned int k) {
+            return coefficients[modes[k * stride[d] + i * stride[e] +
+                                      j * stride[f]]];
+          });
+    }
+
     /// Squares of the coefficients of d/dx_d by the degree of the Legendre
     /// polynomial in x_d.
     std::vector<double>
@@ -27,25 +50,50 @@ namespace mortise
             const unsigned int                      d,
             const std::vector<std::vector<double>> &coefficients)
     {
-      const auto                        modes = cell_dof_indices(degree);
-      const unsigned int                n     = degree + 1;
-      const std::array<unsigned int, 3> stride{{1, n, n * n}};
-      const unsigned int                e = (d + 1) % 3, f = (d + 2) % 3;
-      std::vector<double>               result(degree, 0.);
+      std::vector<double> result(degree, 0.);
       for (const auto &of_component : coefficients)
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int i = 0; i < n; ++i)
-            {
-              const auto at = [&](const unsigned int k) {
-                return of_component[modes[k * stride[d] + i * stride[e] +
-                                          j * stride[f]]];
-              };
-              const double weight = square(i) * square(j);
-              result[0] += weight * std::pow(at(1) - at(0), 2);
-              for (unsigned int k = 2; k < n; ++k)
-                result[k - 1] += weight * at(k) * at(k);
-            }
+        for_each_line(degree,
+                      d,
+                      of_component,
+                      [&](const double weight, const auto &at) {
+                        result[0] += weight * std::pow(at(1) - at(0), 2);
+                        for (unsigned int k = 2; k <= degree; ++k)
+                          result[k - 1] += weight * at(k) * at(k);
+                      });
       return result;
+    }
+
+    /// Coefficient of the Legendre polynomial of degree @p n on [0, 1] of a function with coefficients @p at(k) of
+    /// evaluate_lobatto(), of @p degree.
+    template <typename At>
+    double
+    legendre(const unsigned int n, const unsigned int degree, const At &at)
+    {
+      const auto part = [&](const unsigned int k) {
+        return k > degree ? 0. : at(k) / (2. * std::sqrt(2. * k - 1.));
+      };
+      const double vertices = n == 0 ? 0.5 * (at(0) + at(1)) :
+                              n == 1 ? 0.5 * (at(1) - at(0)) :
+                                       part(n);
+      return vertices - part(n + 2);
+    }
+
+    /// Add squares of the coefficients of a function of one @p degree less,
+    /// likewise.
+    void
+    add_squares(const unsigned int         degree,
+                const unsigned int         d,
+                const std::vector<double> &coefficients,
+                const double               factor,
+                std::vector<double>       &result)
+    {
+      for_each_line(
+        degree - 1, d, coefficients, [&](const double weight, const auto &at) {
+          for (unsigned int k = 0; k < degree; ++k)
+            result[k] += weight *
+                         std::pow(factor * legendre(k, degree - 1, at), 2) /
+                         (2. * k + 1.);
+        });
     }
 
     /// From the line through the logarithms.
@@ -74,14 +122,18 @@ namespace mortise
 
   double
   legendre_decay(const unsigned int                      degree,
-                 const std::vector<std::vector<double>> &coefficients)
+                 const std::vector<std::vector<double>> &displacement,
+                 const std::vector<double>              &pressure,
+                 const double                            unit)
   {
     std::array<std::vector<double>, 3> all;
     double                             most = 0.;
     for (unsigned int d = 0; d < 3; ++d)
       {
-        all[d] = squares(degree, d, coefficients);
-        most   = std::max(most, all[d].back());
+        all[d] = squares(degree, d, displacement);
+        if (!pressure.empty())
+          add_squares(degree, d, pressure, unit, all[d]);
+        most = std::max(most, all[d].back());
       }
     double result = 0.;
     for (const auto &of_direction : all)

@@ -49,15 +49,10 @@ namespace mortise
     {
       for (BodyParameters &body : parameters.bodies)
         {
-          const unsigned int lowest = is_mixed(body) ? 2 : 1;
-          const auto         halve  = [&](unsigned int &degree) {
-            degree = std::max(lowest, degree / 2);
-          };
-          halve(body.degree);
-          for (auto &region : body.degree_by_region)
-            halve(region.second);
-          for (Ball &ball : body.degree_near)
-            halve(ball.number);
+          const unsigned int lowest = is_mixed(body) ? least_mixed_degree : 1;
+          change_degrees(body, [&](const unsigned int degree) {
+            return std::max(lowest, degree / 2);
+          });
           body.least_mapping_degree = 2; // facets meet elsewhere
         }
       return parameters;

@@ -22,6 +22,16 @@ namespace mortise
       return *given_degrees(body).begin();
     }
 
+    /// Is it to be in mixed form, if its degrees allow that?
+    bool
+    wants_mixed_form(const BodyParameters &body)
+    {
+      return body.material.law == isotropic_law &&
+             (body.formulation == Formulation::mixed ||
+              (body.formulation == Formulation::automatic &&
+               body.material.poisson_ratio >= nearly_incompressible));
+    }
+
     /// That of all directions in the mean, from the average that yields most.
     double
     poisson_ratio(const MaterialParameters &material)
@@ -82,13 +92,14 @@ namespace mortise
           section + "/Formulation",
           "\"mixed\"" + with_nu.str() + ", where no pressure is needed",
           "displacement or auto for a Poisson ratio of 0 or less");
-      if (least_degree(body) < 2)
-        parameters.fail(section + (body.degree < 2 ? "/Degree" :
-                                   body.degree_near.empty() ?
-                                                     "/Degree by region" :
-                                                     "/Degree near"),
+      if (least_degree(body) < least_mixed_degree)
+        parameters.fail(section +
+                          (body.degree < least_mixed_degree ? "/Degree" :
+                           body.degree_near.empty() ? "/Degree by region" :
+                                                      "/Degree near"),
                         "degree 1 in mixed form" + with_nu.str(),
-                        "degrees from 2 to " + std::to_string(max_degree) +
+                        "degrees from " + std::to_string(least_mixed_degree) +
+                          " to " + std::to_string(max_degree) +
                           " (the pressure has one less, and is continuous)");
       if (parameters.solver.method == SolverMethod::condensed)
         parameters.fail(
@@ -110,24 +121,39 @@ namespace mortise
     return degrees;
   }
 
+  void
+  change_degrees(
+    BodyParameters                                         &body,
+    const std::function<unsigned int(unsigned int degree)> &changed)
+  {
+    body.degree = changed(body.degree);
+    for (auto &region : body.degree_by_region)
+      region.second = changed(region.second);
+    for (Ball &ball : body.degree_near)
+      ball.number = changed(ball.number);
+  }
+
+  void
+  raise_to_mixed_form(BodyParameters &body)
+  {
+    if (wants_mixed_form(body))
+      change_degrees(body, [](const unsigned int degree) {
+        return std::max(degree, least_mixed_degree);
+      });
+  }
+
   bool
   is_mixed(const BodyParameters &body)
   {
-    if (body.material.law != isotropic_law)
-      return false;
-    const double nu = body.material.poisson_ratio;
-    return body.formulation == Formulation::mixed ||
-           (body.formulation == Formulation::automatic &&
-            (nu == 0.5 ||
-             (nu >= nearly_incompressible && least_degree(body) > 1)));
+    return wants_mixed_form(body) && (body.formulation == Formulation::mixed ||
+                                      body.material.poisson_ratio == 0.5 ||
+                                      least_degree(body) >= least_mixed_degree);
   }
 
   bool
   locks(const BodyParameters &body)
   {
-    return body.formulation == Formulation::automatic && !is_mixed(body) &&
-           body.material.law == isotropic_law &&
-           body.material.poisson_ratio >= nearly_incompressible;
+    return wants_mixed_form(body) && !is_mixed(body);
   }
 
   void

@@ -3,6 +3,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/problem/formulation.h>
 #include <mortise/problem/parameter_schema.h>
 #include <mortise/problem/parameters.h>
 
@@ -42,12 +43,8 @@ namespace mortise
   const std::vector<std::string> &
   field_names()
   {
-    static const std::vector<std::string> names = {"displacement",
-                                                   "stress",
-                                                   "pressure",
-                                                   "traction",
-                                                   "degree",
-                                                   "estimate"};
+    static const std::vector<std::string> names = {
+      "displacement", "stress", "pressure", "traction", "degree", "estimate"};
     return names;
   }
 
@@ -130,6 +127,10 @@ namespace mortise
         }
       for (const ParameterEntry &entry : entries)
         entry.set({entry.value, entry.where, entry.allowed});
+      // cycles find degrees, those that are given are where they begin
+      if (parameters.adaptivity.target_error)
+        for (BodyParameters &body : parameters.bodies)
+          raise_to_mixed_form(body);
       parameters.assignments = assignments;
       return parameters;
     }

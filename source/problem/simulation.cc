@@ -39,7 +39,6 @@ namespace mortise
       {
         adaptivity.emplace(context);
         adaptivity->resume(checkpoint.adaptivity);
-        state.time = steps.next();
       }
     else if (parameters.adaptivity.target_error && !parameters.steps.given())
       parameters.fail("Adaptivity/Target error",

@@ -56,6 +56,18 @@ main()
   verdict(mixed(0.3, 2, {}, Formulation::mixed), "mixed when asked for");
   verdict(!mixed(0.499, 2, {}, Formulation::displacement),
           "displacement when asked for");
+  const auto first_degree = [](const std::string &nu, Settings settings) {
+    settings.push_back("Body inner/Degree=1");
+    return scene_with(nu, settings).bodies[0].degree;
+  };
+  const Settings target = {"Adaptivity/Target error=0.1"};
+  verdict(first_degree("0.49", target) == 2,
+          "cycles begin with the mixed form at 0.49");
+  verdict(first_degree("0.48", target) == 1, "and with degree 1 below");
+  verdict(first_degree("0.49", {}) == 1, "and without a target");
+  verdict(first_degree("0.49",
+                       {target[0], "Body inner/Formulation=displacement"}) == 1,
+          "and in displacement form when asked for");
   check_message("0.5 is allowed",
                 [] { validate(scene_with("0.5", {})); },
                 {"(no error)"});

@@ -98,10 +98,10 @@ namespace mortise
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions);
 
-  /// Likewise, of what the coefficients of @p states have in the modes of the highest
-  /// degree of each cell.
+  /// Likewise, of what the coefficients of @p states have in the modes that the last rise of a cell's degree
+  /// brought; of other cells zero.
   NumbersByCell
-  energy_of_highest_modes(const Bodies &bodies, const CellStates &states);
+  energy_of_new_modes(const Bodies &bodies, const CellStates &states);
 
   /// What the operator of a scene has between @p a and @p b: without pressures the product that belongs to
   /// the energy norm.

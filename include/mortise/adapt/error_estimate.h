@@ -71,5 +71,7 @@ namespace mortise
   /// Is the solution smooth on a cell of @p body, as its changes or its Legendre coefficients say? Nothing where
   /// neither is known.
   std::optional<bool>
-  is_smooth(const Body &body, const CellState &state);
+  is_smooth(const Body               &body,
+            const Body::CellIterator &cell,
+            const CellState          &state);
 } // namespace mortise

@@ -4,6 +4,7 @@
 
 #include <mortise/problem/parameters.h>
 
+#include <functional>
 #include <set>
 
 namespace mortise
@@ -11,6 +12,19 @@ namespace mortise
   /// All that the parameters name for cells of @p body.
   std::set<unsigned int>
   given_degrees(const BodyParameters &body);
+
+  void
+  change_degrees(
+    BodyParameters                                         &body,
+    const std::function<unsigned int(unsigned int degree)> &changed);
+
+  /// The pressure has one less, and is continuous.
+  constexpr unsigned int least_mixed_degree = 2;
+
+  /// Raise degrees of one where they keep a body from the mixed form, in which
+  /// it is to be otherwise.
+  void
+  raise_to_mixed_form(BodyParameters &body);
 
   /// Is the body in mixed form? As asked; by itself from nu = 0.49 on, but
   /// below 0.5 only if all its degrees are above one, which the form needs.
