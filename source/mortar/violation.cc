@@ -1,9 +1,11 @@
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/numbers.h>
 
 #include <mortise/mortar/violation.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace mortise
 {
@@ -47,6 +49,57 @@ namespace mortise
              (2. * (1. / slave.modulus + 1. / master.modulus));
     }
 
+    /// How much of the area of a face presses.
+    struct Pressing
+    {
+      std::uint64_t face = 0;
+      double        area = 0., all = 0.;
+
+      void
+      add(const double weight, const bool presses)
+      {
+        all += weight;
+        area += presses ? weight : 0.;
+      }
+
+      bool
+      at_edge() const
+      {
+        constexpr double noticeable = 1e-3;
+        return area > noticeable * all && area < (1. - noticeable) * all;
+      }
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &face &area &all;
+      }
+    };
+
+    /// By owned face of the master, from what each rank has @p seen.
+    std::vector<bool>
+    masters_at_edge(const InterfaceHandler      &interface,
+                    const std::vector<Pressing> &seen,
+                    const MPI_Comm               comm)
+    {
+      std::map<unsigned int, std::vector<Pressing>> for_owners;
+      for (unsigned int m = 0; m < seen.size(); ++m)
+        if (seen[m].all > 0.)
+          for_owners[interface.master_faces()[m].owner].push_back(seen[m]);
+      std::map<std::uint64_t, Pressing> sums;
+      for (const auto &from : Utilities::MPI::some_to_some(comm, for_owners))
+        for (const Pressing &part : from.second)
+          {
+            sums[part.face].area += part.area;
+            sums[part.face].all += part.all;
+          }
+      std::vector<bool> result;
+      for (const SurfaceFace &face : interface.master().faces)
+        result.push_back(sums[face.id].at_edge());
+      return result;
+    }
+
     /// Per area, of contact. @p open: a length; @p pressure: positive if pressing; @p c: see violation_energies().
     double
     violation_of_contact(const double open,
@@ -83,16 +136,21 @@ namespace mortise
     }
   } // namespace
 
-  std::vector<double>
+  Violations
   violation_energies(const Coupling                         &coupling,
                      const TraceDisplacement                &displacement,
                      const std::vector<std::vector<double>> &tractions,
                      const InterfaceLaw                     &law,
                      const MPI_Comm                          comm)
   {
-    InterfaceHandler   &interface = *coupling.interface;
-    DisplacementJump    jump_at(interface, displacement, comm);
-    std::vector<double> energies(interface.slave().faces.size(), 0.);
+    InterfaceHandler &interface = *coupling.interface;
+    DisplacementJump  jump_at(interface, displacement, comm);
+    Violations        result;
+    result.energies.resize(interface.slave().faces.size(), 0.);
+    std::vector<Pressing> of_slaves(interface.slave().faces.size()),
+      of_masters(interface.master_faces().size());
+    for (unsigned int m = 0; m < of_masters.size(); ++m)
+      of_masters[m].face = interface.master_faces()[m].id;
     std::vector<double> values;
     interface.visit_pairs([&](const unsigned int       s,
                               const unsigned int       m,
@@ -117,7 +175,12 @@ namespace mortise
           const double open = law.gap.open(points, q, normal, jump);
           double       of_point;
           if (coupling.is_contact)
-            of_point = violation_of_contact(open, traction * normal, c);
+            {
+              const double pressure = traction * normal;
+              for (Pressing *face : {&of_slaves[s], &of_masters[m]})
+                face->add(points.weight[q], pressure > c * open);
+              of_point = violation_of_contact(open, pressure, c);
+            }
           else
             {
               Stiffness spring;
@@ -128,9 +191,12 @@ namespace mortise
               of_point =
                 violation_of_spring(open, jump, traction, normal, spring, c);
             }
-          energies[s] += points.weight[q] * of_point;
+          result.energies[s] += points.weight[q] * of_point;
         }
     });
-    return energies;
+    for (const Pressing &face : of_slaves)
+      result.slave_at_edge.push_back(face.at_edge());
+    result.master_at_edge = masters_at_edge(interface, of_masters, comm);
+    return result;
   }
 } // namespace mortise

@@ -211,13 +211,18 @@ namespace mortise
     interfaces = violations;
     for (auto &of_body : states)
       for (CellState &state : of_body)
-        state.history.violation = 0.;
+        {
+          state.history.violation       = 0.;
+          state.history.at_contact_edge = false;
+        }
     for (Violation &of : interfaces)
       {
         of.size       = norm > 0. ? of.size / norm : 0.;
         auto &of_body = states[of.body];
         for (unsigned int k = 0; k < of_body.size(); ++k)
           of_body[k].history.violation += of.of_cells[k];
+        for (const auto &[body, cell] : of.at_contact_edge)
+          states[body][cell].history.at_contact_edge = true;
       }
   }
 

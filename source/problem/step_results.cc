@@ -48,7 +48,7 @@ namespace mortise
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       {
         const InterfaceParameters &given = interfaces.sides()[i];
-        const std::vector<double>  energies =
+        const Violations           broken =
           violation_energies(interfaces.all()[i],
                              displacement,
                              fields.tractions[i],
@@ -57,15 +57,27 @@ namespace mortise
                                  given.mesh_gap == "real"},
                               spring_stiffness(run.parameters, given)},
                              run.comm);
-        const auto &cells = interfaces.all()[i].interface->slave().cells;
-        Violation   of{given.name, 0., given.slave.body, {}};
+        const InterfaceHandler &interface = *interfaces.all()[i].interface;
+        const auto             &cells     = interface.slave().cells;
+        Violation               of{given.name, 0., given.slave.body, {}, {}};
         of.of_cells.resize(
           discretisation.bodies()[of.body]->triangulation().n_active_cells(),
           0.);
         for (unsigned int s = 0; s < cells.size(); ++s)
-          of.of_cells[cells[s]->active_cell_index()] += energies[s];
-        of.size = std::sqrt(Utilities::MPI::sum(
-          std::accumulate(energies.begin(), energies.end(), 0.), run.comm));
+          of.of_cells[cells[s]->active_cell_index()] += broken.energies[s];
+        of.size             = std::sqrt(Utilities::MPI::sum(
+          std::accumulate(broken.energies.begin(), broken.energies.end(), 0.),
+          run.comm));
+        const auto add_edge = [&](const unsigned int       body,
+                                  const BodySurface       &surface,
+                                  const std::vector<bool> &at_edge) {
+          for (unsigned int k = 0; k < at_edge.size(); ++k)
+            if (at_edge[k])
+              of.at_contact_edge.emplace_back(
+                body, surface.cells[k]->active_cell_index());
+        };
+        add_edge(given.slave.body, interface.slave(), broken.slave_at_edge);
+        add_edge(given.master.body, interface.master(), broken.master_at_edge);
         result.push_back(std::move(of));
       }
     return result;

@@ -40,11 +40,11 @@ namespace
   }
 
   /// The master moves by @p jump and bears @p traction; the slave stays.
-  double
-  energy(TiedScene          &scene,
-         const Field        &jump,
-         const Vec          &traction,
-         const InterfaceLaw &law = {})
+  Violations
+  violations(TiedScene          &scene,
+             const Field        &jump,
+             const Vec          &traction,
+             const InterfaceLaw &law = {})
   {
     TraceDisplacement u{scene.displacement(), scene.displacement()};
     scene.interpolate(1, jump, u.free);
@@ -57,8 +57,16 @@ namespace
             tractions.back().push_back(function.dimension == 0 ? traction[d] :
                                                                  0.);
       }
-    const auto by_face =
-      violation_energies(scene.coupling(), u, tractions, law, scene.comm);
+    return violation_energies(scene.coupling(), u, tractions, law, scene.comm);
+  }
+
+  double
+  energy(TiedScene          &scene,
+         const Field        &jump,
+         const Vec          &traction,
+         const InterfaceLaw &law = {})
+  {
+    const auto by_face = violations(scene, jump, traction, law).energies;
     return dealii::Utilities::MPI::sum(
       std::accumulate(by_face.begin(), by_face.end(), 0.), scene.comm);
   }
@@ -126,6 +134,22 @@ namespace
     check("overlap and tension" + of, at(-0.1, -0.2), c * 0.01 + 0.04 / c);
     check("a gap that presses hard" + of, at(0.1, 10.), c * 0.01);
     check("a large gap that presses" + of, at(1., 0.2), 0.04 / c);
+
+    // bodies overlap up to x = 0.25, which is inside of one row of faces
+    const Violations opens =
+      violations(scene,
+                 [](const auto &x) {
+                   return Vec({0., 0., 1e-3 * (x[0] - 0.25)});
+                 },
+                 {});
+    const auto number = [&](const std::vector<bool> &at_edge) {
+      return dealii::Utilities::MPI::sum(
+        std::count(at_edge.begin(), at_edge.end(), true), scene.comm);
+    };
+    check("slaves at the edge" + of, number(opens.slave_at_edge), n_cells);
+    check("masters at the edge" + of,
+          number(opens.master_at_edge),
+          tetrahedra ? 4 : 2);
   }
 } // namespace
 

@@ -26,6 +26,9 @@ namespace mortise
     double doubt = 0.;
     /// What is broken of the laws of interfaces of which it is the slave.
     double violation = 0.;
+    /// Part of a face of it presses, part is open: the solution has an edge
+    /// there, however fast coefficients fall.
+    bool at_contact_edge = false;
     /// What the last refinement brought to the quantity by the change: between
     /// -1 and 1 but in mixed form. One without a quantity.
     double share = 1.;
@@ -47,8 +50,9 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &own_error &doubt &violation &share
-        &fall &least_ratio &n_rises &is_refined &is_split &is_new;
+      archive &degree &change &error &ratio &own_error &doubt &violation
+        &at_contact_edge &share &fall &least_ratio &n_rises &is_refined
+          &is_split &is_new;
     }
   };
 

@@ -31,6 +31,14 @@ namespace mortise
     std::function<Stiffness(const dealii::Point<dim> &)> stiffness;
   };
 
+  struct Violations
+  {
+    std::vector<double> energies; ///< by slave face
+    /// By owned face of the slave and of the master: part of it presses, part
+    /// is open.
+    std::vector<bool> slave_at_edge, master_at_edge;
+  };
+
   /// Twice the energy that it takes to mend what is broken, by slave face. With
   /// a length d by which sides are apart or inside each other at a point, and
   /// the wave number k = pi p / h of what multipliers of degree p on faces with
@@ -40,7 +48,7 @@ namespace mortise
   /// K: it is beside what they give way, and they give way further: c (d / (1 +
   /// c/K))^2; contact: overlaps, tension, and of gap and
   /// pressure at the same point what is less. @p tractions: multiplier_on_faces(). Clips again. Collective.
-  std::vector<double>
+  Violations
   violation_energies(const Coupling                         &coupling,
                      const TraceDisplacement                &displacement,
                      const std::vector<std::vector<double>> &tractions,

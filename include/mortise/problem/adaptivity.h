@@ -31,6 +31,9 @@ namespace mortise
     double              size = 0.; ///< energy norm, see violation_energies()
     unsigned int        body = 0;  ///< of the slave
     std::vector<double> of_cells;  ///< squares, by active cell of that body
+    /// Body and active cell: of both sides, where part of a face presses and
+    /// part is open.
+    std::vector<std::pair<unsigned int, unsigned int>> at_contact_edge;
   };
 
   class Adaptivity
