@@ -95,7 +95,35 @@ namespace mortise
       return least;
     }
 
-    /// Where cells rise, those around with less rise by one.
+    /// By owned cell, the largest that @p number(cell) is on it and the cells around it. Collective.
+    template <typename Number>
+    std::vector<unsigned int>
+    largest_around(const Triangulation<dim> &triangulation,
+                   const Number             &number)
+    {
+      std::vector<unsigned int> at_vertex(triangulation.n_vertices(), 0);
+      const auto take = [&](const auto &cell, const unsigned int of_cell) {
+        for (const unsigned int v : cell->vertex_indices())
+          at_vertex[cell->vertex_index(v)] =
+            std::max(at_vertex[cell->vertex_index(v)], of_cell);
+      };
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          take(cell, number(cell));
+      GridTools::exchange_cell_data_to_ghosts<unsigned int, Triangulation<dim>>(
+        triangulation, number, take);
+      std::vector<unsigned int> result(triangulation.n_active_cells(), 0);
+      for (const auto &cell : triangulation.active_cell_iterators())
+        if (cell->is_locally_owned())
+          for (const unsigned int v : cell->vertex_indices())
+            result[cell->active_cell_index()] =
+              std::max(result[cell->active_cell_index()],
+                       at_vertex[cell->vertex_index(v)]);
+      return result;
+    }
+
+    /// Where cells rise, those around with less rise by one: what a cell has
+    /// alone on a face it cannot use.
     void
     raise_around(const Bodies     &bodies,
                  const CellStates &states,
@@ -103,42 +131,19 @@ namespace mortise
     {
       for (const auto &body : bodies)
         {
-          const auto &triangulation = body->triangulation();
-          const auto &of_body       = states[body->index];
-          auto       &chosen        = refinements[body->index];
-          // what a cell has alone on a face it cannot use: its neighbours rise
-          // to it
-          std::vector<unsigned int> wanted(triangulation.n_vertices(), 0);
-          const auto want = [&](const auto &cell, const unsigned int degree) {
-            for (const unsigned int v : cell->vertex_indices())
-              wanted[cell->vertex_index(v)] =
-                std::max(wanted[cell->vertex_index(v)], degree);
-          };
-          const auto rises_to = [&](const auto &cell) -> unsigned int {
-            const unsigned int k = cell->active_cell_index();
-            return chosen[k] == Refinement::rise ?
-                     of_body[k].history.degree + 1 :
-                     0;
-          };
-          for (const auto &cell : triangulation.active_cell_iterators())
-            if (cell->is_locally_owned())
-              want(cell, rises_to(cell));
-          GridTools::exchange_cell_data_to_ghosts<unsigned int,
-                                                  Triangulation<dim>>(
-            triangulation,
-            [&](const auto &cell) { return rises_to(cell); },
-            [&](const auto &cell, const unsigned int degree) {
-              want(cell, degree);
+          const auto &of_body = states[body->index];
+          auto       &chosen  = refinements[body->index];
+          const auto  wanted =
+            largest_around(body->triangulation(), [&](const auto &cell) {
+              const unsigned int k = cell->active_cell_index();
+              return chosen[k] == Refinement::rise ?
+                       of_body[k].history.degree + 1 :
+                       0;
             });
-          for (const auto &cell : triangulation.active_cell_iterators())
-            if (cell->is_locally_owned())
-              {
-                const unsigned int k = cell->active_cell_index();
-                for (const unsigned int v : cell->vertex_indices())
-                  if (chosen[k] == Refinement::keep &&
-                      wanted[cell->vertex_index(v)] > of_body[k].history.degree)
-                    chosen[k] = Refinement::rise;
-              }
+          for (unsigned int k = 0; k < chosen.size(); ++k)
+            if (chosen[k] == Refinement::keep &&
+                wanted[k] > of_body[k].history.degree)
+              chosen[k] = Refinement::rise;
         }
     }
   } // namespace
@@ -236,6 +241,38 @@ namespace mortise
     split_few_tetrahedra(bodies, states, options, result);
     raise_around(bodies, states, result);
     return result;
+  }
+
+  Refinements
+  with_closure(const Bodies &bodies, Refinements refinements)
+  {
+    for (const auto &body : bodies)
+      if (!body->mesh.tetrahedra)
+        {
+          const auto  &triangulation = body->triangulation();
+          auto        &chosen        = refinements[body->index];
+          unsigned int more;
+          do
+            {
+              const auto halvings =
+                largest_around(triangulation, [&](const auto &cell) {
+                  return cell->level() + (chosen[cell->active_cell_index()] ==
+                                          Refinement::split);
+                });
+              more = 0;
+              for (const auto &cell : triangulation.active_cell_iterators())
+                if (const unsigned int k = cell->active_cell_index();
+                    cell->is_locally_owned() &&
+                    chosen[k] != Refinement::split &&
+                    int(halvings[k]) > cell->level() + 1)
+                  {
+                    chosen[k] = Refinement::split;
+                    more      = 1;
+                  }
+            }
+          while (Utilities::MPI::max(more, communicator(bodies)) > 0);
+        }
+    return refinements;
   }
 
   double

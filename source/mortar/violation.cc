@@ -36,17 +36,31 @@ namespace mortise
 
   namespace
   {
-    /// k / (2 (1/E_1 + 1/E_2))
+    /// Of displacements with wave number @p k on a layer of this @p depth, free on its other side, by
+    /// that of a half-space: it bends.
+    double
+    part_of_half_space(const double k, const double depth)
+    {
+      return std::min(1., std::pow(k * depth, 3) / 6.);
+    }
+
+    /// k / (2 (1/E_1 + 1/E_2)), see violation_energies().
     double
     stiffness_of_sides(const SurfaceFace &face,
                        const FaceTrace   &slave,
-                       const FaceTrace   &master)
+                       const FaceTrace   &master,
+                       const bool         is_contact)
     {
       const auto  &tangent = face.frame.tangent;
       const double h =
         std::sqrt(cross_product_3d(tangent[0], tangent[1]).norm());
-      return numbers::PI * slave.degree / h /
-             (2. * (1. / slave.modulus + 1. / master.modulus));
+      const double k         = numbers::PI * slave.degree / h;
+      double       gives_way = 0.;
+      for (const FaceTrace *side : {&slave, &master})
+        gives_way +=
+          1. / (side->modulus *
+                (is_contact ? 1. : part_of_half_space(k, side->depth)));
+      return k / (2. * gives_way);
     }
 
     /// How much of the area of a face presses.
@@ -158,8 +172,10 @@ namespace mortise
       const SurfaceFace &face  = interface.slave().faces[s];
       const FaceTrace   &slave = interface.slave().traces[s];
       const unsigned int n     = slave.n_functions();
-      const double       c =
-        stiffness_of_sides(face, slave, interface.master_traces()[m]);
+      const double       c     = stiffness_of_sides(face,
+                                          slave,
+                                          interface.master_traces()[m],
+                                          coupling.is_contact);
       values.resize(n);
       jump_at.reinit(s);
       for (unsigned int q = 0; q < points.size(); ++q)

@@ -194,6 +194,16 @@ namespace mortise
       estimate(bodies, solutions, dual, norm);
     if (dual)
       last_value = dual->value;
+    if (dual && cycle > 0 &&
+        std::fabs(dual->value) <= run.parameters.solver.tolerance * dual->size)
+      {
+        stopped_by = "Quantity = " + goal->name() +
+                     " is zero beside the other components, which has no "
+                     "relative error";
+        estimated.reset();
+        at_most.reset();
+        signed_error.reset();
+      }
     ++cycle;
     // of cells as of all
     allowed = 0.;

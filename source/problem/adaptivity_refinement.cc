@@ -87,7 +87,7 @@ namespace mortise
         if (!meshes.empty())
           more += n * (meshes[body->index].growth - 1.);
       }
-    return now * growth(bodies, states, choices) + more;
+    return now * growth(bodies, states, with_closure(bodies, choices)) + more;
   }
 
   bool
@@ -134,7 +134,7 @@ namespace mortise
   void
   Adaptivity::choose(const Bodies &bodies)
   {
-    if (reached())
+    if (reached() || !stopped_by.empty())
       return;
     const AdaptivityParameters &given  = run.parameters.adaptivity;
     const double                target = *given.target_error,
@@ -178,11 +178,12 @@ namespace mortise
       }
     const double next = next_unknowns(bodies, choices);
     if (meshes.empty() && growth(bodies, states, choices) == 1.)
-      stopped_by = "Largest degree = " + std::to_string(given.largest_degree);
+      stopped_by = "Largest degree = " + std::to_string(given.largest_degree) +
+                   " allows no more";
     else if (next > given.most_unknowns)
       stopped_by =
         "Largest number of unknowns = " + RunLog::number(given.most_unknowns) +
-        ", the next cycle needs about " + RunLog::number(next);
+        " allows no more, the next cycle needs about " + RunLog::number(next);
     splits = prepare_refinement(bodies, choices, states);
   }
 } // namespace mortise

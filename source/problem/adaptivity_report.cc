@@ -111,7 +111,8 @@ namespace mortise
                    std::string()) +
            "estimated error " + RunLog::number(*estimated) + doubt() +
            worst_part() + ", target " +
-           RunLog::number(*run.parameters.adaptivity.target_error);
+           RunLog::number(*run.parameters.adaptivity.target_error) +
+           (reached() ? "" : ", met at " + RunLog::number(met_at()));
   }
 
   std::string
@@ -119,11 +120,10 @@ namespace mortise
   {
     return "The error is " +
            (estimated ? "estimated as " + RunLog::number(*estimated) + doubt() :
-                        std::string("not known after one cycle on a mesh")) +
+                        std::string("not known")) +
            "; Adaptivity/Target error is " +
            RunLog::number(*run.parameters.adaptivity.target_error) +
-           ", and Adaptivity/" + stopped_by +
-           " allows no more. The last result is written";
+           ", and Adaptivity/" + stopped_by + ". The last result is written";
   }
 
 } // namespace mortise

@@ -89,22 +89,34 @@ namespace mortise
     return std::visit([](const auto &any) { return any.body; }, quantity);
   }
 
-  double
-  Quantity::value(const Bodies                    &bodies,
-                  const std::vector<BodySolution> &solutions) const
+  Tensor<1, dim>
+  Quantity::all_components(const Bodies                    &bodies,
+                           const std::vector<BodySolution> &solutions) const
   {
     const Body         &body     = *bodies[this->body()];
     const BodySolution &solution = solutions[body.index];
     if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
-      return resultant(body,
-                       solution,
-                       body.boundary_id(force->boundary, ""))[component];
+      return resultant(body, solution, body.boundary_id(force->boundary, ""));
     const auto value = point_value(body,
                                    solution.displacement,
                                    std::get<PointQuantity>(quantity).point);
     if (!value)
       fail_outside(bodies);
-    return (*value)[component];
+    return *value;
+  }
+
+  double
+  Quantity::value(const Bodies                    &bodies,
+                  const std::vector<BodySolution> &solutions) const
+  {
+    return all_components(bodies, solutions)[component];
+  }
+
+  double
+  Quantity::size(const Bodies                    &bodies,
+                 const std::vector<BodySolution> &solutions) const
+  {
+    return all_components(bodies, solutions).norm();
   }
 
   double
@@ -150,6 +162,7 @@ namespace mortise
     const SceneLoad load   = discretisation.load(*bodies[quantity.body()],
                                                quantity.derivative(bodies));
     result.value           = quantity.value(bodies, solutions);
+    result.size            = quantity.size(bodies, solutions);
     SystemVector z;
     if (start.empty())
       result.report = solver.solve(load.rhs, z);

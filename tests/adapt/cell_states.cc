@@ -1,13 +1,16 @@
 // Proves that solutions keep every digit when cells are cut and degrees rise:
 // energy, moments and the conditions of hanging nodes, on hexahedra and, for
 // degrees, tetrahedra, with and without a pressure; that histories follow their
-// cells; and that no rank is left without cells.
+// cells; which cells are cut with others; and that no rank is left without
+// cells.
 #include <deal.II/base/mpi.h>
 
 #include <mortise/adapt/cell_states.h>
+#include <mortise/adapt/refinement.h>
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/operators/cells/cell_fields.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "../verdict.h"
@@ -139,8 +142,20 @@ namespace
       }
     if (cells == "hexahedra")
       {
-        const auto n = body.triangulation().n_global_active_cells();
+        const auto  n = body.triangulation().n_global_active_cells();
+        Refinements chosen(1);
+        for (const bool cut : split)
+          chosen[0].push_back(cut ? Refinement::split : Refinement::keep);
+        chosen         = with_closure(bodies, chosen);
+        const auto cut = Utilities::MPI::sum(std::count(chosen[0].begin(),
+                                                        chosen[0].end(),
+                                                        Refinement::split),
+                                             MPI_COMM_WORLD);
         split_cells(body, split, states[0]);
+        verdict(what + ": cells that are cut with others",
+                std::fabs(double(body.triangulation().n_global_active_cells()) -
+                          n - 7. * cut),
+                0.);
         verdict(what + ": cells without new ones",
                 double(n) - body.triangulation().n_global_active_cells() + 1.,
                 0.);

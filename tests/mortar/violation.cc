@@ -19,24 +19,27 @@ namespace
   /// pi p / h over 2 (1/E_1 + 1/E_2) with moduli of 1 and 2.
   const double c = dealii::numbers::PI * degree * n_cells / 3.;
 
-  /// Halves of a unit cube below and above z = 0.
+  /// Below and above z = 0 on the unit square.
   TiedScene
-  halves(const bool tetrahedra, const bool presses_only)
+  halves(const bool   tetrahedra,
+         const bool   presses_only,
+         const double thickness = 1.)
   {
-    return TiedScene({box_mesh({0, 0, -1, 1, 1, 0}, {n_cells, n_cells, 1}),
-                      "zmax",
-                      degree,
-                      {},
-                      {}},
-                     {box_mesh({0, 0, 0, 1, 1, 1}, {2, 2, 1}, tetrahedra),
-                      "zmin",
-                      degree,
-                      {},
-                      {}},
-                     MPI_COMM_WORLD,
-                     false,
-                     MultiplierBasis::standard,
-                     presses_only);
+    return TiedScene(
+      {box_mesh({0, 0, -thickness, 1, 1, 0}, {n_cells, n_cells, 1}),
+       "zmax",
+       degree,
+       {},
+       {}},
+      {box_mesh({0, 0, 0, 1, 1, thickness}, {2, 2, 1}, tetrahedra),
+       "zmin",
+       degree,
+       {},
+       {}},
+      MPI_COMM_WORLD,
+      false,
+      MultiplierBasis::standard,
+      presses_only);
   }
 
   /// The master moves by @p jump and bears @p traction; the slave stays.
@@ -114,6 +117,21 @@ namespace
   }
 
   void
+  check_plates(const bool tetrahedra)
+  {
+    constexpr double thickness = 0.01;
+    TiedScene        scene     = halves(tetrahedra, false, thickness);
+    const double     k         = dealii::numbers::PI * degree * n_cells;
+    check(std::string("plates") + (tetrahedra ? ", tetrahedra" : ""),
+          energy(scene,
+                 [](const auto &) {
+                   return Vec({0, 0, 0.1});
+                 },
+                 {}),
+          c * std::pow(k * thickness, 3) / 6. * 0.01);
+  }
+
+  void
   check_contact(const bool tetrahedra)
   {
     const std::string of    = tetrahedra ? ", tetrahedra" : "";
@@ -160,6 +178,7 @@ main(int argc, char *argv[])
   for (const bool tetrahedra : {false, true})
     {
       check_ties(tetrahedra);
+      check_plates(tetrahedra);
       check_contact(tetrahedra);
     }
 }

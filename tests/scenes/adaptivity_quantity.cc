@@ -77,6 +77,16 @@ namespace
             0.5);
   }
 
+  /// By symmetry: whatever is estimated, it has no relative error.
+  void
+  check_zero()
+  {
+    const auto summary =
+      run_scene(two_layers(true), shells + target("bore, y", 1e-2));
+    verdict("zero: told", summary.status == "target not reached" ? 0. : 1., 0.);
+    verdict("zero: at once", summary.steps.size(), 2);
+  }
+
   /// z . f is the quantity where nothing is prescribed but zero; and the
   /// functional is it.
   void
@@ -223,5 +233,6 @@ main(int argc, char *argv[])
         corner + target("near, x", 1e-3),
         0.6,
         100.);
+  check_zero();
   check_correction();
 }

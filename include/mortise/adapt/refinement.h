@@ -55,7 +55,12 @@ namespace mortise
                      const RefinementOptions &options,
                      double                   allowed);
 
-  /// Unknowns after @p refinements by those now, about; one if there are none. Collective.
+  /// With the splits of other cells of @p bodies, hexahedra, that these ask for, so that cells with a common
+  /// vertex differ by one halving. Collective.
+  Refinements
+  with_closure(const Bodies &bodies, Refinements refinements);
+
+  /// Unknowns after @p refinements, with_closure(), by those now, about; one if there are none. Collective.
   double
   growth(const Bodies      &bodies,
          const CellStates  &states,

@@ -128,10 +128,17 @@ namespace mortise
     std::string
     found() const;
 
+    /// The estimate that meets the target.
+    double
+    met_at() const
+    {
+      return least_effectivity * *run.parameters.adaptivity.target_error;
+    }
+
     bool
     reached() const
     {
-      return at_most && *at_most <= *run.parameters.adaptivity.target_error;
+      return at_most && *at_most <= met_at();
     }
 
     /// Why there is no next cycle, although the target is not reached, in
@@ -147,6 +154,9 @@ namespace mortise
     missed() const;
 
   private:
+    /// Estimates are at least so much of the error (doc/adaptivity.md).
+    static constexpr double least_effectivity = 0.8;
+
     /// Relative, and in cells that have slave faces.
     void
     set_violations(const std::vector<Violation> &violations, double norm);

@@ -46,9 +46,18 @@ namespace mortise
     unsigned int
     body() const;
 
+    /// Of the whole displacement or force of which it is a component.
+    /// Collective.
+    double
+    size(const Bodies                    &bodies,
+         const std::vector<BodySolution> &solutions) const;
+
   private:
     Quantity(const Parameters &parameters, const std::string &name);
 
+    dealii::Tensor<1, dim>
+    all_components(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &solutions) const;
     [[noreturn]] void
     fail_outside(const Bodies &bodies) const;
 
@@ -63,7 +72,8 @@ namespace mortise
   struct DualSolution
   {
     double                    value = 0.;
-    std::vector<BodySolution> solutions; ///< by body
+    double                    size  = 0.; ///< Quantity::size()
+    std::vector<BodySolution> solutions;  ///< by body
     SolveReport               report;
   };
 
