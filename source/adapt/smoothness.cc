@@ -20,10 +20,9 @@ namespace mortise
       return k < 2 ? 1. / 3. : 1. / (2. * (2. * k - 3.) * (2. * k + 1.));
     }
 
-    /// Call visit(weight, at) for the functions of x_d, at(k) is the
-    /// coefficient of that with number k in evaluate_lobatto(), that
-    /// a function of @p degree has beside products of functions of the other two
-    /// coordinates, of about this square.
+    /// A function of @p degree is a sum of functions of x_d times ones of the other two coordinates: for
+    /// each of the former call visit(weight, at), with the coefficients at(k)
+    /// of evaluate_lobatto() and the square of the latter, about.
     template <typename Visit>
     void
     for_each_line(const unsigned int         degree,
