@@ -1,7 +1,7 @@
 // Proves that two tied layers of flat cells and a film on a block take 15
 // iterations at most and are exact, hexahedra and tetrahedra (of degree 3:
-// flat_tetrahedra.cc), meshes that match or do not. The same on every number of
-// ranks.
+// flat_tetrahedra.cc), meshes that match or do not, degrees that are mixed in
+// one of the layers. The same on every number of ranks.
 #include "flat_scene.h"
 
 using namespace mortise;
@@ -27,6 +27,11 @@ main(int argc, char *argv[])
                 heights(h, h) + meshes("4, 4, 3", "3, 3, 2", p) + tetrahedra,
                 15);
       }
+  for (const std::string body : {"lower", "upper"})
+    check("degree 3, in part of the " + body + " layer 4",
+          heights(1e-2, 1e-2) + meshes("3, 3, 3", "4, 4, 2", 3) +
+            Settings{"Body " + body + "/Degree near=0, 0, 0.01, 0.3, 4"},
+          15);
   const Settings film_is_slave = {"Interface glue/Slave=upper: zmin",
                                   "Interface glue/Master=lower: zmax"};
   for (const unsigned int p : {2, 3})

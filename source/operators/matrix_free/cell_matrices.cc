@@ -173,16 +173,13 @@ namespace mortise
     AlignedVector<Number> u(width * n), of_u(u);
     for (unsigned int j = 0; j < m; ++j)
       {
-        const auto set = [&](const Number factor) {
-          for (unsigned int lane = 0; lane < functions.size(); ++lane)
-            if (j < functions[lane].size())
-              for (const auto &[i, value] : functions[lane][j])
-                u[lane * n + i] = factor * value;
-        };
-        set(1.);
+        u.fill(Number());
+        for (unsigned int lane = 0; lane < functions.size(); ++lane)
+          if (j < functions[lane].size())
+            for (const auto &[i, value] : functions[lane][j])
+              u[lane * n + i] += value;
         of_u.fill(Number());
         kernels[g]->add_product(one, u.data(), of_u.data());
-        set(0.);
         for (unsigned int lane = 0; lane < functions.size(); ++lane)
           if (j < functions[lane].size())
             for (unsigned int i = 0; i < functions[lane].size(); ++i)

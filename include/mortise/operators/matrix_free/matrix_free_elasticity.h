@@ -130,7 +130,9 @@ namespace mortise
       const std::function<bool(const Cell &)>                     &wanted,
       const std::function<void(const Cell &, const CellMatrix &)> &visit) const;
 
-    /// Functions in a cell: entries (number among Cell::displacements, value) of each.
+    /// Functions in a cell: entries (number among Cell::displacements, value)
+    /// of each; those of one number add up, since nodes that hang may follow
+    /// from one node in more than one way.
     using CellFunctions =
       std::vector<std::vector<std::pair<unsigned int, double>>>;
 
@@ -139,9 +141,8 @@ namespace mortise
     void
     for_each_projected_matrix(
       const std::function<CellFunctions(const Cell &)> &functions,
-      const std::function<void(const Cell &,
-                               const dealii::FullMatrix<double> &)> &visit)
-      const;
+      const std::function<
+        void(const Cell &, const dealii::FullMatrix<double> &)> &visit) const;
 
     /// By body and, in each, by the degree of the displacement on the finest
     /// level: the same cells in the same order on all levels.
