@@ -154,8 +154,9 @@ namespace mortise
     missed() const;
 
   private:
-    /// Estimates are at least so much of the error (doc/adaptivity.md).
-    static constexpr double least_effectivity = 0.8;
+    /// Last estimates are at least so much of the error, about
+    /// (doc/adaptivity.md).
+    static constexpr double least_effectivity = 0.9;
 
     /// Relative, and in cells that have slave faces.
     void
