@@ -148,6 +148,22 @@ namespace mortise
                   std::pow(1. + c / spring.tangential, 2);
       return c * square;
     }
+
+    /// From coefficients on a face with this @p trace.
+    Tensor<1, dim>
+    traction_at(const Point<2>            &xi,
+                const FaceTrace           &trace,
+                const std::vector<double> &coefficients)
+    {
+      const unsigned int  n = trace.n_functions();
+      std::vector<double> values(n);
+      trace.basis().evaluate(xi[0], xi[1], values.data());
+      Tensor<1, dim> traction;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int k = 0; k < n; ++k)
+          traction[d] += values[k] * coefficients[d * n + k];
+      return traction;
+    }
   } // namespace
 
   Violations
@@ -165,31 +181,24 @@ namespace mortise
       of_masters(interface.master_faces().size());
     for (unsigned int m = 0; m < of_masters.size(); ++m)
       of_masters[m].face = interface.master_faces()[m].id;
-    std::vector<double> values;
     interface.visit_pairs([&](const unsigned int       s,
                               const unsigned int       m,
                               const IntegrationPoints &points) {
       const SurfaceFace &face  = interface.slave().faces[s];
       const FaceTrace   &slave = interface.slave().traces[s];
-      const unsigned int n     = slave.n_functions();
       const double       c     = stiffness_of_sides(face,
                                           slave,
                                           interface.master_traces()[m],
                                           coupling.is_contact);
-      values.resize(n);
       jump_at.reinit(s);
       for (unsigned int q = 0; q < points.size(); ++q)
         {
           const Point<2>       xi(points.slave_xi[0][q], points.slave_xi[1][q]);
-          const Tensor<1, dim> normal = face_normal(face, xi),
-                               jump   = jump_at(m, points, q);
-          Tensor<1, dim> traction;
-          slave.basis().evaluate(xi[0], xi[1], values.data());
-          for (unsigned int d = 0; d < dim; ++d)
-            for (unsigned int k = 0; k < n; ++k)
-              traction[d] += values[k] * tractions[s][d * n + k];
-          const double open = law.gap.open(points, q, normal, jump);
-          double       of_point;
+          const Tensor<1, dim> normal   = face_normal(face, xi),
+                               jump     = jump_at(m, points, q);
+          const Tensor<1, dim> traction = traction_at(xi, slave, tractions[s]);
+          const double         open     = law.gap.open(points, q, normal, jump);
+          double               of_point;
           if (coupling.is_contact)
             {
               const double pressure = traction * normal;

@@ -182,7 +182,12 @@ namespace mortise
                         size[body.index][cell->active_cell_index()];
                   });
     set_violations(violations, norm);
-    if (has_unknown_errors(bodies, states))
+    if (dual && cycle > 0 &&
+        std::fabs(dual->value) <= run.parameters.solver.tolerance * dual->size)
+      stopped_by = "Quantity = " + goal->name() +
+                   " is zero beside the other components, which has no "
+                   "relative error";
+    if (!stopped_by.empty() || has_unknown_errors(bodies, states))
       {
         sums = {};
         rest = {};
@@ -194,16 +199,6 @@ namespace mortise
       estimate(bodies, solutions, dual, norm);
     if (dual)
       last_value = dual->value;
-    if (dual && cycle > 0 &&
-        std::fabs(dual->value) <= run.parameters.solver.tolerance * dual->size)
-      {
-        stopped_by = "Quantity = " + goal->name() +
-                     " is zero beside the other components, which has no "
-                     "relative error";
-        estimated.reset();
-        at_most.reset();
-        signed_error.reset();
-      }
     ++cycle;
     // of cells as of all
     allowed = 0.;
