@@ -47,7 +47,7 @@ namespace mortise
                                                          '\r',
                                                          '\n',
                                                          '\0'}};
-    constexpr std::uint64_t        checkpoint_format = 2;
+    constexpr std::uint64_t        checkpoint_format = 3;
     constexpr std::uint64_t        checkpoint_block  = 1 << 22;
 
     std::uint64_t

@@ -146,11 +146,11 @@ namespace
                   {"was written by version \"x",
                    "this is version \"" + program_info(1).version + "\""});
     other               = good;
-    other[format_place] = 3;
+    other[format_place] = 2;
     check_refused("another format",
                   scene,
                   with_checksum(other),
-                  {"has format 3, allowed is format 2"});
+                  {"has format 2, allowed is format 3"});
     check_refused("no checkpoint",
                   scene,
                   std::string(1000, 'M'),
