@@ -100,10 +100,10 @@ namespace mortise
 
 
 
-  PairIntegrator::PairIntegrator(const double search_fraction)
+  PairIntegrator::PairIntegrator(const SearchDistance &distance)
     : scratch(std::make_unique<Scratch>())
   {
-    scratch->search_fraction = search_fraction;
+    scratch->distance = distance;
   }
 
 
@@ -132,7 +132,7 @@ namespace mortise
   {
     scratch->begin_pair(master, degree_slave, degree_master);
     scratch->gap_limit =
-      scratch->search_fraction * std::max(scratch->slave_size, master.size);
+      scratch->distance.of(std::max(scratch->slave_size, master.size));
     PairResult result = scratch->slave_linear && master.affine ?
                           integrate_linear_pair(*scratch, master, points) :
                           integrate_curved_pair(*scratch, master, points);

@@ -26,7 +26,7 @@ namespace mortise
   {
     near_masters = exchange_near_faces(slave_surface.faces,
                                        master_surface.faces,
-                                       options.search_fraction,
+                                       options.distance,
                                        comm);
     for (SurfaceFace &face : near_masters)
       {
@@ -37,7 +37,7 @@ namespace mortise
     for (SurfaceFace &face : slave_surface.faces)
       face.payload.clear();
 
-    const FaceTree tree(near_masters, options.search_fraction);
+    const FaceTree tree(near_masters, options.distance);
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       tree.candidates(slave_surface.faces[s], candidates[s]);
   }
@@ -69,7 +69,7 @@ namespace mortise
   InterfaceHandler::visit_pairs(const Visitor &visitor)
   {
     using Clock = std::chrono::steady_clock;
-    PairIntegrator    integrator(options.search_fraction);
+    PairIntegrator    integrator(options.distance);
     IntegrationPoints points;
     integrator.set_points_per_direction(
       options.points_per_direction.value_or(0));

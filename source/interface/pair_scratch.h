@@ -43,15 +43,16 @@ namespace mortise
     bool
     samples_meet() const;
 
-    SlaveMap    slave;
-    FaceFrame   slave_frame;
-    bool        slave_linear = false;
-    double      slave_size = 0, slave_area = 0;
-    double      search_fraction = default_search_fraction, gap_limit = 0;
-    unsigned    n_points = 0, degree_slave = 1, degree_master = 1;
-    FaceShape   master_shape = FaceShape::quadrilateral;
-    MasterMap   master;
-    LoopClipper clipper;
+    SlaveMap       slave;
+    FaceFrame      slave_frame;
+    bool           slave_linear = false;
+    double         slave_size = 0, slave_area = 0;
+    SearchDistance distance;
+    double         gap_limit = 0;
+    unsigned       n_points = 0, degree_slave = 1, degree_master = 1;
+    FaceShape      master_shape = FaceShape::quadrilateral;
+    MasterMap      master;
+    LoopClipper    clipper;
 
     std::vector<double> xi[2], reference_weight; ///< points before mapping
     std::vector<double> gamma[2], gamma_rate[2]; ///< points on curved pieces

@@ -21,7 +21,7 @@ namespace mortise
     // The face's box, extended along its normals to both sides by the distance
     // at which it can still have a partner.
     Box
-    box_of_reach(const SurfaceFace &face, const double search_fraction)
+    box_of_reach(const SurfaceFace &face, const SearchDistance &distance)
     {
       Point<3> lower, upper;
       for (unsigned int d = 0; d < 3; ++d)
@@ -31,7 +31,7 @@ namespace mortise
             component =
               std::max(component, std::abs(face.vertex_normals[v][d]));
           const double reach =
-            search_fraction * face.size * component + 1e-10 * face.size;
+            distance.of(face.size) * component + 1e-10 * face.size;
           lower[d] = face.lower[d] - reach;
           upper[d] = face.upper[d] + reach;
         }
@@ -55,10 +55,10 @@ namespace mortise
       const double        low[2]   = {chart.lower[0] - frame.center_xi,
                                       chart.lower[1] - frame.center_xi};
       const double        high[2]  = {
-        (triangle ? chart.upper[2] - chart.lower[1] : chart.upper[0]) -
-          frame.center_xi,
-        (triangle ? chart.upper[2] - chart.lower[0] : chart.upper[1]) -
-          frame.center_xi};
+                (triangle ? chart.upper[2] - chart.lower[1] : chart.upper[0]) -
+                  frame.center_xi,
+                (triangle ? chart.upper[2] - chart.lower[0] : chart.upper[1]) -
+                  frame.center_xi};
       // What a chart's dual base leaves out is the part of the tangents along
       // the normal.
       Prism prism;
@@ -95,8 +95,8 @@ namespace mortise
         for (const auto &corner : other.corner)
           {
             const double chart = centre + axis * (corner - frame.center);
-            low  = std::min(low, chart);
-            high = std::max(high, chart);
+            low                = std::min(low, chart);
+            high               = std::max(high, chart);
           }
         const double slack = 1e-10 + twist * reach;
         return low > most + slack || high < least - slack;
@@ -168,14 +168,14 @@ namespace mortise
 
 
   FaceTree::FaceTree(const std::vector<SurfaceFace> &masters,
-                     const double                    search_fraction)
+                     const SearchDistance           &distance)
     : masters(masters)
-    , search_fraction(search_fraction)
+    , distance(distance)
     , tree(std::make_unique<Tree>())
   {
     std::vector<std::pair<Box, unsigned int>> boxes;
     for (unsigned int m = 0; m < masters.size(); ++m)
-      boxes.emplace_back(box_of_reach(masters[m], search_fraction), m);
+      boxes.emplace_back(box_of_reach(masters[m], distance), m);
     tree->boxes = pack_rtree(boxes);
   }
 
@@ -193,14 +193,14 @@ namespace mortise
     const Prism prism = prism_of(slave);
     const auto  test  = [&](const std::pair<Box, unsigned int> &entry) {
       const SurfaceFace &master = masters[entry.second];
-      const double reach = search_fraction * std::max(slave.size, master.size);
+      const double       reach = distance.of(std::max(slave.size, master.size));
       if (normals_may_oppose(slave, master) &&
           !beside(slave, prism_of(master), reach) &&
           !beside(master, prism, reach))
         result.push_back(entry.second);
     };
     tree->boxes.query(boost::geometry::index::intersects(
-                        box_of_reach(slave, search_fraction)),
+                        box_of_reach(slave, distance)),
                       boost::make_function_output_iterator(test));
     std::sort(result.begin(), result.end());
   }
@@ -210,12 +210,12 @@ namespace mortise
   std::vector<SurfaceFace>
   exchange_near_faces(const std::vector<SurfaceFace> &owned_slaves,
                       const std::vector<SurfaceFace> &owned_masters,
-                      const double                    search_fraction,
+                      const SearchDistance           &distance,
                       MPI_Comm                        comm)
   {
     std::vector<Box> slave_boxes, rank_boxes;
     for (const auto &slave : owned_slaves)
-      slave_boxes.push_back(box_of_reach(slave, search_fraction));
+      slave_boxes.push_back(box_of_reach(slave, distance));
     coarsen(slave_boxes, 0, slave_boxes.size(), 3, rank_boxes);
     const std::vector<std::vector<Box>> all_boxes =
       Utilities::MPI::all_gather(comm, rank_boxes);
@@ -225,7 +225,7 @@ namespace mortise
     std::vector<SurfaceFace>                         result;
     for (const auto &master : owned_masters)
       {
-        const Box reach = box_of_reach(master, search_fraction);
+        const Box reach = box_of_reach(master, distance);
         for (unsigned int rank = 0; rank < all_boxes.size(); ++rank)
           if (std::any_of(all_boxes[rank].begin(),
                           all_boxes[rank].end(),

@@ -72,6 +72,7 @@ namespace mortise
       visit("pressure_max", contact.pressure_max);
       visit("gap_min", contact.gap_min);
       visit("penetration_max", contact.penetration_max);
+      visit("motion_max", contact.motion_max);
       visit("active", contact.active);
       visit("inactive", contact.inactive);
       visit("undecided", contact.undecided);

@@ -100,7 +100,7 @@ namespace mortise
   Adaptivity::doubt() const
   {
     return *at_most > noticeable * *estimated ?
-             ", perhaps " + RunLog::number(*at_most) + "," :
+             ", perhaps " + RunLog::number(*at_most) :
              "";
   }
 

@@ -160,7 +160,7 @@ namespace mortise
       for (unsigned int s = 0; s < interface.coverage().size(); ++s)
         if (const SurfaceFace &face = interface.slave().faces[s];
             interface.coverage()[s] < 0.99 && text.str().empty() &&
-            moved > sides.search_distance * face.size)
+            moved > sides.search_distance.of(face.size))
           text << "Interface " << interface.name()
                << ": its sides move by up to " << RunLog::number(moved)
                << " against each other, but the face at "
@@ -169,7 +169,7 @@ namespace mortise
                     ->face(interface.slave().face_numbers[s])
                     ->center()
                << " has looked for partners only as far as "
-               << RunLog::number(sides.search_distance * face.size)
+               << RunLog::number(sides.search_distance.of(face.size))
                << ", so that contact there would go unseen; allowed: a larger "
                   "Search distance, or smaller displacements";
       throw_if_any(text.str(), run.comm);
@@ -204,6 +204,7 @@ namespace mortise
                               run.comm);
             const InterfaceParameters &given =
               discretisation.interfaces().sides()[i];
+            contact.motion_max = moved;
             contact.penetration_max =
               largest_penetration(interfaces[i],
                                   displacement,

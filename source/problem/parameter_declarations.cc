@@ -108,9 +108,9 @@ namespace mortise
         Allowed::one_of({"standard", "dual"}));
       section.add(
         "Search distance",
-        interface.search_distance,
+        interface.search_distance.by_size,
         "Largest gap or penetration that is bridged, as a fraction of the size of the "
-        "larger face [-].",
+        "larger face [-]. With Adaptivity contact is looked for as far as sides have moved in the last cycle, too.",
         Allowed::positive_number());
       section.add("Quadrature points",
                   "auto",

@@ -73,7 +73,7 @@ namespace mortise
                              spaces.nodal);
     };
     InterfaceOptions options;
-    options.search_fraction      = given.search_distance;
+    options.distance             = given.search_distance;
     options.points_per_direction = given.quadrature_points;
     Coupling coupling;
     coupling.is_spring  = given.law == "spring";
@@ -151,7 +151,7 @@ namespace mortise
         " and " + spaces.bodies[given.master.body]->name + ": " +
         given.master.boundary +
         " do not meet: no pair of faces overlaps within the search distance of " +
-        RunLog::number(given.search_distance) +
+        RunLog::number(given.search_distance.by_size) +
         " face sizes. Check positions, names and Search distance");
     if (report.failed_pairs > 0)
       run.log.warning("interface " + name + ": the projection of " +

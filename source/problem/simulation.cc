@@ -68,6 +68,8 @@ namespace mortise
   {
     if (bodies.empty())
       create_meshes();
+    if (adaptivity && !summary.steps.empty())
+      extend_search();
     const SceneData data(context.parameters, steps.next(), field_checks);
     std::optional<ActivePlaces> pressing;
     if (contact)

@@ -29,6 +29,16 @@ namespace mortise
     fields.estimates = adaptivity->cell_estimates();
   }
 
+  void
+  Simulation::extend_search()
+  {
+    constexpr double margin = 1.25; // the next solution moves otherwise
+    for (const InterfaceSummary &of : summary.steps.back().interfaces)
+      for (InterfaceParameters &given : parameters.interfaces)
+        if (of.contact && given.name == of.name)
+          given.search_distance.least = margin * of.contact->motion_max;
+  }
+
   bool
   Simulation::is_last_cycle() const
   {

@@ -211,7 +211,7 @@ cells were too large, and a cycle passes without an estimate. Where both bodies 
   to 0.4 with ratio 2:3 of curved blocks, a third at the crack, a thousandth or less on spheres; in contact 0.6 to 1.3 (the wave), so there it bounds nothing.
   With `Quantity` there are no own parts, doubts and shares.
 - **Edges of contact**: cells, on both sides, of whose faces part presses and part is open are cut from degree three on: behind an edge of contact stresses go as the root of the distance,
-  which coefficients up to degree five do not tell from a smooth solution. The wave to 1e-3 took 459,200 unknowns without this.
+  which coefficients up to degree five do not tell from a smooth solution. The wave to 1e-3 took 459,200 unknowns without this. Faces there become smaller than what sides move: partners are looked for as far as they moved in the last cycle.
 - **Checkpoints**: `Output/Checkpoint every` counts cycles (with `Steps` those of each step); `--restart` goes on after any of them, on any number of ranks, also with another target or other limits.
 - **h or p**: where the degree rises to three and more, Legendre coefficients of derivatives fall by 0.3 to 0.4 per degree on cells at Fichera's corner, by 0.2 to 0.26 on those beside it;
   at 0.28 and above a cell is cut (of bodies in mixed form coefficients of pressures by the modulus count as derivatives: what is missing of a pressure makes rough displacements), unless its changes have fallen tenfold per degree. Three is the least degree at which there are two coefficients beside the constant one.

@@ -48,10 +48,8 @@ namespace
     auto owned_masters = part(masters, n_ranks - 1 - rank, n_ranks);
     for (auto &master : owned_masters)
       master.owner = rank;
-    const auto near = exchange_near_faces(owned_slaves,
-                                          owned_masters,
-                                          default_search_fraction,
-                                          comm);
+    const auto near =
+      exchange_near_faces(owned_slaves, owned_masters, SearchDistance(), comm);
 
     bool sorted = true, intact = true;
     for (unsigned int i = 0; i < near.size(); ++i)
@@ -72,7 +70,7 @@ namespace
                        const PairResult        &pair,
                        const IntegrationPoints &points) {
         values.insert(values.end(),
-                               {double(slave.id),
+                      {double(slave.id),
                        double(master.id),
                        pair.area,
                        double(points.size())});

@@ -200,10 +200,10 @@ namespace synthetic
             const unsigned int              degree,
             const Visitor                  &visitor  = Visitor(),
             const unsigned int              n_points = 0,
-            const double search_fraction             = default_search_fraction)
+            const SearchDistance           &distance = {})
   {
-    FaceTree                  tree(masters, search_fraction);
-    PairIntegrator            integrator(search_fraction);
+    FaceTree                  tree(masters, distance);
+    PairIntegrator            integrator(distance);
     IntegrationPoints         points;
     std::vector<unsigned int> candidates;
     Total                     total;

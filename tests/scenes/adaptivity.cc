@@ -185,6 +185,44 @@ namespace
             1e-5);
   }
 
+  /// A block pressed on a part of another: faces beside it become smaller than
+  /// what it moves, and still it is looked for.
+  void
+  check_search()
+  {
+    const auto box = [](const std::string &name,
+                        const std::string &extent,
+                        const std::string &boundary) {
+      return "subsection Body " + name +
+             "\nset Degree = 1\nsubsection Mesh\nset Source = box\nset Extent = " +
+             extent +
+             "\nset Subdivisions = 1, 1, 1\nend\nsubsection Material\n"
+             "set Young modulus = 1\nset Poisson ratio = 0.3\nend\n" +
+             boundary + "end\n";
+    };
+    const std::string text =
+      "set Bodies = lower, upper\nset Interfaces = touch\n" +
+      box("lower",
+          "0, 0, 0, 2, 1, 1",
+          "subsection Boundary zmin\nset Displacement = 0, 0, 0\nend\n") +
+      box("upper",
+          "0, 0, 1, 1, 1, 2",
+          "subsection Boundary zmax\nset Displacement = 0, 0, -0.3\nend\n") +
+      "subsection Interface touch\nset Slave = lower: zmax\n"
+      "set Master = upper: zmin\nset Law = contact\nend\n";
+    const auto steps =
+      run_scene(text,
+                target(1e-3) +
+                  Settings{"Adaptivity/Strategy=h",
+                           "Adaptivity/Largest number of unknowns=2e4"})
+        .steps;
+    // with halvings of cells of sides 1 and 2 faces are small enough
+    verdict("search: cells", 512. / steps.back().bodies[0].cells, 1.);
+    verdict("search: motion",
+            0.2 / steps.back().interfaces[0].contact->motion_max,
+            1.);
+  }
+
   /// Seven cubes, the upper three as tetrahedra that gmsh makes.
   void
   check_new_meshes()
@@ -247,6 +285,7 @@ main(int argc, char *argv[])
   check_nearly_incompressible();
   check_smooth_first_rise(shells);
   check_new_meshes();
+  check_search();
 
   const auto few =
     run_scene(two_layers(true),

@@ -75,8 +75,7 @@ namespace mortise
   class PairIntegrator
   {
   public:
-    explicit PairIntegrator(
-      const double search_fraction = default_search_fraction);
+    explicit PairIntegrator(const SearchDistance &distance = {});
     ~PairIntegrator();
 
     /// Choose the slave face of the pairs to come. Copies what it needs.

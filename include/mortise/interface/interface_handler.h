@@ -15,9 +15,8 @@ namespace mortise
 {
   struct InterfaceOptions
   {
-    /// Largest gap or penetration that is bridged, as a fraction of the larger
-    /// face's size.
-    double search_fraction = default_search_fraction;
+    /// Largest gap or penetration that is bridged.
+    SearchDistance distance;
     /// Points per direction in an integration cell; absent: by degrees and
     /// geometry.
     std::optional<unsigned int> points_per_direction;
@@ -41,7 +40,7 @@ namespace mortise
     double        worst_face_error =
       0.; ///< largest |1 - covered / area| of a slave face
     dealii::Point<3> worst_face_centre;
-    double clipping_seconds =
+    double           clipping_seconds =
       0.; ///< spent in clipping and projection, this rank
   };
 

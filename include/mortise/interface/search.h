@@ -6,14 +6,24 @@
 #include <mortise/interface/surface_face.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 namespace mortise
 {
-  /// Two faces can be a pair while their distance is at most this fraction of
-  /// the size of the larger one.
-  constexpr double default_search_fraction = 0.5;
+  /// How far from each other two faces can be a pair.
+  struct SearchDistance
+  {
+    double by_size = 0.5; ///< times the size of the larger one
+    double least   = 0.;  ///< a length, however small both are
+
+    double
+    of(const double size) const
+    {
+      return std::max(by_size * size, least);
+    }
+  };
 
   /// Boxes of master faces in a packed tree.
   class FaceTree
@@ -21,7 +31,7 @@ namespace mortise
   public:
     /// Keeps a reference to @p masters: they have to be finalized and outlive the tree.
     explicit FaceTree(const std::vector<SurfaceFace> &masters,
-                      const double search_fraction = default_search_fraction);
+                      const SearchDistance           &distance = {});
     ~FaceTree();
 
     /// Positions in @p masters, ascending, of the faces that may overlap @p slave: boxes meet,
@@ -35,7 +45,7 @@ namespace mortise
   private:
     struct Tree;
     const std::vector<SurfaceFace> &masters;
-    const double                    search_fraction;
+    const SearchDistance            distance;
     std::unique_ptr<Tree>           tree;
   };
 
@@ -46,6 +56,6 @@ namespace mortise
   std::vector<SurfaceFace>
   exchange_near_faces(const std::vector<SurfaceFace> &owned_slaves,
                       const std::vector<SurfaceFace> &owned_masters,
-                      const double                    search_fraction,
+                      const SearchDistance           &distance,
                       MPI_Comm                        comm);
 } // namespace mortise

@@ -53,6 +53,7 @@ namespace mortise
     double              pressure_max  = 0.;
     double              gap_min       = 0.; ///< of all nodes
     double        penetration_max     = 0.; ///< at quadrature points, a length
+    double        motion_max = 0.; ///< of one side against the other, a length
     std::uint64_t active = 0, inactive = 0;
     std::uint64_t undecided = 0; ///< among these: neither pressure nor gap
   };

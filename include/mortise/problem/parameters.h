@@ -10,6 +10,7 @@
 #include <deal.II/base/point.h>
 
 #include <mortise/body/mesh/mesh_source.h>
+#include <mortise/interface/search.h>
 #include <mortise/material/factory.h>
 #include <mortise/problem/load_steps.h>
 #include <mortise/problem/parameter_file.h>
@@ -84,8 +85,9 @@ namespace mortise
     std::string    offset     = "0";
     /// For "spring" alone.
     std::optional<std::string> normal_stiffness, tangential_stiffness;
-    double                     search_distance = 0.5;
-    unsigned int quadrature_points = 0; ///< 0 ("auto"): by the degrees
+    /// Adaptivity sets the least one, by how far sides have moved.
+    SearchDistance search_distance;
+    unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
   };
 
   enum class ExactKind

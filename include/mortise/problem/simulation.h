@@ -66,6 +66,10 @@ namespace mortise
     /// Likewise, for one step.
     void
     cycle(bool writes);
+    /// Cells become smaller than what the sides of contact move: it is looked
+    /// for as far as they have moved in the last cycle.
+    void
+    extend_search();
     bool
     is_last_cycle() const;
     void
@@ -98,7 +102,7 @@ namespace mortise
       double share = 0., seconds = 0.;
     };
 
-    const Parameters parameters;
+    Parameters       parameters;
     Timers           timers;
     Clock            clock;
     const RunContext context;
