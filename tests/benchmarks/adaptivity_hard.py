@@ -5,11 +5,9 @@ Errors at the L by fields, bodies of which one is far coarser, curved pairs with
 nearly incompressible, very different and flat bodies. Writes doc/adaptivity_hard.md; needs numpy."""
 import argparse
 import base64
-import json
 import math
 import os
 import re
-import subprocess
 import tempfile
 import textwrap
 import time
@@ -18,9 +16,8 @@ import zlib
 import numpy
 
 from adaptivity import BLOCKS, SPHERES, TOP, degrees, unknowns
-from adaptivity_scenes import SCENES, WAVE
-from contact import contact_of, last, westergaard
-from processor import openblas
+from adaptivity_scenes import SCENES, WAVE, most_iterations
+from contact import contact_of, last, outcome, westergaard
 
 PAIRS = ("curved_pair_1", "curved_pair_2")
 L_BODIES = {"slab": ((2 / 3, 2 / 3, 1), (-1, -1, -1)), "corner": ((1, 1, 1), (-1, -1, 0))}  # size of the coarsest cells, first corner
@@ -28,17 +25,7 @@ GOAL = 14  # iterations of a cycle
 
 
 def solve(mortise, scene, *settings, directory=None):
-    """Exit code, 0 or 3, and summary; fields, if any are set, stay in the directory."""
-    with tempfile.TemporaryDirectory() as own:
-        work = directory or own
-        command = [mortise, "--output", work, os.path.join(TOP, "prm", scene + ".prm"), "--set", "Output/Fields="]
-        for setting in settings:
-            command += ["--set", setting]
-        code = subprocess.run(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env={**os.environ, **openblas()}, check=False).returncode
-        if code not in (0, 3):
-            raise SystemExit(f"exit code {code}: {' '.join(command)}")
-        with open(os.path.join(work, "summary.json")) as file:
-            return code, json.load(file)
+    return outcome(mortise, scene, *settings, directory=directory)[:2]
 
 
 def target(number):
@@ -63,10 +50,6 @@ def estimate(summary):
 
 def by_error(summary):
     return last(summary)["adaptivity"].get("effectivity", math.nan)
-
-
-def most_iterations(summary):
-    return max(step["solver"]["iterations"] for step in summary["steps"])
 
 
 def show(row):

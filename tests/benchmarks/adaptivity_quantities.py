@@ -4,19 +4,16 @@
 Cycles whose target is that of a displacement at a point or of a force, where exact values are known: estimates beside errors, and unknowns
 beside those of cycles for the energy. Writes doc/adaptivity_quantities.md and doc/adaptivity_quantities.png; needs numpy and matplotlib."""
 import argparse
-import json
 import math
 import os
 import re
 import statistics
-import subprocess
-import tempfile
 
 import numpy
 
-from processor import openblas
+from adaptivity import CORNER as SEVEN_CUBES, TOP
+from contact import outcome
 
-TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 STEP = 1e-30
 
 
@@ -108,7 +105,6 @@ BUSH, HUB = press_fit()
 SMOOTH, CORNER = Formula(smooth), Formula(corner)
 SHELLS, BLOCKS, FIT = ("inner", "outer"), ("lower", "upper"), ("bush", "hub")
 TETRAHEDRA, INCOMPRESSIBLE = ["Mesh/Cells=tetrahedra"], ["Material/Poisson ratio=0.5"]
-FICHERA = ["Body lower/Mesh/Refine near=", "Body upper/Mesh/Refine near=", "Body lower/Mesh/Subdivisions=2, 2, 1", "Body upper/Mesh/Refinements=0"]
 TARGETS = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 MOST = 300000  # unknowns of runs for the energy
 KINDS = ("hexahedra", "tetrahedra", "incompressible", "press fit", "corner")
@@ -132,7 +128,7 @@ SCENES = {
     "curved blocks, tetrahedra": Scene("tetrahedra", "manufactured", BLOCKS, TETRAHEDRA),
     "sphere, incompressible": Scene("incompressible", "thick_sphere", SHELLS, INCOMPRESSIBLE, first=2),
     "cylinder, incompressible": Scene("incompressible", "thick_cylinder", SHELLS, INCOMPRESSIBLE, first=2),
-    "press fit": Scene("press fit", "press_fit", FIT), "Fichera": Scene("corner", "fichera", BLOCKS, more=FICHERA, targets=(1e-2, 1e-3))}
+    "press fit": Scene("press fit", "press_fit", FIT), "Fichera": Scene("corner", "fichera", BLOCKS, more=SEVEN_CUBES, targets=(1e-2, 1e-3))}
 
 
 class Quantity:
@@ -189,16 +185,8 @@ def quantities():
 
 def cycles(mortise, scene, settings):
     """Summary of a run, whether it met its target, and of each cycle the iterations of its dual problem."""
-    with tempfile.TemporaryDirectory() as work:
-        command = [mortise, "--output", work, os.path.join(TOP, "prm", scene + ".prm"), "--set", "Output/Fields="]
-        for setting in settings:
-            command += ["--set", setting]
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, **openblas()}, check=False)
-        if done.returncode not in (0, 3):
-            raise RuntimeError(" ".join(command) + ":\n" + done.stderr)
-        with open(os.path.join(work, "summary.json")) as file:
-            summary = json.load(file)
-        return summary, done.returncode == 0, [int(n) for n in re.findall(r"^  dual .*?(\d+) iterations", done.stdout, re.MULTILINE)]
+    code, summary, log = outcome(mortise, scene, *settings)
+    return summary, code == 0, [int(n) for n in re.findall(r"^  dual .*?(\d+) iterations", log, re.MULTILINE)]
 
 
 class Cycle:

@@ -33,16 +33,24 @@ TARGETS = (1e-1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6)
 GOALS = {1e-2: 0.03, 1e-3: 0.04, 1e-4: 0.08, 1e-5: 0.15, 1e-6: 0.4}
 
 
-def run(mortise, scene, *settings, ranks=1):
-    """The summary of the run."""
-    with tempfile.TemporaryDirectory() as work:
+def outcome(mortise, scene, *settings, ranks=1, codes=(0, 3), directory=None):
+    """Exit code, one of the codes, summary and log of the run; fields, if any are set, stay in the directory."""
+    with tempfile.TemporaryDirectory() as own:
+        work = directory or own
         command = [mortise, "--output", work, os.path.join(TOP, "prm", scene + ".prm"), "--set", "Output/Fields="]
         for setting in settings:
             command += ["--set", setting]
-        subprocess.run((on_ranks(ranks) if ranks > 1 else []) + command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                       env={**os.environ, **openblas()})
+        done = subprocess.run((on_ranks(ranks) if ranks > 1 else []) + command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              env={**os.environ, **openblas()}, check=False)
+        if done.returncode not in codes:
+            done.check_returncode()
         with open(os.path.join(work, "summary.json")) as file:
-            return json.load(file)
+            return done.returncode, json.load(file), done.stdout
+
+
+def run(mortise, scene, *settings, ranks=1):
+    """The summary of a run that ends well."""
+    return outcome(mortise, scene, *settings, ranks=ranks, codes=(0,))[1]
 
 
 def last(summary):
