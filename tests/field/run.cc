@@ -1,0 +1,168 @@
+// run MORTISE MPI_SCRIPT SCENE.prm: runs a scene as a user would and holds what comes out against the
+// expectations in its comment lines:
+//   # field: KIND OF SOURCE                          what the scene was drawn from
+//   # options --set "Body a/Degree=3"                further arguments of the program
+//   # ranks 3                                        1 without it
+//   # expect exit 2
+//   # expect message "TEXT"                          the program prints TEXT
+//   # expect no message "TEXT"
+//   # expect /JSON/POINTER = NUMBER within NUMBER    of summary.json, absolute
+//   # expect /JSON/POINTER = NUMBER relative NUMBER
+//   # expect /JSON/POINTER < NUMBER                  or >
+// Exit code 0 when all of them hold, 1 with a line for each that does not, 2 for an expectation that cannot be read.
+
+#include <nlohmann/json.hpp>
+
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace
+{
+  struct Expectations
+  {
+    bool                     source  = false;
+    std::string              options = "";
+    int                      ranks   = 1;
+    std::vector<std::string> lines   = {};
+  };
+
+  Expectations
+  read_expectations(const std::string &scene)
+  {
+    Expectations  expectations;
+    std::ifstream file(scene);
+    if (!file)
+      throw std::runtime_error("cannot be read");
+    bool exit_code = false;
+    for (std::string line; std::getline(file, line);)
+      if (line.rfind("# expect ", 0) == 0)
+        {
+          expectations.lines.push_back(line.substr(9));
+          exit_code |= line.rfind("# expect exit ", 0) == 0;
+        }
+      else if (line.rfind("# options ", 0) == 0)
+        expectations.options += " " + line.substr(10);
+      else if (line.rfind("# ranks ", 0) == 0)
+        expectations.ranks = std::stoi(line.substr(8));
+      else
+        expectations.source |= line.rfind("# field: ", 0) == 0;
+    if (!expectations.source || !exit_code)
+      throw std::runtime_error("needs a line '# field: ...' and a line '# expect exit ...'");
+    return expectations;
+  }
+
+  struct Outcome
+  {
+    int            exit_code = 0;
+    std::string    printed   = "";
+    nlohmann::json summary   = {};
+  };
+
+  Outcome
+  run(const std::string &command, const std::filesystem::path &output)
+  {
+    std::filesystem::remove_all(output);
+    std::filesystem::create_directories(output.parent_path());
+    FILE *pipe = popen((command + " 2>&1").c_str(), "r");
+    if (pipe == nullptr)
+      throw std::runtime_error("cannot be started");
+    Outcome outcome;
+    char    buffer[4096];
+    for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+      outcome.printed.append(buffer, n);
+    const int status  = pclose(pipe);
+    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    std::ifstream summary(output / "summary.json");
+    if (summary)
+      summary >> outcome.summary;
+    return outcome;
+  }
+
+  // "" when the expectation holds, else what was got
+  std::string
+  difference(const std::string &line, const Outcome &outcome)
+  {
+    std::istringstream words(line);
+    std::string        first, second, relation;
+    words >> first;
+    if (first == "exit")
+      {
+        int code = -1;
+        words >> code;
+        return outcome.exit_code == code ? "" : "exit code " + std::to_string(outcome.exit_code);
+      }
+    if (first == "message" || first == "no")
+      {
+        const std::size_t begin = line.find('"'), end = line.rfind('"');
+        if (begin == end)
+          throw std::runtime_error("'" + line + "' has no text in quotes");
+        const bool found =
+          outcome.printed.find(line.substr(begin + 1, end - begin - 1)) != std::string::npos;
+        return found == (first == "message") ? "" : first == "no" ? "it is printed" : "it is not printed";
+      }
+    double value = 0, tolerance = 0;
+    words >> relation >> value;
+    const bool equality = relation == "=";
+    if (equality)
+      words >> second >> tolerance;
+    if (!words || first[0] != '/' || (equality && second != "within" && second != "relative") ||
+        (!equality && relation != "<" && relation != ">"))
+      throw std::runtime_error("'" + line + "' is no expectation");
+    const nlohmann::json::json_pointer where(first);
+    if (!outcome.summary.contains(where) || !outcome.summary.at(where).is_number())
+      return "summary.json has no such number";
+    const double got = outcome.summary.at(where);
+    if (second == "relative")
+      tolerance *= std::abs(value);
+    const bool holds = equality ? std::abs(got - value) <= tolerance : relation == "<" ? got < value : got > value;
+    std::ostringstream text;
+    text.precision(12);
+    text << got;
+    return holds ? "" : text.str();
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  if (argc != 4)
+    {
+      std::cerr << "run MORTISE MPI_SCRIPT SCENE.prm" << std::endl;
+      return 2;
+    }
+  const std::filesystem::path scene = argv[3], output = std::filesystem::absolute("field") / scene.stem();
+  try
+    {
+      const Expectations expectations = read_expectations(scene);
+      std::string        command      = "cd '" + scene.parent_path().string() + "' && ";
+      if (expectations.ranks > 1)
+        command += std::string("'") + argv[2] + "' " + std::to_string(expectations.ranks) + " ";
+      command += std::string("'") + argv[1] + "'" + expectations.options + " --output '" + output.string() + "' '" +
+                 scene.string() + "'";
+      const Outcome outcome = run(command, output);
+      bool          good    = true;
+      for (const std::string &line : expectations.lines)
+        {
+          const std::string got = difference(line, outcome);
+          std::cout << (got.empty() ? "OK  " + line : "FAILED  " + line + ": " + got) << std::endl;
+          good &= got.empty();
+        }
+      if (!good)
+        std::cout << outcome.printed << std::endl;
+      return good ? 0 : 1;
+    }
+  catch (const std::exception &error)
+    {
+      std::cout << "FAILED  " << scene.string() << ": " << error.what() << std::endl;
+      return 2;
+    }
+}
