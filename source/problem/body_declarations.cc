@@ -35,6 +35,17 @@ namespace mortise
         "Force on the surface, added to Pressure [force per area]. Empty: none.",
         {"three expressions \"tx; ty; tz\"; or exact"});
       section.add(
+        "Force",
+        boundary.force,
+        "Total force on the boundary, spread evenly over its area and added to the others [force]. Empty: none.",
+        {"three expressions \"Fx; Fy; Fz\" in t"});
+      section.add(
+        "Moment",
+        boundary.moment,
+        "Total moment on the boundary about the centroid of its area [force times length], as a traction w x (x - centroid), "
+        "which has no resultant. Empty: none.",
+        {"three expressions \"Mx; My; Mz\" in t"});
+      section.add(
         "Displacement",
         boundary.displacement,
         "Prescribed displacement [length]; - leaves a component free. Empty: all free.",
@@ -80,6 +91,10 @@ namespace mortise
         "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
         "[degrees]. They do not follow the Rotate of the mesh.",
         {"3 numbers"});
+      section.add("Density",
+                  material.density,
+                  "What Gravity acts on [mass per volume]. 0: no mass.",
+                  {"0 or a positive number"});
     }
   } // namespace
 
@@ -120,7 +135,7 @@ namespace mortise
       "Body force",
       "auto",
       "Force on the volume [force per volume]. auto: what balances the exact solution "
-      "if that is given by expressions, else zero.",
+      "if that is given by expressions (then Gravity is part of it), else zero.",
       {"three expressions \"bx; by; bz\" in x, y, z, t; exact; or auto"},
       [&body](const ParameterValue &value) {
         body.body_force.reset();

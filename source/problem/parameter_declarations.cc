@@ -352,6 +352,10 @@ namespace mortise
               "Names of interfaces; each has an \"Interface NAME\".",
               {"names separated by commas"},
               known);
+    scene.add("Gravity",
+              parameters.gravity,
+              "Acceleration of all bodies with a Density [length per time squared], added to Body force. Empty: none.",
+              {"three expressions \"gx; gy; gz\" in x, y, z, t"});
     for (BodyParameters &body : parameters.bodies)
       declare_body(scene.subsection("Body " + body.name), body);
     for (InterfaceParameters &interface : parameters.interfaces)

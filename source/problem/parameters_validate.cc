@@ -86,6 +86,27 @@ namespace mortise
         }
     }
 
+    /// Components of a @p total, if it is given, are numbers at any time.
+    void
+    check_total(const Parameters                &parameters,
+                const std::string               &path,
+                const std::optional<Components> &total)
+    {
+      for (unsigned int d = 0; total && d < 3; ++d)
+        {
+          const std::string &text = (*total)[d];
+          const std::string  where =
+            parameters.where(path) + ", component " + "xyz"[d];
+          const double time = parameters.steps.first_time();
+          if (text == "-" || text == "exact" || text.empty() ||
+              !Expression(text, where, time).is_constant())
+            parameters.fail(path,
+                            in_quotes(text) + " as component " + "xyz"[d],
+                            "an expression in t; 0 for nothing");
+          check_expression(where, text, time);
+        }
+    }
+
     /// The named exact solutions take the pressures of the scene: they cannot
     /// give them.
     void
@@ -101,6 +122,14 @@ namespace mortise
         parameters.fail(section + "/Traction",
                         in_quotes(joined(*boundary.traction)),
                         allowed);
+      if (boundary.force)
+        parameters.fail(section + "/Force",
+                        in_quotes(joined(*boundary.force)),
+                        allowed);
+      if (boundary.moment)
+        parameters.fail(section + "/Moment",
+                        in_quotes(joined(*boundary.moment)),
+                        allowed);
     }
 
     void
@@ -110,6 +139,8 @@ namespace mortise
                    const std::string        &name)
     {
       check_components(parameters, section + "/Traction", boundary.traction);
+      check_total(parameters, section + "/Force", boundary.force);
+      check_total(parameters, section + "/Moment", boundary.moment);
       check_components(parameters,
                        section + "/Displacement",
                        boundary.displacement,
@@ -140,6 +171,25 @@ namespace mortise
                        section + "/Boundary " + name,
                        boundary,
                        name);
+    }
+
+    /// Gravity needs something that it acts on.
+    void
+    check_gravity(const Parameters &parameters)
+    {
+      if (!parameters.gravity)
+        return;
+      for (const std::string &text : *parameters.gravity)
+        if (text == "exact")
+          parameters.fail("Gravity", "\"exact\"", "expressions in x, y, z, t");
+      check_components(parameters, "Gravity", parameters.gravity);
+      for (const BodyParameters &body : parameters.bodies)
+        if (body.material.density > 0.)
+          return;
+      parameters.fail("Gravity",
+                      in_quotes(joined(*parameters.gravity)) +
+                        " with no body that has a Material/Density",
+                      "none, or a Density of the bodies that have a weight");
     }
 
     void
@@ -339,6 +389,7 @@ namespace mortise
       check_interface(parameters, interface);
     check_pairs_of_interfaces(parameters);
     check_names_of_interfaces(parameters);
+    check_gravity(parameters);
     check_exact_solution(parameters);
     check_formulations(parameters);
     check_steps(parameters);

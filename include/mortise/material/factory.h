@@ -16,6 +16,7 @@ namespace mortise
     double      young_modulus = 1.;  ///< force per area
     double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
     Orthotropic orthotropic;
+    double      density = 0.; ///< of any law, mass per volume; 0: none
   };
 
   /// Names of the laws.

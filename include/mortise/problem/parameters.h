@@ -39,6 +39,7 @@ namespace mortise
   {
     std::optional<std::string> pressure;
     std::optional<Components>  traction;
+    std::optional<Components>  force, moment; ///< totals
     std::optional<Components>  displacement;
   };
 
@@ -161,6 +162,7 @@ namespace mortise
     std::string                      title;
     std::vector<BodyParameters>      bodies;
     std::vector<InterfaceParameters> interfaces;
+    std::optional<Components>        gravity; ///< length per time squared
     ExactSolutionParameters          exact_solution;
     SolverParameters                 solver;
     AdaptivityParameters             adaptivity;

@@ -19,6 +19,14 @@ namespace mortise
             unsigned int                      f,
             unsigned int                      n);
 
+  /// Points per direction at which tractions on faces of @p element are
+  /// integrated.
+  inline unsigned int
+  traction_points(const dealii::FiniteElement<dim> &element)
+  {
+    return element.degree + 2;
+  }
+
   class FaceGeometry
   {
   public:
