@@ -92,12 +92,10 @@ namespace mortise
     {
     public:
       void
-      add(const Body           &body,
-          const BodyVector     &displacement,
-          const SideParameters &side)
+      add(const std::vector<BoundaryFace> &faces,
+          const BodyVector                &displacement)
       {
-        for (const BoundaryFace &face :
-             boundary_faces(body, body.boundary_id(side.boundary, "")))
+        for (const BoundaryFace &face : faces)
           if (face.cell->is_locally_owned())
             {
               const auto of_face = face.cell->face(face.number);
@@ -140,9 +138,8 @@ namespace mortise
       const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
       MotionRange                range;
       for (const SideParameters *side : {&sides.slave, &sides.master})
-        range.add(*discretisation.bodies()[side->body],
-                  fields.solutions[side->body].displacement,
-                  *side);
+        range.add(side_faces(discretisation.bodies(), *side, ""),
+                  fields.solutions[side->body].displacement);
       return range.width(run.comm);
     }
 

@@ -30,14 +30,10 @@ namespace mortise
       for (const InterfaceParameters &interface : run.parameters.interfaces)
         if (interface.law == "contact")
           {
-            const Body        &body = *bodies[interface.slave.body];
             const unsigned int degree =
-              run.parameters.bodies[body.index].degree;
-            for (const BoundaryFace &face :
-                 boundary_faces(body,
-                                body.boundary_id(interface.slave.boundary,
-                                                 "Interface " +
-                                                   interface.name)))
+              run.parameters.bodies[interface.slave.body].degree;
+            for (const BoundaryFace &face : side_faces(
+                   bodies, interface.slave, "Interface " + interface.name))
               n += face.cell->is_locally_owned() ? degree * degree : 0;
           }
       return dealii::Utilities::MPI::sum(n, run.comm);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace mortise
 {
@@ -46,13 +47,20 @@ namespace mortise
       section.add(name,
                   "",
                   meaning,
-                  {"\"body: boundary\""},
+                  {"\"body: boundary\", or \"body: boundary, boundary, ...\""},
                   [&](const ParameterValue &value) {
                     const auto sides = value.records(2);
                     if (sides.size() != 1)
                       value.fail(in_quotes(value.text));
-                    side.body     = body_index(parameters, value, sides[0][0]);
-                    side.boundary = sides[0][1];
+                    side.body = body_index(parameters, value, sides[0][0]);
+                    side.boundaries =
+                      split_outside_parentheses(sides[0][1], ',');
+                    std::set<std::string> different;
+                    for (const std::string &boundary : side.boundaries)
+                      if (boundary.empty() ||
+                          !different.insert(boundary).second)
+                        value.fail(in_quotes(value.text),
+                                   "each boundary once");
                   });
     }
 

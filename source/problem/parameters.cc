@@ -13,6 +13,13 @@
 namespace mortise
 {
   std::string
+  side_text(const Parameters &parameters, const SideParameters &side)
+  {
+    return parameters.bodies[side.body].name + ": " +
+           join_names(side.boundaries);
+  }
+
+  std::string
   joined(const Components &components)
   {
     return components[0] + "; " + components[1] + "; " + components[2];

@@ -205,17 +205,15 @@ namespace mortise
       check_components(parameters, path, exact.displacement);
     }
 
-    std::string
-    side_text(const Parameters &parameters, const SideParameters &side)
-    {
-      return in_quotes(parameters.bodies[side.body].name + ": " +
-                       side.boundary);
-    }
-
+    /// Is there a boundary on both sides?
     bool
-    same(const SideParameters &a, const SideParameters &b)
+    share(const SideParameters &a, const SideParameters &b)
     {
-      return a.body == b.body && a.boundary == b.boundary;
+      return a.body == b.body &&
+             std::find_first_of(a.boundaries.begin(),
+                                a.boundaries.end(),
+                                b.boundaries.begin(),
+                                b.boundaries.end()) != a.boundaries.end();
     }
 
     /// A spring has both stiffnesses, other laws none.
@@ -272,19 +270,20 @@ namespace mortise
                       section + "/Tangential stiffness",
                       interface.tangential_stiffness,
                       true);
-      if (same(slave, master))
+      if (share(slave, master))
         parameters.fail(
           section + "/Master",
-          side_text(parameters, master) + ", which is the slave",
+          in_quotes(side_text(parameters, master)) + ", which is on the slave's side",
           "another boundary than the slave's, of the same or another body");
       const auto &boundaries = parameters.bodies[slave.body].boundaries;
-      const auto  slave_side = boundaries.find(slave.boundary);
-      if (slave_side != boundaries.end() && slave_side->second.displacement)
-        parameters.fail(
-          section + "/Slave",
-          side_text(parameters, slave) +
-            ", which has a prescribed displacement",
-          "a boundary without; exchange slave and master, or drop the displacement");
+      for (const std::string &boundary : slave.boundaries)
+        if (const auto given = boundaries.find(boundary);
+            given != boundaries.end() && given->second.displacement)
+          parameters.fail(
+            section + "/Slave",
+            in_quotes(parameters.bodies[slave.body].name + ": " + boundary) +
+              ", which has a prescribed displacement",
+            "a boundary without; exchange slave and master, or drop the displacement");
     }
 
     /// Files of results are named after bodies and interfaces.
@@ -307,8 +306,8 @@ namespace mortise
       for (const InterfaceParameters &a : parameters.interfaces)
         for (const InterfaceParameters &b : parameters.interfaces)
           if (&a < &b &&
-              ((same(a.slave, b.slave) && same(a.master, b.master)) ||
-               (same(a.slave, b.master) && same(a.master, b.slave))))
+              ((share(a.slave, b.slave) && share(a.master, b.master)) ||
+               (share(a.slave, b.master) && share(a.master, b.slave))))
             parameters.fail("Interface " + b.name + "/Slave",
                             "the same two boundaries as those of interface " +
                               a.name,
@@ -434,12 +433,14 @@ namespace mortise
               name);
     for (const InterfaceParameters &interface : parameters.interfaces)
       {
-        check("Interface " + interface.name + "/Slave",
-              interface.slave.body,
-              interface.slave.boundary);
-        check("Interface " + interface.name + "/Master",
-              interface.master.body,
-              interface.master.boundary);
+        for (const std::string &boundary : interface.slave.boundaries)
+          check("Interface " + interface.name + "/Slave",
+                interface.slave.body,
+                boundary);
+        for (const std::string &boundary : interface.master.boundaries)
+          check("Interface " + interface.name + "/Master",
+                interface.master.body,
+                boundary);
       }
     for (const ResultantQuantity &resultant : parameters.output.resultants)
       check("Output/Resultants", resultant.body, resultant.boundary);

@@ -38,10 +38,7 @@ namespace mortise
   SceneCouplings::faces_of(const InterfaceParameters &given,
                            const SideParameters      &side) const
   {
-    const Body &body = *spaces.bodies[side.body];
-    return boundary_faces(body,
-                          body.boundary_id(side.boundary,
-                                           "Interface " + given.name));
+    return side_faces(spaces.bodies, side, "Interface " + given.name);
   }
 
   std::string
@@ -147,9 +144,8 @@ namespace mortise
     if (report.pairs == 0)
       throw InputError(
         "Interface " + given.name + ": the surfaces " +
-        spaces.bodies[given.slave.body]->name + ": " + given.slave.boundary +
-        " and " + spaces.bodies[given.master.body]->name + ": " +
-        given.master.boundary +
+        side_text(run.parameters, given.slave) + " and " +
+        side_text(run.parameters, given.master) +
         " do not meet: no pair of faces overlaps within the search distance of " +
         RunLog::number(given.search_distance.by_size) +
         " face sizes. Check positions, names and Search distance");

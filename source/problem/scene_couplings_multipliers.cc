@@ -70,8 +70,8 @@ namespace mortise
           std::ostringstream text;
           text
             << "Interface " << name << ": bodies slide across an edge of "
-            << spaces.bodies[interfaces[i].slave.body]->name << ": "
-            << interfaces[i].slave.boundary << " at " << *place
+            << side_text(run.parameters, interfaces[i].slave) << " at "
+            << *place
             << ", where the surface has no normal: the edge ends within a smooth "
                "patch. Make what lies on either side of it boundaries, and "
                "interfaces, of their own, or refine a mesh that is too "
@@ -174,9 +174,14 @@ namespace mortise
         InterfaceParameters &given = interfaces[i];
         const auto          &master =
           run.parameters.bodies[given.master.body].boundaries;
-        const auto side = master.find(given.master.boundary);
+        const auto is_prescribed = [&](const std::string &boundary) {
+          const auto side = master.find(boundary);
+          return side != master.end() && side->second.displacement;
+        };
         if (tried[i] || is_patch(i) ||
-            (side != master.end() && side->second.displacement))
+            std::any_of(given.master.boundaries.begin(),
+                        given.master.boundaries.end(),
+                        is_prescribed))
           continue;
         tried[i] = true;
         std::swap(given.slave, given.master);

@@ -44,7 +44,8 @@ namespace mortise
     for (const InterfaceParameters &interface : parameters.interfaces)
       for (const SideParameters &side : {interface.slave, interface.master})
         if (side.body == body.index)
-          tied_boundaries.insert(side.boundary);
+          tied_boundaries.insert(side.boundaries.begin(),
+                                 side.boundaries.end());
     MeshParameters mesh   = parameters.bodies[body.index].mesh;
     mesh.is_refined_later = parameters.adaptivity.splits();
     mesh.sizes            = std::move(sizes);
@@ -52,6 +53,18 @@ namespace mortise
                      run.comm,
                      "Body " + body.name + ", Mesh",
                      tied_boundaries);
+  }
+
+  std::vector<BoundaryFace>
+  side_faces(const Bodies         &bodies,
+             const SideParameters &side,
+             const std::string    &where)
+  {
+    const Body                     &body = *bodies[side.body];
+    std::vector<types::boundary_id> ids;
+    for (const std::string &boundary : side.boundaries)
+      ids.push_back(body.boundary_id(boundary, where));
+    return boundary_faces(body, ids);
   }
 
   Bodies

@@ -58,6 +58,8 @@ expect 2 'it has: inner (tetrahedra), outer (tetrahedra)' "$scene" "${file[@]}" 
 expect 2 'did you mean .inner inside' "$scene" "${file[@]}" --set "Body lower/Mesh/File=$geometry" \
   --set 'Body lower/Mesh/Curved boundaries=inner insid: sphere'
 expect 2 'zmax' "$scene" --set 'Interface glue/Slave=lower: top'
+expect 2 'each boundary once' "$scene" --set 'Interface glue/Slave=lower: zmax, zmax'
+expect 2 'no boundary .zmux' "$scene" --set 'Interface glue/Slave=lower: zmax, zmux'
 expect 2 'an expression in t' "$scene" --set 'Body upper/Boundary zmax/Force=x; 0; 0'
 expect 2 'component y.*an expression in t' "$scene" --set 'Body upper/Boundary zmax/Moment=0; exact; 0'
 expect 2 'Density' "$scene" --set 'Gravity=0; 0; -9.81'

@@ -71,8 +71,8 @@ namespace mortise
   /// One side of an interface.
   struct SideParameters
   {
-    unsigned int body = 0; ///< index into Parameters::bodies
-    std::string  boundary;
+    unsigned int             body = 0; ///< index into Parameters::bodies
+    std::vector<std::string> boundaries;
   };
 
   struct InterfaceParameters
@@ -185,6 +185,10 @@ namespace mortise
          const std::string &got,
          const std::string &allowed) const;
   };
+
+  /// "body: boundary, boundary", for messages.
+  std::string
+  side_text(const Parameters &parameters, const SideParameters &side);
 
   /// Fields that Output/Fields may name.
   const std::vector<std::string> &

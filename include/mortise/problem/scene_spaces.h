@@ -1,6 +1,7 @@
 // The bodies of a scene with their meshes and spaces, in one numbering.
 #pragma once
 
+#include <mortise/body/boundary_faces.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/scene_data.h>
@@ -49,6 +50,13 @@ namespace mortise
   create_mesh(const RunContext                &run,
               std::shared_ptr<const SizeField> sizes,
               Body                            &body);
+
+  /// Faces of one side of an interface, see boundary_faces(); @p where stands in
+  /// messages about boundaries that do not exist.
+  std::vector<BoundaryFace>
+  side_faces(const Bodies         &bodies,
+             const SideParameters &side,
+             const std::string    &where);
 
   /// By body and active cell of its mesh; empty: those of the parameters.
   using CellDegrees = std::vector<std::vector<unsigned int>>;

@@ -1,0 +1,16 @@
+SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 0.5, 1, 1};
+Box(2) = {2.5, 0, 0, 0.5, 1, 1};
+Box(3) = {0, 0, 1, 3, 1, 0.4};
+BooleanUnion(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
+e = 1e-4;
+foot1() = Surface In BoundingBox{-e, -e, -e, 0.5 + e, 1 + e, e};
+foot2() = Surface In BoundingBox{2.5 - e, -e, -e, 3 + e, 1 + e, e};
+all() = Surface{:};
+all() -= foot1();
+all() -= foot2();
+Physical Surface("foot1") = foot1();
+Physical Surface("foot2") = foot2();
+Physical Surface("skin") = all();
+Physical Volume("table") = {4};
+Mesh.MeshSizeMax = 0.6;
