@@ -80,6 +80,14 @@ namespace mortise
 
     template <typename Visit>
     void
+    visit_members(PreloadSummary &preload, const Visit &visit)
+    {
+      visit("force", preload.force);
+      visit("shortening", preload.shortening);
+    }
+
+    template <typename Visit>
+    void
     visit_members(InterfaceSummary &interface, const Visit &visit)
     {
       visit("name", interface.name);
@@ -97,6 +105,7 @@ namespace mortise
       visit("moment_residual", interface.moment_residual);
       visit("linear_completeness_error", interface.linear_completeness_error);
       visit("contact", interface.contact);
+      visit("preload", interface.preload);
     }
 
     template <typename Visit>

@@ -92,9 +92,13 @@ namespace mortise
       options.max_gathered = run.parameters.solver.max_gathered;
       const auto solver =
         make_linear_solver(discretisation.linear_system(), options);
-      ContactStep  step(run, discretisation, *solver, std::move(start));
+      Preloads    preloads(run, discretisation, *solver);
+      ContactStep step(
+        run, discretisation, *solver, preloads, std::move(start));
+      SceneLoad    load = discretisation.load(data);
       SystemVector x;
-      if (!step.solve(discretisation.load(data), x).converged)
+      preloads.begin(data, load);
+      if (!step.solve(load, x).converged)
         return {};
       return {step.active_places(), step.n_sets()};
     }

@@ -69,10 +69,12 @@ namespace mortise
   ContactStep::ContactStep(const RunContext           &run,
                            Discretisation             &discretisation,
                            LinearSolver               &solver,
+                           Preloads                   &preloads,
                            std::optional<ActivePlaces> start)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
+    , preloads(preloads)
     , set(discretisation.one_sided(),
           discretisation.gap_stiffness(),
           first_multiplier(discretisation.linear_system()),
@@ -177,9 +179,9 @@ namespace mortise
   }
 
   SolveReport
-  ContactStep::solve_set(const SceneLoad &load,
-                         const double     tolerance,
-                         SystemVector    &x)
+  ContactStep::solve_set(SceneLoad    &load,
+                         const double  tolerance,
+                         SystemVector &x)
   {
     discretisation.select(set.active());
     const unsigned int most    = run.parameters.solver.max_iterations;
@@ -202,8 +204,7 @@ namespace mortise
                         cold && sets > 1 ? loosest_energy :
                                            loose_energy,
                         max_iterations);
-      return goes_on ? solver.solve_from(load.rhs, x) :
-                       solver.solve(load.rhs, x);
+      return preloads.solve(goes_on, load, x);
     };
     if (shows)
       return run_solver(most);
@@ -269,7 +270,7 @@ namespace mortise
   }
 
   SolveReport
-  ContactStep::solve(const SceneLoad &load, SystemVector &x)
+  ContactStep::solve(SceneLoad &load, SystemVector &x)
   {
     const double asked = run.parameters.solver.tolerance;
     // a factorisation gives all digits at once

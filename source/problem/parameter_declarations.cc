@@ -101,6 +101,17 @@ namespace mortise
         "closed; negative: an interference, as of a press fit whose meshes coincide [length].",
         {"an expression in x, y, z, t"});
       section.add(
+        "Preload",
+        interface.preload,
+        "Law = tie: the normal force that the interface carries, positive where it pulls its sides together, as the head of a "
+        "bolt that is tightened [force]. By how much the sides approach for it follows, on top of Offset. Empty: none.",
+        {"an expression in t"});
+      section.add(
+        "Preload until",
+        interface.preload_until,
+        "From then on the shortening is kept, whatever the force becomes [time]. Empty: the force is given at all times.",
+        {"a number"});
+      section.add(
         "Mesh gap",
         interface.mesh_gap,
         "Law = contact: what lies between the meshes, or how far they overlap. real: a gap or an "

@@ -86,25 +86,32 @@ namespace mortise
         }
     }
 
-    /// Components of a @p total, if it is given, are numbers at any time.
+    /// @p text is a number at any time.
+    void
+    check_number(const Parameters  &parameters,
+                 const std::string &path,
+                 const std::string &text,
+                 const std::string &component = "")
+    {
+      const std::string where = parameters.where(path) + component;
+      const double      time  = parameters.steps.first_time();
+      if (text == "-" || text == "exact" || text.empty() ||
+          !Expression(text, where, time).is_constant())
+        throw InputError(where + ": got " + in_quotes(text) +
+                         "; allowed: an expression in t; 0 for nothing");
+      check_expression(where, text, time);
+    }
+
     void
     check_total(const Parameters                &parameters,
                 const std::string               &path,
                 const std::optional<Components> &total)
     {
       for (unsigned int d = 0; total && d < 3; ++d)
-        {
-          const std::string &text = (*total)[d];
-          const std::string  where =
-            parameters.where(path) + ", component " + "xyz"[d];
-          const double time = parameters.steps.first_time();
-          if (text == "-" || text == "exact" || text.empty() ||
-              !Expression(text, where, time).is_constant())
-            parameters.fail(path,
-                            in_quotes(text) + " as component " + "xyz"[d],
-                            "an expression in t; 0 for nothing");
-          check_expression(where, text, time);
-        }
+        check_number(parameters,
+                     path,
+                     (*total)[d],
+                     std::string(", component ") + "xyz"[d]);
     }
 
     /// The named exact solutions take the pressures of the scene: they cannot
@@ -251,6 +258,27 @@ namespace mortise
                                       "a positive stiffness");
     }
 
+    /// Of ties, a number at any time.
+    void
+    check_preload(const Parameters          &parameters,
+                  const InterfaceParameters &interface,
+                  const std::string         &section)
+    {
+      const std::string path = section + "/Preload";
+      if (!interface.preload)
+        {
+          if (interface.preload_until)
+            parameters.fail(path + " until", "a time without a Preload", "none");
+          return;
+        }
+      if (interface.law != "tie")
+        parameters.fail(path,
+                        in_quotes(*interface.preload) +
+                          " with Law = " + interface.law,
+                        "nothing: only Law = tie has a preload");
+      check_number(parameters, path, *interface.preload);
+    }
+
     void
     check_interface(const Parameters          &parameters,
                     const InterfaceParameters &interface)
@@ -260,6 +288,7 @@ namespace mortise
       check_expression(parameters.where(section + "/Offset"),
                        interface.offset,
                        parameters.steps.first_time());
+      check_preload(parameters, interface, section);
       check_stiffness(parameters,
                       interface,
                       section + "/Normal stiffness",

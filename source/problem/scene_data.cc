@@ -235,6 +235,18 @@ namespace mortise
     };
   }
 
+  std::optional<double>
+  SceneData::preload(const InterfaceParameters &given) const
+  {
+    if (!given.preload || time > given.preload_until.value_or(time))
+      return {};
+    const std::string where =
+      parameters.where("Interface " + given.name + "/Preload");
+    return checks(Expression(*given.preload, where, time).value(Point<dim>()),
+                  Point<dim>(),
+                  where + ": " + in_quotes(*given.preload));
+  }
+
   std::vector<DirichletCondition>
   SceneData::dirichlet(const Body &body) const
   {

@@ -80,6 +80,9 @@ namespace mortise
     const bool again =
       adaptivity && adaptivity->n_cycles() == 0 && discretisation != nullptr;
     contact.reset();
+    const std::vector<double> shortenings =
+      preloads ? preloads->shortenings() : std::vector<double>();
+    preloads.reset();
     solver.reset();
     discretisation.reset();
     if (again)
@@ -111,10 +114,15 @@ namespace mortise
                          "  residual " + RunLog::number(residual));
       };
     solver = make_linear_solver(discretisation->linear_system(), options);
+    preloads = std::make_unique<Preloads>(context,
+                                          *discretisation,
+                                          *solver,
+                                          shortenings);
     if (discretisation->interfaces().have_contact())
       contact = std::make_unique<ContactStep>(context,
                                               *discretisation,
                                               *solver,
+                                              *preloads,
                                               std::move(pressing));
     // a factorisation gives one of many answers and does not tell
     if (options.method == SolverMethod::direct)
@@ -127,8 +135,9 @@ namespace mortise
     const Checkpoint checkpoint = read_checkpoint(
       directory, bodies, discretisation->interfaces().all(), context.comm);
     const SceneData data(context.parameters, state.time, field_checks);
-    const SceneLoad load = discretisation->load(data);
+    SceneLoad       load = discretisation->load(data);
     state.solution       = discretisation->system_vector(checkpoint, load);
+    preloads->resume(state.solution, load);
     if (contact)
       contact->resume(load, state.solution);
     else
@@ -142,19 +151,20 @@ namespace mortise
   }
 
   SystemVector
-  Simulation::solve(const SceneLoad &load)
+  Simulation::solve(const SceneData &data, SceneLoad &load)
   {
+    preloads->begin(data, load);
     SystemVector                    solution;
     const std::vector<BodySolution> none;
     const auto &start = adaptivity ? adaptivity->start(bodies) : none;
     if (contact)
       report = contact->solve(load, solution);
     else if (start.empty())
-      report = solver->solve(load.rhs, solution);
+      report = preloads->solve(false, load, solution);
     else
       {
         solution = discretisation->system_vector(start, load);
-        report   = solver->solve_from(load.rhs, solution);
+        report   = preloads->solve(true, load, solution);
       }
     if (!discretisation->choice().reason.empty())
       report.preconditioner += "; " + discretisation->choice().reason;
@@ -207,6 +217,9 @@ namespace mortise
         result.solver->linear_iterations = contact->linear_iterations();
       }
     evaluate_step(context, *discretisation, solved, fields, result);
+    for (unsigned int j = 0; j < preloads->interfaces().size(); ++j)
+      result.interfaces[preloads->interfaces()[j]].preload = {
+        preloads->force(j, solved.solution), preloads->shortenings()[j]};
     if (adaptivity)
       result.adaptivity =
         adaptivity->summary(bodies, solved.data.exact().get(), result.errors);
@@ -228,10 +241,10 @@ namespace mortise
     const SceneData data(context.parameters, time, field_checks);
     if (!adaptivity)
       announce_step();
-    const SceneLoad load = discretisation->load(data);
+    SceneLoad load = discretisation->load(data);
     field_checks.throw_if_any(context.comm);
     check_loads(load.rhs);
-    State next{time, solve(load)};
+    State next{time, solve(data, load)};
     if (!report.converged && steps.halve())
       {
         context.log.line("  not converged: half the step");
@@ -245,7 +258,8 @@ namespace mortise
                               load,
                               next.solution,
                               contact ? contact->undecided() :
-                                        std::vector<bool>()};
+                                        std::vector<bool>(),
+                              preloads->shortenings_by_interface()};
       fields = step_fields(context, *discretisation, solved);
       if (adaptivity)
         learn(solved, fields);

@@ -35,6 +35,21 @@ namespace mortise
     return fields;
   }
 
+  namespace
+  {
+    /// @p offset, which may be null, and @p shortening.
+    std::function<double(const Point<dim> &)>
+    offset_with(const std::function<double(const Point<dim> &)> &offset,
+                const double                                     shortening)
+    {
+      if (shortening == 0.)
+        return offset;
+      return [offset, shortening](const Point<dim> &x) {
+        return (offset ? offset(x) : 0.) + shortening;
+      };
+    }
+  } // namespace
+
   std::vector<Violation>
   violations(const RunContext     &run,
              const Discretisation &discretisation,
@@ -52,7 +67,8 @@ namespace mortise
           violation_energies(interfaces.all()[i],
                              displacement,
                              fields.tractions[i],
-                             {{solved.data.offset(given),
+                             {{offset_with(solved.data.offset(given),
+                                           solved.shortenings[i]),
                                given.law == "contact" &&
                                  given.mesh_gap == "real"},
                               spring_stiffness(run.parameters, given)},

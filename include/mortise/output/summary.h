@@ -58,6 +58,13 @@ namespace mortise
     std::uint64_t undecided = 0; ///< among these: neither pressure nor gap
   };
 
+  /// What a tie with a given force has, in consistent units.
+  struct PreloadSummary
+  {
+    double force      = 0.; ///< normal, positive where it pulls
+    double shortening = 0.; ///< by how much the sides approach
+  };
+
   struct InterfaceSummary
   {
     std::string                   name;
@@ -75,6 +82,7 @@ namespace mortise
     std::optional<double>         moment_residual;
     std::optional<double>         linear_completeness_error;
     std::optional<ContactSummary> contact; ///< with that law
+    std::optional<PreloadSummary> preload; ///< if it has one
   };
 
   struct SolverSummary

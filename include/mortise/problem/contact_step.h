@@ -5,6 +5,7 @@
 #include <mortise/contact/active_set.h>
 #include <mortise/contact/contact_edge.h>
 #include <mortise/problem/discretisation.h>
+#include <mortise/problem/preloads.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/solvers/linear_solver.h>
 
@@ -23,9 +24,10 @@ namespace mortise
     ContactStep(const RunContext           &run,
                 Discretisation             &discretisation,
                 LinearSolver               &solver,
+                Preloads                   &preloads,
                 std::optional<ActivePlaces> start);
 
-    /// Solve for @p load. The first set is what presses as the last steps go on, in the first step what
+    /// Solve for @p load, of which shortenings of preloads become a part. The first set is what presses as the last steps go on, in the first step what
     /// the constructor was told, or where the gap is closed before anything
     /// moves; all where these do not hold the bodies. On the way linear solves
     /// are as loose as the choice of the next set allows. The report is that of
@@ -33,7 +35,7 @@ namespace mortise
     /// Throws InputError that names body and motion where contact is lost.
     /// Collective.
     SolveReport
-    solve(const SceneLoad &load, SystemVector &x);
+    solve(SceneLoad &load, SystemVector &x);
 
     /// Go on from @p x, a solution for @p load that was found before. Collective.
     void
@@ -100,7 +102,7 @@ namespace mortise
             double              tolerance,
             bool                extends);
     SolveReport
-    solve_set(const SceneLoad &load, double tolerance, SystemVector &x);
+    solve_set(SceneLoad &load, double tolerance, SystemVector &x);
     /// Let preconditioners see the set.
     void
     show();
@@ -108,6 +110,7 @@ namespace mortise
     const RunContext &run;
     Discretisation   &discretisation;
     LinearSolver     &solver;
+    Preloads         &preloads;
     ActiveSet         set;
     MultiplierPlaces  places;
     ContactEdge       edge;

@@ -84,6 +84,9 @@ namespace mortise
     std::string    law        = "tie";  ///< or "slide", "contact", "spring"
     std::string    multiplier = "dual";
     std::string    offset     = "0";
+    /// Of a tie: the normal force it carries; up to which time.
+    std::optional<std::string> preload;
+    std::optional<double>      preload_until;
     /// For "spring" alone.
     std::optional<std::string> normal_stiffness, tangential_stiffness;
     /// Adaptivity sets the least one, by how far sides have moved.

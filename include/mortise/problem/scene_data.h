@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace mortise
@@ -43,6 +44,10 @@ namespace mortise
     /// The gap that @p interface leaves between the bodies; null where it is zero at all times.
     std::function<double(const dealii::Point<dim> &)>
     offset(const InterfaceParameters &interface) const;
+
+    /// The force of the Preload of @p interface; nothing where its shortening is kept by now.
+    std::optional<double>
+    preload(const InterfaceParameters &interface) const;
 
     /// Prescribed displacements of @p body; a condition without a value is zero at all times.
     std::vector<DirichletCondition>

@@ -7,6 +7,7 @@
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/field_files.h>
 #include <mortise/problem/load_steps.h>
+#include <mortise/problem/preloads.h>
 #include <mortise/problem/run_checkpoint.h>
 #include <mortise/problem/run_context.h>
 #include <mortise/problem/state.h>
@@ -80,8 +81,9 @@ namespace mortise
     /// Set the state to that of the checkpoint in @p directory.
     void
     restore(const std::string &directory);
+    /// Shortenings of preloads become part of @p load.
     SystemVector
-    solve(const SceneLoad &load);
+    solve(const SceneData &data, SceneLoad &load);
     /// Tell how the cycle changed the solution, and that of a quantity.
     void
     learn(const SolvedStep &solved, StepFields &fields);
@@ -113,6 +115,7 @@ namespace mortise
     Bodies                          bodies;
     std::unique_ptr<Discretisation> discretisation;
     std::unique_ptr<LinearSolver>   solver;
+    std::unique_ptr<Preloads>       preloads;
     std::unique_ptr<ContactStep>    contact;    ///< null without
     std::optional<Adaptivity>       adaptivity; ///< with a target
     SolveReport                     report;     ///< of the last step

@@ -33,6 +33,8 @@ namespace mortise
     /// By owned multiplier: pressure and gap are zero but for rounding; empty
     /// in a scene without contact.
     const std::vector<bool> undecided;
+    /// By interface, what its preload adds to its offset, a length.
+    const std::vector<double> shortenings;
   };
 
   /// As the summary has vectors.
