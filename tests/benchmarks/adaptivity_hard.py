@@ -81,24 +81,34 @@ def lagrange(n, x):
 
 
 class Stress:
-    """Of a body of boxes that were cut into eight: of each cell the file has as many nodes along each direction as the highest degree takes."""
+    """Of a body of boxes that were cut into eight: the file has the nodes of each cell one after the other, by its degree. The degrees of all are
+    raised to the highest."""
 
     def __init__(self, file, root, corner):
         with open(file) as opened:
             text = opened.read()
-        n_points, n_cells = map(int, re.search(r'NumberOfPoints="(\d+)" NumberOfCells="(\d+)"', text).groups())
-        arrays = [(m[2], m[3].strip()) for m in re.finditer(r'<DataArray type="(\w+)"([^>]*)>(.*?)</DataArray>', text, re.S) if m[1] == "Float32"]
-        points = next(array(data, "<f4") for name, data in arrays if "Name=" not in name).reshape(n_cells, -1, 3).astype(float)
-        stress = next(array(data, "<f4") for name, data in arrays if 'Name="stress"' in name).reshape(n_cells, n_points // n_cells, 9)
-        self.n = round((n_points // n_cells)**(1 / 3))
-        self.low = points.min(1)
-        self.size = points.max(1) - self.low
-        place = numpy.rint((points - self.low[:, None]) / self.size[:, None] * (self.n - 1)).astype(int)
-        place = (place[..., 0] * self.n + place[..., 1]) * self.n + place[..., 2]
-        assert (numpy.sort(place, 1) == numpy.arange(self.n**3)).all()
-        self.values = numpy.empty((n_cells, self.n**3, 6), "f4")
-        self.values[numpy.arange(n_cells)[:, None], place] = stress[..., [0, 4, 8, 1, 2, 5]]
-        self.values = self.values.reshape(n_cells, self.n, self.n, self.n, 6)
+        arrays = {m[2]: array(m[3].strip(), {"Float64": "<f8", "Float32": "<f4", "Int32": "<i4", "UInt8": "u1"}[m[1]])
+                  for m in re.finditer(r'<DataArray type="(\w+)" Name="(\w+)"[^>]*>(.*?)</DataArray>', text, re.S)}
+        ends = arrays["offsets"]
+        begins = ends - numpy.diff(ends, prepend=0)
+        points, stress = arrays["Points"].reshape(-1, 3), arrays["stress"].reshape(-1, 9)[:, [0, 4, 8, 1, 2, 5]]
+        own = numpy.rint((ends - begins)**(1 / 3)).astype(int)
+        self.n = own.max()
+        self.low, self.size = numpy.empty((2, len(ends), 3))
+        self.values = numpy.empty((len(ends), self.n, self.n, self.n, 6), "f4")
+        for n in set(own):
+            cells = numpy.flatnonzero(own == n)
+            nodes = begins[cells, None] + numpy.arange(n**3)
+            x = points[nodes]
+            self.low[cells] = x.min(1)
+            self.size[cells] = x.max(1) - x.min(1)
+            place = numpy.rint((x - self.low[cells, None]) / self.size[cells, None] * (n - 1)).astype(int)
+            place = (place[..., 0] * n + place[..., 1]) * n + place[..., 2]
+            assert (numpy.sort(place, 1) == numpy.arange(n**3)).all()
+            values = numpy.empty((len(cells), n**3, 6))
+            values[numpy.arange(len(cells))[:, None], place] = stress[nodes]
+            raised = lagrange(n, numpy.linspace(0, 1, self.n))
+            self.values[cells] = numpy.einsum("xi,yj,zk,cijkd->cxyzd", raised, raised, raised, values.reshape(-1, n, n, n, 6), optimize=True)
         self.root, self.corner = numpy.array(root), numpy.array(corner)
         self.level = numpy.rint(numpy.log2(self.root[0] / self.size[:, 0])).astype(int)
         codes = self.codes(self.low + self.size / 2, self.level)

@@ -1,10 +1,13 @@
 // Proves that the VTU files say what was solved for: that their points have the
 // values of the finite element field and the stress of the law, for p = 1..6 on
 // hexahedra and tetrahedra, mixed degrees, hanging nodes and curved cells, and
-// in mixed form; that their cells fill the body; that the file of an interface
-// has the traction that the slave bears, the gap and the displacement; which
-// arrays there are; and that one file of several ranks has what that of one
-// rank has. Files hold single precision.
+// in mixed form; that their cells are Lagrange cells of the degree of the field
+// with their nodes in the order of VTK, and fill the body; that the file of an
+// interface has the traction that the slave bears, the gap and the
+// displacement; that the integrals of the traction are force and moment where
+// faces are covered in part, and that it is no number where nothing faces;
+// which arrays there are; and that one file of several ranks has what that of
+// one rank has. Files hold fields in single precision.
 #include <mortar/tied_scene.h>
 #include <mortise/output/fields.h>
 #include <scenes/scene.h>
@@ -13,6 +16,8 @@
 #include <filesystem>
 
 #include "polynomial_field.h"
+#include "surface_integral.h"
+#include "vtk_nodes.h"
 #include "vtu_content.h"
 
 namespace mortise::testing
@@ -44,9 +49,49 @@ namespace mortise::testing
   struct Expected
   {
     unsigned int cells, points, type;
-    double       size; ///< of all cells; 0: not known
+    double       size; ///< of all cells; 0: not known, cells are curved
     std::string  names;
   };
+
+  std::string
+  joined(const std::vector<std::string> &names)
+  {
+    std::string all;
+    for (const std::string &name : names)
+      all += (all.empty() ? "" : " ") + name;
+    return all;
+  }
+
+  /// How far nodes of straight cells are from where VTK has them.
+  double
+  order_error(const VtuContent &file)
+  {
+    double error = 0.;
+    for (unsigned int c = 0; c < file.cells.size(); ++c)
+      {
+        const unsigned int type = file.types[c];
+        if (type < 69)
+          continue; // of degree 1: has only corners
+        const auto        &cell   = file.cells[c];
+        const bool         simplex = type == 69 || type == 71;
+        const unsigned int along[] = {1,
+                                      simplex ? 2u : 3u,
+                                      simplex ? 3u : 4u};
+        unsigned int       degree  = 2;
+        while (vtk_nodes(type, degree).size() < cell.size())
+          ++degree;
+        const auto nodes = vtk_nodes(type, degree);
+        for (unsigned int i = 0; i < cell.size(); ++i)
+          {
+            Tensor<1, dim> off = file.points[cell[i]] - file.points[cell[0]];
+            for (unsigned int d = 0; d < (type < 71 ? 2 : 3); ++d)
+              off -= double(nodes[i][d]) / degree *
+                     (file.points[cell[along[d]]] - file.points[cell[0]]);
+            error = std::max(error, off.norm());
+          }
+      }
+    return error;
+  }
 
   /// On the first rank, what does not depend on the values; @p alone: as one
   /// rank writes it.
@@ -73,9 +118,9 @@ namespace mortise::testing
       verdict(what + ": cells fill the body",
               off(total / expected.size, 1.),
               single);
-    std::string names;
-    for (const std::string &name : file.names)
-      names += (names.empty() ? "" : " ") + name;
+    if (expected.size > 0.)
+      verdict(what + ": nodes in the order of VTK", order_error(file), 1e-12);
+    const std::string names = joined(file.names);
     verdict(what + ": arrays " + expected.names,
             names == expected.names ? 0 : 1,
             0);
@@ -176,22 +221,21 @@ namespace mortise::testing
     const unsigned int degree = degree_of_field > 0 ? degree_of_field : p;
     const Written together(mesh, p, by_region, mixed, degree, MPI_COMM_WORLD);
     const Body   &body   = together.body;
-    const unsigned int n = body.triangulation().n_global_active_cells(),
-                       q = body.max_degree();
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         const Written    one(mesh, p, by_region, mixed, degree, MPI_COMM_SELF);
         const VtuContent file(directory() + "/body.vtu"),
           alone(directory() + "/alone/body.vtu");
-        const bool tets = body.mesh.tetrahedra;
+        const bool   tets     = body.mesh.tetrahedra;
+        unsigned int n_points = 0;
+        for (const auto &cell : one.body.dof_handler.active_cell_iterators())
+          n_points += cell->get_fe().n_dofs_per_cell() / dim;
         check_shape(what,
                     file,
                     alone,
-                    {tets ? n * q * q * q : n,
-                     tets ? 4 * n * q * q * q : n * (q + 1) * (q + 1) * (q + 1),
-                     tets  ? 10u :
-                     q > 1 ? 72u :
-                             12u,
+                    {unsigned(body.triangulation().n_global_active_cells()),
+                     n_points,
+                     p > 1 ? (tets ? 71u : 72u) : (tets ? 10u : 12u),
                      volume,
                      "displacement stress von_mises pressure"});
         const Polynomial u{degree};
@@ -323,11 +367,10 @@ namespace mortise::testing
         check_shape(what,
                     file,
                     alone,
-                    {tetrahedra ? 12 * p * p : 6,
-                     tetrahedra ? 36 * p * p : 6 * (p + 1) * (p + 1),
-                     tetrahedra ? 5u :
-                     p > 1      ? 70u :
-                                  9u,
+                    {tetrahedra ? 12u : 6u,
+                     tetrahedra ? 6 * (p + 1) * (p + 2) :
+                                  6 * (p + 1) * (p + 1),
+                     p > 1 ? (tetrahedra ? 69u : 70u) : (tetrahedra ? 5u : 9u),
                      1.,
                      "traction gap displacement"});
         check_array(what, file, "traction", [&](const auto &x) {
@@ -339,6 +382,75 @@ namespace mortise::testing
         check_array(what, file, "displacement", [&](const auto &x) {
           return entries(Polynomial{1}(x));
         });
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  /// A master that faces the slave in 0.3 < x, 0.05 < y < 0.9 alone; no face is
+  /// covered so little that its multipliers are those of others.
+  void
+  write_part(const bool tetrahedra, const unsigned int p, const MPI_Comm comm)
+  {
+    const TiedScene scene(
+      {box_mesh({0., 0., 0., 1., 1., 1.}, {4, 4, 1}, tetrahedra),
+       "zmax",
+       p,
+       {},
+       {}},
+      {box_mesh({0.3, 0.05, 1., 1.4, 0.9, 2.}, {3, 2, 1}), "zmin", 1, {}, {}},
+      comm);
+    mortise::Vector lambda = scene.multiplier();
+    set_multiplier(scene.coupling(),
+                   values_at_nodes(scene.coupling().interface->slave(),
+                                   Polynomial{1}),
+                   lambda);
+    lambda.compress(VectorOperation::insert);
+    write_interface_fields(*scene.bodies[0],
+                           scene.coupling(),
+                           multiplier_on_faces(scene.coupling(), lambda, comm),
+                           {},
+                           interpolate(*scene.bodies[0], Polynomial{1}),
+                           directory() + "/part.vtu");
+  }
+
+  void
+  check_part(const bool tetrahedra, const unsigned int p)
+  {
+    write_part(tetrahedra, p, MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      {
+        const std::string what =
+          std::string(tetrahedra ? "triangles" : "quadrilaterals") +
+          " covered in part, p = " + std::to_string(p);
+        const VtuContent file(directory() + "/part.vtu");
+        const auto       got = surface_integrals(file, "traction");
+        Tensor<1, dim>   force, moment;
+        const QGauss<2>  gauss(3);
+        for (unsigned int q = 0; q < gauss.size(); ++q)
+          {
+            const Point<dim> x(0.3 + 0.7 * gauss.point(q)[0],
+                               0.05 + 0.85 * gauss.point(q)[1],
+                               1.);
+            const Tensor<1, dim> t =
+              -0.595 * gauss.weight(q) * Polynomial{1}(x);
+            force += t;
+            moment += cross_product_3d(x, t);
+          }
+        verdict(what + ": force", (got.force - force).norm() / force.norm(), 1e-7);
+        verdict(what + ": moment",
+                (got.moment - moment).norm() / moment.norm(),
+                1e-7);
+        double covered = 0.;
+        unsigned int n_none = 0;
+        for (unsigned int c = 0; c < file.cells.size(); ++c)
+          {
+            covered += file.data.at("covered")[c][0] * size_of(file, c);
+            n_none += file.data.at("covered")[c][0] == 0. ? 1 : 0;
+          }
+        verdict(what + ": covered area", std::fabs(covered / 0.595 - 1.), 1e-7);
+        verdict(what + ": no number where nothing faces",
+                n_none > 0 && got.n_without == n_none ? 0 : 1,
+                0);
       }
     MPI_Barrier(MPI_COMM_WORLD);
   }
@@ -371,23 +483,20 @@ namespace mortise::testing
           {
             const VtuContent  file(directory() + "/body.vtu");
             const std::string what = tetrahedra ? "tetrahedra" : "hexahedra";
-            std::string       got;
-            for (const auto &name : file.names)
-              got += (got.empty() ? "" : " ") + name;
             verdict(what + ": only " + names,
-                    got == names + " place" ? 0 : 1,
+                    joined(file.names) == names &&
+                        joined(file.cell_names) == "place" ?
+                      0 :
+                      1,
                     0);
             double error = 0.;
-            for (const auto &cell : file.cells)
+            for (unsigned int c = 0; c < file.cells.size(); ++c)
               {
-                Point<dim> centre;
-                for (const unsigned int i : cell)
-                  centre += file.points[i] / double(cell.size());
-                // of tetrahedra the file has parts
-                if (const auto &place = file.data.at("place");
-                    tetrahedra ?
-                      !(place[cell[0]] == place[cell[1]]) :
-                      std::fabs(place[cell[0]][0] - centre[0]) > 1e-6)
+                const unsigned int n_corners = tetrahedra ? 4 : 8;
+                double             centre    = 0.;
+                for (unsigned int v = 0; v < n_corners; ++v)
+                  centre += file.points[file.cells[c][v]][0] / n_corners;
+                if (std::fabs(file.data.at("place").at(c)[0] - centre) > 1e-6)
                   error = 1.;
               }
             verdict(what + ": numbers of cells", error, 0.);
@@ -406,6 +515,9 @@ main(int argc, char *argv[])
   for (const bool tetrahedra : {false, true})
     for (const unsigned int p : {1, 2, 3, 5})
       check_interface(tetrahedra, p);
+  for (const bool tetrahedra : {false, true})
+    for (const unsigned int p : {1, 2, 4})
+      check_part(tetrahedra, p);
   mortise::FieldSelection selection;
   selection.displacement = true;
   check_selection(selection, "displacement");

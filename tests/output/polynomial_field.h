@@ -5,7 +5,7 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <mortise/operators/scene_solution.h>
-#include <mortise/output/patches.h>
+#include <mortise/output/lagrange_cells.h>
 
 #include <cmath>
 #include <functional>
@@ -77,7 +77,11 @@ namespace mortise::testing
           if (points.empty())
             {
               if (body.mesh.tetrahedra)
-                points = SimplexLattice<dim>(p).points;
+                for (const auto &node :
+                     lagrange_nodes(LagrangeShape::tetrahedron, p))
+                  points.emplace_back(double(node[0]) / p,
+                                      double(node[1]) / p,
+                                      double(node[2]) / p);
               else
                 for (unsigned int i = 0; i < n; ++i)
                   points.emplace_back(double(i % (p + 1)) / p,

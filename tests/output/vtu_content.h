@@ -37,8 +37,9 @@ namespace mortise::testing
     std::vector<std::vector<unsigned int>> cells; ///< numbers of points
     std::vector<unsigned int>              types;
     std::vector<std::string>               names; ///< of point data
+    std::vector<std::string>               cell_names;
     std::map<std::string, std::vector<std::vector<double>>>
-                 data; ///< by name and point: components
+                 data; ///< by name and point (or cell): components
     unsigned int n_pieces = 0;
 
   private:
@@ -52,34 +53,47 @@ namespace mortise::testing
       return tag.substr(begin, tag.find('"', begin) - begin);
     }
 
-    /// Number of blocks, sizes of whole ones and of the last, compressed sizes,
-    /// all in base 64; the blocks in base 64.
+    /// Number of blocks, sizes of whole ones and of the last if it is another,
+    /// compressed sizes, all in base 64; the blocks in base 64.
     static std::string
     uncompressed(const std::string &text)
     {
       const auto number = [](const std::vector<unsigned char> &bytes,
                              const unsigned int                i) {
         std::uint32_t value;
-        std::memcpy(&value, &bytes[4 * i], 4);
+        std::memcpy(&value, &bytes.at(4 * i), 4);
         return value;
       };
       const std::size_t begin = text.find_first_not_of(" \n");
       const std::size_t end   = text.find_last_not_of(" \n") + 1;
-      const auto        start =
-        dealii::Utilities::decode_base64(text.substr(begin, 24));
-      AssertThrow(number(start, 0) == 1, dealii::ExcNotImplemented());
-      const auto compressed = dealii::Utilities::decode_base64(
-        text.substr(begin + 24, end - begin - 24));
-      AssertThrow(compressed.size() == number(start, 3),
+      const std::uint32_t n_blocks =
+        number(dealii::Utilities::decode_base64(text.substr(begin, 8)), 0);
+      const std::size_t header_size = (4 * (3 + n_blocks) + 2) / 3 * 4;
+      const auto        header =
+        dealii::Utilities::decode_base64(text.substr(begin, header_size));
+      if (n_blocks == 0)
+        return "";
+      const auto blocks = dealii::Utilities::decode_base64(
+        text.substr(begin + header_size, end - begin - header_size));
+      std::string result;
+      std::size_t at = 0;
+      for (std::uint32_t b = 0; b < n_blocks; ++b)
+        {
+          const bool  last = b + 1 == n_blocks && number(header, 2) > 0;
+          std::string block(number(header, last ? 2 : 1), '\0');
+          uLongf      size = block.size();
+          AssertThrow(at + number(header, 3 + b) <= blocks.size() &&
+                        uncompress(reinterpret_cast<Bytef *>(&block[0]),
+                                   &size,
+                                   &blocks[at],
+                                   number(header, 3 + b)) == Z_OK &&
+                        size == block.size(),
+                      dealii::ExcMessage("the data are broken"));
+          at += number(header, 3 + b);
+          result += block;
+        }
+      AssertThrow(at == blocks.size(),
                   dealii::ExcMessage("the compressed size is another"));
-      std::string result(number(start, 1), '\0');
-      uLongf      size = result.size();
-      AssertThrow(uncompress(reinterpret_cast<Bytef *>(&result[0]),
-                             &size,
-                             compressed.data(),
-                             compressed.size()) == Z_OK &&
-                    size == result.size(),
-                  dealii::ExcMessage("the data are broken"));
       return result;
     }
 
@@ -98,7 +112,9 @@ namespace mortise::testing
     }
 
     void
-    add_array(const std::string &tag, const std::string &content)
+    add_array(const std::string &tag,
+              const std::string &content,
+              const bool         of_cells)
     {
       const std::string bytes = uncompressed(content);
       const std::string type  = attribute(tag, "type"),
@@ -120,7 +136,7 @@ namespace mortise::testing
           }
       else if (name == "types")
         types.insert(types.end(), values.begin(), values.end());
-      else if (name.empty())
+      else if (name == "Points")
         for (unsigned int i = 0; i < values.size(); i += 3)
           points.emplace_back(values[i], values[i + 1], values[i + 2]);
       else
@@ -128,7 +144,7 @@ namespace mortise::testing
           const std::string  given = attribute(tag, "NumberOfComponents");
           const unsigned int n     = given.empty() ? 1 : std::stoi(given);
           if (n_pieces == 1)
-            names.push_back(name);
+            (of_cells ? cell_names : names).push_back(name);
           for (unsigned int i = 0; i < values.size(); i += n)
             data[name].emplace_back(&values[i], &values[i] + n);
         }
@@ -144,7 +160,8 @@ namespace mortise::testing
         {
                       const std::size_t begin = text.find('>', at) + 1;
                       add_array(text.substr(at, begin - at),
-                    text.substr(begin, text.find('<', begin) - begin));
+                    text.substr(begin, text.find('<', begin) - begin),
+                    at > text.find("<CellData"));
         }
       AssertThrow(points.size() - first_point ==
                     std::stoul(attribute(text, "NumberOfPoints")),
@@ -166,11 +183,13 @@ namespace mortise::testing
     switch (file.types[cell])
       {
         case 5:
+        case 69:
           return dealii::cross_product_3d(edge(1), edge(2)).norm() / 2.;
         case 9:
         case 70:
           return dealii::cross_product_3d(edge(1), edge(3)).norm();
         case 10:
+        case 71:
           return std::fabs(dealii::cross_product_3d(edge(1), edge(2)) *
                            edge(3)) /
                  6.;

@@ -87,7 +87,7 @@ for ranks in 1 2 3; do
     mkdir "$out" "$work/disk"
     launcher=()
     [ $ranks -eq 1 ] || launcher=("$mpi" $ranks)
-    on 1 unshare -rm bash -c 'mount -t tmpfs -o size=24k none "$1"
+    on 1 unshare -rm bash -c 'mount -t tmpfs -o size=32k none "$1"
       "${@:3}"
       code=$?
       cp "$1"/* "$2"

@@ -24,9 +24,9 @@ namespace mortise
     std::vector<double> values; ///< by active cell; those of owned cells count
   };
 
-  /// @p file (.vtu) with displacement, stress and pressure of one body, and @p of_cells;
-  /// higher-order cells, so that a high degree looks as smooth as it is.
-  /// Collective; all ranks write one file.
+  /// @p file (.vtu) with displacement, stress and pressure of one body, and @p of_cells:
+  /// Lagrange cells of VTK, each of the degree of its displacement, or of its
+  /// geometry where that is higher. Collective; all ranks write one file.
   void
   write_body_fields(const Body                   &body,
                     const BodySolution           &solution,
@@ -36,9 +36,16 @@ namespace mortise
 
   /// @p file (.vtu) with the traction that the slave side bears (force per
   /// area), the displacement, and the gap (x_master - x_slave before
-  /// deformation, a length) on the slave surface. @p coefficients as of
+  /// deformation, a length) on the slave surface, and the covered fraction of
+  /// each face. @p coefficients as of
   /// multiplier_on_faces(). @p contact: by face, coefficients of pressure, gap that is left and status of
-  /// a contact, which are written in place of that gap; else empty. Collective.
+  /// a contact, which are written in place of that gap; else empty.
+  ///
+  /// Traction and pressure are the polynomials on each face that do the same
+  /// work on its functions as what acts on its covered part: their integrals
+  /// are forces and moments on any mesh. Where nothing faces they and the gap are
+  /// no number (NaN); the gap of a tie is also none where less than half of a
+  /// face is covered. Collective.
   void
   write_interface_fields(const Body                             &slave_body,
                          const Coupling                         &coupling,

@@ -47,13 +47,75 @@ namespace mortise
     std::vector<unsigned int>       pressure_modes;
   };
 
+  namespace
+  {
+    /// Functions of an element on the reference cell at points q: entry [i][d][q], d = 0 the
+    /// value, then the derivatives along the axes.
+    class FunctionTable
+    {
+    public:
+      FunctionTable() = default;
+
+      FunctionTable(const FiniteElement<dim> &element,
+                    const Quadrature<dim>    &points,
+                    const bool                with_derivatives)
+        : n_points(points.size())
+        , n_rows(n_points * (with_derivatives ? dim + 1 : 1))
+      {
+        entries.reserve(element.n_dofs_per_cell() * n_rows);
+        for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+          {
+            for (const Point<dim> &x : points.get_points())
+              entries.push_back(element.shape_value(i, x));
+            for (unsigned int d = 0; d < dim && with_derivatives; ++d)
+              for (const Point<dim> &x : points.get_points())
+                entries.push_back(element.shape_grad(i, x)[d]);
+          }
+      }
+
+      /// Of the function with @p coefficients: entry [d][q].
+      std::vector<double>
+      apply(const std::vector<double> &coefficients) const
+      {
+        std::vector<double> result(n_rows, 0.);
+        const double       *row = entries.data();
+        for (const double coefficient : coefficients)
+          for (double &value : result)
+            value += coefficient * *row++;
+        return result;
+      }
+
+      unsigned int n_points = 0;
+
+    private:
+      unsigned int        n_rows = 0;
+      std::vector<double> entries;
+    };
+  } // namespace
+
+  struct CellFields::Tetrahedra
+  {
+    Tetrahedra(const Body               &body,
+               const Body::CellIterator &cell,
+               const Quadrature<dim>    &rule)
+      : weights(rule.get_weights())
+      , geometry(body, ReferenceCells::Tetrahedron, rule)
+      , displacement(cell->get_fe().base_element(0), rule, true)
+    {
+      if (body.pressure)
+        pressure =
+          FunctionTable(body.pressure->cell(cell)->get_fe(), rule, false);
+    }
+
+    const std::vector<double> weights;
+    CellGeometry              geometry;
+    const FunctionTable       displacement;
+    FunctionTable             pressure;
+  };
+
   CellFields::CellFields(const Body &body, const Rule &rule)
     : body(body)
     , rule(rule)
-    , tetrahedra(body,
-                 rule,
-                 update_values | update_gradients | update_quadrature_points |
-                   update_JxW_values)
   {}
 
   CellFields::~CellFields() = default;
@@ -69,31 +131,50 @@ namespace mortise
   CellFields::reinit(const Body::CellIterator &cell,
                      const CellCoefficients   &coefficients)
   {
-    if (!body.mesh.tetrahedra)
-      return evaluate_hexahedron(cell, coefficients);
-    auto &from = tetrahedra(cell);
-    from.reinit(Triangulation<dim>::cell_iterator(cell));
-    points  = from.get_quadrature_points();
-    weights = from.get_JxW_values();
-    values.clear();
-    gradients.clear();
-    for (unsigned int q = 0; q < points.size(); ++q)
+    if (body.mesh.tetrahedra)
+      evaluate_tetrahedron(cell, coefficients);
+    else
+      evaluate_hexahedron(cell, coefficients);
+  }
+
+  void
+  CellFields::map_to_space(
+    const std::vector<CellGeometry::Jacobian> &jacobians,
+    const std::vector<double>                 &reference_weights)
+  {
+    weights.resize(jacobians.size());
+    for (unsigned int q = 0; q < jacobians.size(); ++q)
       {
-        values.push_back(value(from, coefficients, q));
-        gradients.push_back(gradient(from, coefficients, q));
+        weights[q]   = determinant(jacobians[q]) * reference_weights[q];
+        gradients[q] = gradients[q] * transpose(invert(jacobians[q]));
+      }
+  }
+
+  void
+  CellFields::evaluate_tetrahedron(const Body::CellIterator &cell,
+                                   const CellCoefficients   &coefficients)
+  {
+    auto &shared = tetrahedra[cell->active_fe_index()];
+    if (!shared)
+      shared =
+        std::make_unique<Tetrahedra>(body, cell, rule(cell->get_fe()));
+    const unsigned int n_points = shared->displacement.n_points;
+    points                      = shared->geometry.points(cell);
+    values.resize(n_points);
+    gradients.resize(n_points);
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        const auto at = shared->displacement.apply(coefficients[c]);
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            values[q][c] = at[q];
+            for (unsigned int a = 0; a < dim; ++a)
+              gradients[q][c][a] = at[(a + 1) * n_points + q];
+          }
       }
     if (body.pressure)
-      {
-        const auto own        = body.pressure->cell(cell);
-        auto      &own_values = tetrahedra_pressure[own->active_fe_index()];
-        if (!own_values)
-          own_values = std::make_unique<FEValues<dim>>(*body.mapping,
-                                                       own->get_fe(),
-                                                       from.get_quadrature(),
-                                                       update_values);
-        own_values->reinit(Triangulation<dim>::cell_iterator(own));
-        pressures = pressures_at(*own_values, coefficients.back());
-      }
+      pressures = shared->pressure.apply(coefficients.back());
+    map_to_space(shared->geometry.jacobians(cell), shared->weights);
   }
 
   void
@@ -135,11 +216,6 @@ namespace mortise
           modes.values.push_back(coefficients.back()[i]);
         pressures = apply_derivative(shared->pressure_lines, dim, modes).values;
       }
-    weights.resize(n_points);
-    for (unsigned int q = 0; q < n_points; ++q)
-      {
-        weights[q]   = determinant(jacobians[q]) * shared->weights[q];
-        gradients[q] = gradients[q] * transpose(invert(jacobians[q]));
-      }
+    map_to_space(jacobians, shared->weights);
   }
 } // namespace mortise

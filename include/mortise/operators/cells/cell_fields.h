@@ -48,17 +48,22 @@ namespace mortise
     std::vector<double> pressures; ///< of the mixed form, else empty
 
   private:
-    struct Hexahedra; ///< of one degree
+    struct Hexahedra;  ///< of one degree
+    struct Tetrahedra; ///< of one degree and order of vertices
 
     void
     evaluate_hexahedron(const Body::CellIterator &cell,
                         const CellCoefficients   &coefficients);
+    void
+    evaluate_tetrahedron(const Body::CellIterator &cell,
+                         const CellCoefficients   &coefficients);
+    void
+    map_to_space(const std::vector<CellGeometry::Jacobian> &jacobians,
+                 const std::vector<double>                 &reference_weights);
 
-    const Body                                        &body;
-    const Rule                                         rule;
-    std::map<unsigned int, std::unique_ptr<Hexahedra>> hexahedra;
-    ValuesByElement<dealii::FEValues<dim>>             tetrahedra;
-    std::map<unsigned int, std::unique_ptr<dealii::FEValues<dim>>>
-      tetrahedra_pressure;
+    const Body                                         &body;
+    const Rule                                          rule;
+    std::map<unsigned int, std::unique_ptr<Hexahedra>>  hexahedra;
+    std::map<unsigned int, std::unique_ptr<Tetrahedra>> tetrahedra;
   };
 } // namespace mortise
