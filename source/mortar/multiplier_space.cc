@@ -1,5 +1,6 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/multiplier_faces.h>
 #include <mortise/mortar/multiplier_rules.h>
 #include <mortise/mortar/multiplier_space.h>
@@ -186,6 +187,28 @@ namespace mortise
       if (same != dof)
         add_mean(dof, {same}, reduction);
     }
+    /// The line of a hanging dof. @p vertex_values: above 0.5 where a vertex has
+    /// a value. Vertices hang on those that have one, so that constants are
+    /// held: others are beyond what is covered, or on another boundary.
+    void
+    add_hanging(const types::global_dof_index                     dof,
+                const bool                                        is_vertex,
+                const AffineConstraints<double>                  &conformity,
+                const LinearAlgebra::distributed::Vector<double> &vertex_values,
+                AffineConstraints<double>                        &reduction)
+    {
+      const auto &entries = *conformity.get_constraint_entries(dof);
+      double      held    = 0.;
+      for (const auto &[other, weight] : entries)
+        if (vertex_values(other) > 0.5)
+          held += weight;
+      reduction.add_line(dof);
+      for (const auto &[other, weight] : entries)
+        {
+          const bool shares = is_vertex && vertex_values(other) > 0.5;
+          reduction.add_entry(dof, other, shares ? weight / held : weight);
+        }
+    }
   } // namespace
 
   MultiplierSpace::MultiplierSpace(const Body                      &body,
@@ -213,13 +236,18 @@ namespace mortise
     // with the dof of the first component there
     std::map<types::global_dof_index,
              std::pair<types::global_dof_index, unsigned int>>
-      on_surface;
+                           on_surface;
+    MultiplierRecord::Dofs at_vertex;
     for (const MultiplierFace &face : faces)
       for (unsigned int c = 0; c < n_directions; ++c)
         {
           for (unsigned int k = 0; k < face.dofs[c].size(); ++k)
-            on_surface.emplace(face.dofs[c][k],
-                               std::make_pair(face.dofs[0][k], c));
+            {
+              on_surface.emplace(face.dofs[c][k],
+                                 std::make_pair(face.dofs[0][k], c));
+              if (face.basis->functions[k].dimension == 0)
+                at_vertex.insert(face.dofs[c][k]);
+            }
           if (face.cover >= Cover::partial)
             apply_multiplier_rules(face, c, records);
         }
@@ -237,6 +265,10 @@ namespace mortise
     IndexSet               known = body.relevant_dofs;
     stranded.add_representatives(known);
     reduction.reinit(known);
+    LinearAlgebra::distributed::Vector<double> vertex_values(
+      body.dof_handler.locally_owned_dofs(),
+      body.relevant_dofs,
+      body.triangulation().get_communicator());
     for (const auto &[dof, place] : on_surface)
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
@@ -250,7 +282,10 @@ namespace mortise
             reduction.add_line(dof);
           else if (*constant != dof)
             add_mean(dof, {*constant}, reduction);
-          if (reduction.is_constrained(dof))
+          const auto *line = reduction.get_constraint_entries(dof);
+          if (at_vertex.count(dof) > 0 && (line == nullptr || !line->empty()))
+            vertex_values(dof) = 1.;
+          if (line != nullptr)
             continue;
           owned_dofs.push_back(dof);
           places.push_back(place);
@@ -258,18 +293,19 @@ namespace mortise
           at_vertices.push_back(record == records.end() ||
                                 record->second.vertex);
         }
+    vertex_values.update_ghost_values();
     complete_constraints(body.dof_handler, reduction);
     for (const auto &[cell, f] : slave.known)
       for (const auto &component : face_dofs(cell, f))
-        for (const auto dof : component)
-          if (body.conformity.is_constrained(dof) &&
+        for (unsigned int k = 0; k < component.size(); ++k)
+          if (const auto dof = component[k];
+              body.conformity.is_constrained(dof) &&
               !reduction.is_constrained(dof))
-            {
-              reduction.add_line(dof);
-              for (const auto &entry :
-                   *body.conformity.get_constraint_entries(dof))
-                reduction.add_entry(dof, entry.first, entry.second);
-            }
+            add_hanging(dof,
+                        CellFace(cell, f).basis->functions[k].dimension == 0,
+                        body.conformity,
+                        vertex_values,
+                        reduction);
     reduction.close();
   }
 } // namespace mortise
