@@ -42,9 +42,10 @@ namespace mortise
     constexpr double  rounding = 1e-6;
     std::vector<bool> result(places.points.size(), true);
     for (unsigned int i = 0; i < result.size(); ++i)
-      if (places.surfaces[i] > 0)
+      if (const unsigned int surface = places.surfaces[i];
+          surface > 0 && surface <= trees->by_surface.size())
         {
-          const auto &of_surface = trees->by_surface[places.surfaces[i] - 1];
+          const auto &of_surface = trees->by_surface[surface - 1];
           result[i]              = of_surface[1].distance(places.points[i]) <=
                       (1. + rounding) * of_surface[0].distance(places.points[i]);
         }

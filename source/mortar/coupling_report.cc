@@ -113,6 +113,8 @@ namespace mortise
                      const MPI_Comm           comm,
                      Coupling                &coupling)
   {
+    if (owned_multiplier.size() == 0)
+      return;
     auto  sums  = make_sums(1, coupling, owned_multiplier, comm);
     auto &flags = sums[0];
     for (unsigned int i = 0; i < active.size(); ++i)

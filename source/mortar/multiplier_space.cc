@@ -1,5 +1,6 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
+#include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/multiplier_faces.h>
 #include <mortise/mortar/multiplier_rules.h>
 #include <mortise/mortar/multiplier_space.h>
@@ -18,20 +19,55 @@ namespace mortise
 
   namespace
   {
+    /// What may stand in the line of a multiplier for @p dof: itself, or what it
+    /// hangs on. Lines without hanging dofs cannot go round in circles, since
+    /// each of these hangs on some of the others.
+    MultiplierRecord::Dofs
+    without_hanging(const types::global_dof_index    dof,
+                    const AffineConstraints<double> &conformity)
+    {
+      if (!conformity.is_constrained(dof))
+        return {dof};
+      MultiplierRecord::Dofs result;
+      for (const auto &entry : *conformity.get_constraint_entries(dof))
+        result.insert(entry.first);
+      return result;
+    }
+
+    /// Hanging edges cannot follow others: there is no one function between
+    /// them and the edges across.
+    bool
+    is_merged_with_hanging_edge(const MultiplierRecord          &record,
+                                const AffineConstraints<double> &conformity)
+    {
+      return !record.vertex &&
+             std::any_of(record.merged.begin(),
+                         record.merged.end(),
+                         [&](const auto dof) {
+                           return conformity.is_constrained(dof);
+                         });
+    }
+
     /// The smallest dof among those that are merged with @p dof, directly or through others.
     types::global_dof_index
-    representative(const types::global_dof_index dof,
-                   const MultiplierRecords      &records)
+    representative(const types::global_dof_index    dof,
+                   const MultiplierRecords         &records,
+                   const AffineConstraints<double> &conformity)
     {
-      std::set<types::global_dof_index>    group = {dof};
+      MultiplierRecord::Dofs               group = {dof};
       std::vector<types::global_dof_index> open  = {dof};
       while (!open.empty())
         {
           const auto record = records.find(open.back());
           open.pop_back();
-          if (record != records.end())
-            for (const auto other : record->second.merged)
-              if (group.insert(other).second)
+          if (record == records.end())
+            continue;
+          for (const auto merged : record->second.merged)
+            for (const auto other : without_hanging(merged, conformity))
+              if (const auto found = records.find(other);
+                  found != records.end() &&
+                  found->second.vertex == record->second.vertex &&
+                  group.insert(other).second)
                 open.push_back(other);
         }
       return *group.begin();
@@ -69,26 +105,28 @@ namespace mortise
       LinearAlgebra::distributed::Vector<double> settled(
         owned, body.relevant_dofs, body.triangulation().get_communicator());
       for (const auto &[dof, record] : records)
-        if (owned.is_element(dof) && !record.is_stranded())
+        if (owned.is_element(dof) && record.vertex && !record.is_stranded() &&
+            !body.conformity.is_constrained(dof))
           settled(dof) = 1.;
       settled.update_ghost_values();
 
-      DofSets followers;
+      DofSets    followers;
+      const auto follow = [&](const auto dof, const auto vertex) {
+        for (const auto other : without_hanging(vertex, body.conformity))
+          if (settled(other) > 0.5)
+            followers[dof].insert(other);
+      };
       for (const auto &[dof, record] : records)
         if (owned.is_element(dof) && record.is_stranded())
           for (const auto other : record.beside)
-            if (settled(other) > 0.5)
-              followers[dof].insert(other);
+            follow(dof, other);
       for (const MultiplierFace &face : faces)
         for (unsigned int c = 0; c < n_directions && is_sliver(face); ++c)
           for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
             if (const auto dof = face.dofs[c][face.basis->vertex_function(v)];
                 owned.is_element(dof) && records.count(dof) == 0)
               for (unsigned int w = 0; w < face.basis->n_vertices(); ++w)
-                if (const auto other =
-                      face.dofs[c][face.basis->vertex_function(w)];
-                    settled(other) > 0.5)
-                  followers[dof].insert(other);
+                follow(dof, face.dofs[c][face.basis->vertex_function(w)]);
       return followers;
     }
 
@@ -122,13 +160,15 @@ namespace mortise
     /// The line of one dof without conformity constraints; none if it is a
     /// multiplier.
     void
-    add_reduction(const types::global_dof_index dof,
-                  const MultiplierRecords      &records,
-                  AffineConstraints<double>    &reduction)
+    add_reduction(const types::global_dof_index    dof,
+                  const MultiplierRecords         &records,
+                  const AffineConstraints<double> &conformity,
+                  AffineConstraints<double>       &reduction)
     {
       const auto found = records.find(dof);
       if (found == records.end() || !found->second.kept ||
-          (!found->second.vertex && !found->second.on_full_face))
+          (!found->second.vertex && !found->second.on_full_face) ||
+          is_merged_with_hanging_edge(found->second, conformity))
         {
           reduction.add_line(dof);
           return;
@@ -143,9 +183,31 @@ namespace mortise
         }
       if (record.is_alone() && !record.made_up && !record.neighbours.empty())
         return add_mean(dof, record.neighbours, reduction);
-      const auto same = representative(dof, records);
+      const auto same = representative(dof, records, conformity);
       if (same != dof)
         add_mean(dof, {same}, reduction);
+    }
+    /// The line of a hanging dof. @p vertex_values: above 0.5 where a vertex has
+    /// a value. Vertices hang on those that have one, so that constants are
+    /// held: others are beyond what is covered, or on another boundary.
+    void
+    add_hanging(const types::global_dof_index                     dof,
+                const bool                                        is_vertex,
+                const AffineConstraints<double>                  &conformity,
+                const LinearAlgebra::distributed::Vector<double> &vertex_values,
+                AffineConstraints<double>                        &reduction)
+    {
+      const auto &entries = *conformity.get_constraint_entries(dof);
+      double      held    = 0.;
+      for (const auto &[other, weight] : entries)
+        if (vertex_values(other) > 0.5)
+          held += weight;
+      reduction.add_line(dof);
+      for (const auto &[other, weight] : entries)
+        {
+          const bool shares = is_vertex && vertex_values(other) > 0.5;
+          reduction.add_entry(dof, other, shares ? weight / held : weight);
+        }
     }
   } // namespace
 
@@ -174,13 +236,18 @@ namespace mortise
     // with the dof of the first component there
     std::map<types::global_dof_index,
              std::pair<types::global_dof_index, unsigned int>>
-      on_surface;
+                           on_surface;
+    MultiplierRecord::Dofs at_vertex;
     for (const MultiplierFace &face : faces)
       for (unsigned int c = 0; c < n_directions; ++c)
         {
           for (unsigned int k = 0; k < face.dofs[c].size(); ++k)
-            on_surface.emplace(face.dofs[c][k],
-                               std::make_pair(face.dofs[0][k], c));
+            {
+              on_surface.emplace(face.dofs[c][k],
+                                 std::make_pair(face.dofs[0][k], c));
+              if (face.basis->functions[k].dimension == 0)
+                at_vertex.insert(face.dofs[c][k]);
+            }
           if (face.cover >= Cover::partial)
             apply_multiplier_rules(face, c, records);
         }
@@ -198,6 +265,10 @@ namespace mortise
     IndexSet               known = body.relevant_dofs;
     stranded.add_representatives(known);
     reduction.reinit(known);
+    LinearAlgebra::distributed::Vector<double> vertex_values(
+      body.dof_handler.locally_owned_dofs(),
+      body.relevant_dofs,
+      body.triangulation().get_communicator());
     for (const auto &[dof, place] : on_surface)
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
@@ -205,13 +276,16 @@ namespace mortise
           if (const auto found = followers.find(dof); found != followers.end())
             add_mean(dof, found->second, reduction);
           else if (may_follow.count(dof) == 0)
-            add_reduction(dof, records, reduction);
+            add_reduction(dof, records, body.conformity, reduction);
           else if (const auto constant = stranded.representative(dof);
                    !constant)
             reduction.add_line(dof);
           else if (*constant != dof)
             add_mean(dof, {*constant}, reduction);
-          if (reduction.is_constrained(dof))
+          const auto *line = reduction.get_constraint_entries(dof);
+          if (at_vertex.count(dof) > 0 && (line == nullptr || !line->empty()))
+            vertex_values(dof) = 1.;
+          if (line != nullptr)
             continue;
           owned_dofs.push_back(dof);
           places.push_back(place);
@@ -219,18 +293,19 @@ namespace mortise
           at_vertices.push_back(record == records.end() ||
                                 record->second.vertex);
         }
+    vertex_values.update_ghost_values();
     complete_constraints(body.dof_handler, reduction);
     for (const auto &[cell, f] : slave.known)
       for (const auto &component : face_dofs(cell, f))
-        for (const auto dof : component)
-          if (body.conformity.is_constrained(dof) &&
+        for (unsigned int k = 0; k < component.size(); ++k)
+          if (const auto dof = component[k];
+              body.conformity.is_constrained(dof) &&
               !reduction.is_constrained(dof))
-            {
-              reduction.add_line(dof);
-              for (const auto &entry :
-                   *body.conformity.get_constraint_entries(dof))
-                reduction.add_entry(dof, entry.first, entry.second);
-            }
+            add_hanging(dof,
+                        CellFace(cell, f).basis->functions[k].dimension == 0,
+                        body.conformity,
+                        vertex_values,
+                        reduction);
     reduction.close();
   }
 } // namespace mortise

@@ -27,6 +27,8 @@ namespace mortise
                      const IndexSet &owned_multiplier,
                      const MPI_Comm  comm)
   {
+    if (owned_multiplier.size() == 0)
+      return {};
     auto sums = make_sums(n_normal_sums, coupling, owned_multiplier, comm);
     for_each_entry(
       coupling,

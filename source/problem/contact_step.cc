@@ -83,6 +83,7 @@ namespace mortise
     , edge(places, run.comm)
     , first(std::move(start))
     , increments(max_increments)
+    , unclear(discretisation.one_sided().size(), false)
   {}
 
   ActivePlaces

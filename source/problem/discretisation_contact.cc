@@ -61,6 +61,8 @@ namespace mortise
   Vector
   Discretisation::gaps(const SceneLoad &load, const SystemVector &x) const
   {
+    if (system.owned_multiplier.size() == 0)
+      return {}; // every displacement of both sides is prescribed
     Vector result(system.owned_multiplier, run.comm), moved(result);
     system.coupling.vmult(moved, x.displacement); // of inactive ones, too
     result = load.rhs.multiplier;

@@ -141,4 +141,10 @@ main(int argc, char *argv[])
               dealii::Utilities::MPI::sum(wrong, MPI_COMM_WORLD),
               0);
     }
+  const Strip fresh(0.02, MPI_COMM_WORLD, 3);
+  const auto  found = known.nearest(fresh.places);
+  verdict("all of a surface that had none press: not so",
+          dealii::Utilities::MPI::sum(
+            std::count(found.begin(), found.end(), false), MPI_COMM_WORLD),
+          0);
 }
