@@ -12,10 +12,12 @@ namespace mortise
 
   ExpressionSolution::ExpressionSolution(const VectorExpression &displacement,
                                          const std::vector<Material> &materials,
-                                         const Expression            &pressure)
+                                         const Expression            &pressure,
+                                         const std::vector<Expression> &thermal_strains)
     : expression(displacement)
     , materials(materials)
     , pressure(pressure)
+    , thermal_strains(thermal_strains)
   {}
 
   Tensor<1, 3>
@@ -37,7 +39,11 @@ namespace mortise
     const Material    &material = materials[body];
     const Tensor<2, 3> gradient = expression.gradient(p);
     if (!material.incompressible())
-      return material.stress(gradient);
+      return material.stress(
+        thermal_strains.empty() ?
+          gradient :
+          gradient - thermal_strains[body].value(p) *
+                       Tensor<2, 3>(unit_symmetric_tensor<3>()));
     // in the mean minus the pressure, whatever the divergence
     return deviator(material.stress(gradient, 0.)) -
            pressure.value(p) * unit_symmetric_tensor<3>();
@@ -50,8 +56,13 @@ namespace mortise
     AssertIndexRange(body, materials.size());
     const Tensor<1, 3> force =
       materials[body].body_force(expression.hessian(p));
-    return materials[body].incompressible() ? force + pressure.gradient(p) :
-                                              force;
+    if (materials[body].incompressible())
+      return force + pressure.gradient(p);
+    if (thermal_strains.empty())
+      return force;
+    return force +
+           materials[body].stress(Tensor<2, 3>(unit_symmetric_tensor<3>())) *
+             thermal_strains[body].gradient(p);
   }
 
   namespace

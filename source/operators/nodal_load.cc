@@ -118,6 +118,28 @@ namespace mortise
     std::copy_n(sum.begin(),
                 sum.locally_owned_size(),
                 load.rhs.displacement.begin());
+    if (pressures)
+      add_expansion(loads, load.rhs.pressure);
+  }
+
+  void
+  NodalSystem::add_expansion(const std::vector<Loads> &loads,
+                             Vector                   &pressure_load) const
+  {
+    LevelVector<double> sum;
+    pressures->initialize(sum);
+    const auto       nodes = pressures->nodes();
+    FunctionalByNode by_node(nodes.space, nodes.layout, sum);
+    for (const Body *body : all_levels.front().space->bodies())
+      if (body->pressure && loads[body->index].thermal_strain)
+        for_each_expanding_cell(*body,
+                                loads[body->index].thermal_strain,
+                                [&](const auto &cell, const auto &local) {
+                                  by_node.add_pressure(*body, cell, local);
+                                });
+    pressures->gather(sum);
+    for (unsigned int i = 0; i < sum.locally_owned_size(); ++i)
+      pressure_load.begin()[i] += sum.local_element(i);
   }
 
   void

@@ -58,6 +58,9 @@ namespace mortise
         u.update_ghost_values();
         if (body->pressure)
           result[body->index].pressure.update_ghost_values();
+        if (!load.thermal_strains.empty())
+          result[body->index].thermal_strain =
+            load.thermal_strains[body->index];
       }
     return result;
   }

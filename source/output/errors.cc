@@ -49,7 +49,7 @@ namespace mortise
       if (material.mixed())
         {
           const auto stress = exact.stress(x, body.index);
-          p                 = material.pressure(gradient, stress);
+          p                 = material.pressure(fields.elastic(gradient, q), stress);
           p_error           = fields.pressures[q] - p;
           const double mean = trace(stress) / dim,
                        mean_error =

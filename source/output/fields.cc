@@ -68,7 +68,6 @@ namespace mortise
     void
     append(const CellFields      &fields,
            const unsigned int     q,
-           const Material        &material,
            const FieldSelection  &selection,
            std::vector<VtuField> &target)
     {
@@ -84,9 +83,7 @@ namespace mortise
         }
       if (!selection.stress && !selection.pressure)
         return;
-      const SymmetricTensor<2, dim> stress =
-        material.stress(fields.gradients[q],
-                        fields.pressures.empty() ? 0. : fields.pressures[q]);
+      const SymmetricTensor<2, dim> stress = fields.stress(q);
       if (selection.stress)
         {
           for (unsigned int i = 0; i < dim; ++i)
@@ -134,7 +131,7 @@ namespace mortise
             {
               piece.add_point(nodes->fields.points[q]);
               append(
-                nodes->fields, q, body.material, selection, piece.of_points);
+                nodes->fields, q, selection, piece.of_points);
             }
           for (unsigned int i = 0; i < of_cells.size(); ++i)
             piece.of_cells[i].values.push_back(

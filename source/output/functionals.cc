@@ -170,10 +170,7 @@ namespace mortise
         for (unsigned int q = 0; q < face.geometry.points.size(); ++q)
           force +=
             face.geometry.weights[q] *
-            (body.material.stress(face.fields.gradients[q],
-                                  body.pressure ? face.fields.pressures[q] :
-                                                  0.) *
-             face.geometry.normals[q]);
+            (face.fields.stress(q) * face.geometry.normals[q]);
       });
     return Utilities::MPI::sum(force, body.triangulation().get_communicator());
   }

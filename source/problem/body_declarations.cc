@@ -95,6 +95,11 @@ namespace mortise
                   material.density,
                   "What Gravity acts on [mass per volume]. 0: no mass.",
                   {"0 or a positive number"});
+      section.add(
+        "Thermal expansion",
+        material.thermal_expansion,
+        "Strain per Temperature of the body, the same in all directions [1 / temperature].",
+        {"a number"});
     }
   } // namespace
 
@@ -142,6 +147,11 @@ namespace mortise
         if (value.text != "auto")
           value.read(body.body_force);
       });
+    section.add(
+      "Temperature",
+      body.temperature,
+      "Temperature above that at which the body is free of strain [temperature]; with Thermal expansion it expands. Empty: none.",
+      {"an expression in x, y, z, t"});
     declare_mesh(section.subsection("Mesh"), body.mesh);
     declare_material(section.subsection("Material"), body.material);
     for (auto &[name, boundary] : body.boundaries)

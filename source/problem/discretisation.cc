@@ -164,6 +164,8 @@ namespace mortise
     for (const auto &body : spaces.bodies)
       loads.push_back(data.loads(*body));
     SceneLoad load{system.zero_vector(), prescribed_values(spaces, data)};
+    for (const Loads &of_body : loads)
+      load.thermal_strains.push_back(of_body.thermal_strain);
     system.nodal->assemble_load(loads,
                                 spaces.fields.displacement.numbering,
                                 load);

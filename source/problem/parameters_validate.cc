@@ -161,6 +161,40 @@ namespace mortise
         check_loads_of_named_solution(parameters, section, boundary);
     }
 
+    /// A temperature and what a body does with it belong together.
+    void
+    check_temperature(const Parameters     &parameters,
+                      const std::string    &section,
+                      const BodyParameters &body)
+    {
+      const std::string path      = section + "/Temperature",
+                        expansion = section + "/Material/Thermal expansion";
+      if (body.temperature && body.material.thermal_expansion == 0.)
+        parameters.fail(path,
+                        in_quotes(*body.temperature) +
+                          " in a body without Material/Thermal expansion",
+                        "none, or a Thermal expansion");
+      if (!body.temperature && body.material.thermal_expansion != 0.)
+        parameters.fail(expansion,
+                        "one in a body without Temperature",
+                        "0, or a Temperature");
+      if (!body.temperature)
+        return;
+      check_expression(parameters.where(path),
+                       *body.temperature,
+                       parameters.steps.first_time());
+      const ExactKind kind = parameters.exact_solution.kind;
+      if (kind == ExactKind::thick_sphere || kind == ExactKind::thick_cylinder)
+        parameters.fail(path,
+                        in_quotes(*body.temperature),
+                        "none: the named exact solutions know no temperature");
+      if (kind == ExactKind::expressions && body.material.poisson_ratio == 0.5)
+        parameters.fail(path,
+                        in_quotes(*body.temperature) +
+                          " with an exact solution and Poisson ratio 0.5",
+                        "none, or a smaller ratio");
+    }
+
     /// Body force, tractions, pressures and displacements.
     void
     check_body(const Parameters &parameters, const BodyParameters &body)
@@ -173,6 +207,7 @@ namespace mortise
                       return parameters.where(section + "/Material/" + name);
                     });
       check_components(parameters, section + "/Body force", body.body_force);
+      check_temperature(parameters, section, body);
       for (const auto &[name, boundary] : body.boundaries)
         check_boundary(parameters,
                        section + "/Boundary " + name,

@@ -162,6 +162,8 @@ namespace mortise
           };
       }
 
+    loads.thermal_strain = thermal_strain(given);
+
     for (const auto &entry : given.boundaries)
       {
         const BoundaryParameters &boundary = entry.second;
@@ -218,6 +220,23 @@ namespace mortise
           }
       }
     return loads;
+  }
+
+  std::function<double(const Point<dim> &)>
+  SceneData::thermal_strain(const BodyParameters &given) const
+  {
+    if (!given.temperature)
+      return {};
+    const std::string where =
+      parameters.where("Body " + given.name + "/Temperature");
+    const Expression  temperature(*given.temperature, where, time);
+    const std::string what = where + ": " + in_quotes(*given.temperature);
+    return [temperature,
+            what,
+            expansion = given.material.thermal_expansion,
+            &watch    = checks](const Point<dim> &x) {
+      return expansion * watch(temperature.value(x), x, what);
+    };
   }
 
   std::function<double(const Point<dim> &)>

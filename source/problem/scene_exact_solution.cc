@@ -5,6 +5,7 @@
 #include <mortise/problem/scene_data.h>
 
 #include <array>
+#include <sstream>
 
 namespace mortise
 {
@@ -165,6 +166,18 @@ namespace mortise
                              const std::string &where)
     {
       const auto &pressure = parameters.exact_solution.pressure;
+      std::vector<Expression> thermal_strains;
+      for (const BodyParameters &body : parameters.bodies)
+        {
+          std::ostringstream strain;
+          strain.precision(17);
+          strain << body.material.thermal_expansion << " * ("
+                 << body.temperature.value_or("0") << ")";
+          thermal_strains.emplace_back(strain.str(),
+                                       parameters.where("Body " + body.name +
+                                                        "/Temperature"),
+                                       time);
+        }
       return std::make_shared<ExpressionSolution>(
         VectorExpression(joined(parameters.exact_solution.displacement),
                          where,
@@ -172,7 +185,8 @@ namespace mortise
         materials(parameters),
         Expression(pressure.value_or("0"),
                    parameters.where("Exact solution/Pressure"),
-                   time));
+                   time),
+        thermal_strains);
     }
   } // namespace
 

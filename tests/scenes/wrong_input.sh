@@ -63,6 +63,8 @@ expect 2 'no boundary .zmux' "$scene" --set 'Interface glue/Slave=lower: zmax, z
 expect 2 'expression in t' "$scene" --set 'Interface glue/Preload=x'
 expect 2 'only Law = tie' "$scene" --set 'Interface glue/Preload=1' --set 'Interface glue/Law=slide'
 expect 2 'a time without a Preload' "$scene" --set 'Interface glue/Preload until=1'
+expect 2 'without Material/Thermal expansion' "$scene" --set 'Body upper/Temperature=20'
+expect 2 'without Temperature' "$scene" --set 'Body upper/Material/Thermal expansion=1e-5'
 expect 2 'an expression in t' "$scene" --set 'Body upper/Boundary zmax/Force=x; 0; 0'
 expect 2 'component y.*an expression in t' "$scene" --set 'Body upper/Boundary zmax/Moment=0; exact; 0'
 expect 2 'Density' "$scene" --set 'Gravity=0; 0; -9.81'

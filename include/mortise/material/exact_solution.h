@@ -34,13 +34,15 @@ namespace mortise
   };
 
   /// A displacement given by expressions, the same in every body; stresses by
-  /// body's material, and the mean pressure where that is incompressible.
+  /// body's material, and the mean pressure where that is incompressible; with
+  /// strains by temperature, the same in all directions, by body.
   class ExpressionSolution : public ExactSolution
   {
   public:
     ExpressionSolution(const VectorExpression      &displacement,
                        const std::vector<Material> &materials,
-                       const Expression            &pressure = Expression());
+                       const Expression            &pressure = Expression(),
+                       const std::vector<Expression> &thermal_strains = {});
 
     dealii::Tensor<1, 3>
     displacement(const dealii::Point<3> &p, unsigned int body) const override;
@@ -55,6 +57,7 @@ namespace mortise
     VectorExpression      expression;
     std::vector<Material> materials;
     Expression            pressure;
+    std::vector<Expression> thermal_strains; ///< none, or by body
   };
 
   /// Lame's thick sphere, or thick cylinder in plane strain, of one or more

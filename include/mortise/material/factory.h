@@ -17,6 +17,8 @@ namespace mortise
     double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
     Orthotropic orthotropic;
     double      density = 0.; ///< of any law, mass per volume; 0: none
+    /// Of any law, strain per temperature, the same in all directions.
+    double thermal_expansion = 0.;
   };
 
   /// Names of the laws.

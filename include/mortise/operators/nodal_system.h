@@ -126,13 +126,17 @@ namespace mortise
       return leading;
     }
 
-    /// Set the right hand side of @p load: int b.v + int t.v less the work of the prescribed
-    /// displacements in it, zero where constrained, and what these leave to the
+    /// Set the right hand side of @p load: int b.v + int t.v - int sigma_0 : grad v (see
+    /// for_each_loaded_cell()) less the work of the prescribed displacements in it, zero where constrained, and what these leave to the
     /// pressures. @p loads: by body. Collective.
     void
     assemble_load(const std::vector<Loads> &loads,
                   const FieldNumbering     &numbering,
                   SceneLoad                &load) const;
+
+    /// Add what thermal strains are to the pressures.
+    void
+    add_expansion(const std::vector<Loads> &loads, Vector &pressure_load) const;
 
     /// Set @p rhs to the sum of @p functionals on cells of @p body, zero where constrained.
     /// Collective.

@@ -13,6 +13,10 @@
 
 namespace mortise
 {
+  /// Strain, the same in all directions, by which a body would expand without
+  /// stress; empty: none.
+  using ThermalStrain = std::function<double(const dealii::Point<dim> &)>;
+
   /// Loads on one body.
   struct Loads
   {
@@ -20,20 +24,32 @@ namespace mortise
     std::function<dealii::Tensor<1, dim>(const dealii::Point<dim> &)>
                                    body_force;
     std::vector<TractionCondition> tractions;
+    ThermalStrain                  thermal_strain;
   };
 
   struct SceneLoad
   {
-    SystemVector     rhs; ///< (f, h, g)
-    PrescribedValues prescribed;
+    SystemVector               rhs; ///< (f, h, g)
+    PrescribedValues           prescribed;
+    std::vector<ThermalStrain> thermal_strains = {}; ///< by body, or none
   };
 
   /// Calls @p visit with the owned cells that may have loads and int b.v + int
-  /// t.v in the cell's numbering.
+  /// t.v - int sigma_0 : grad v in the cell's numbering, sigma_0 the stress of the
+  /// thermal strain where nothing moves.
   void
   for_each_loaded_cell(
     const Body                                                &body,
     const Loads                                               &loads,
+    const std::function<void(const Body::CellIterator &,
+                             const dealii::Vector<double> &)> &visit);
+
+  /// Calls @p visit with the owned cells of a body in mixed form and -int 3 strain q in
+  /// the numbering of its pressures.
+  void
+  for_each_expanding_cell(
+    const Body                                                &body,
+    const ThermalStrain                                       &strain,
     const std::function<void(const Body::CellIterator &,
                              const dealii::Vector<double> &)> &visit);
 } // namespace mortise

@@ -16,7 +16,8 @@ namespace mortise
   struct BodySolution
   {
     BodyVector displacement;
-    BodyVector pressure; ///< in mixed form, else empty
+    BodyVector    pressure; ///< in mixed form, else empty
+    ThermalStrain thermal_strain = {};
   };
 
   /// Zero on all @p bodies, with room for their spaces.

@@ -64,7 +64,8 @@ namespace mortise
     MaterialParameters material;
     /// Force per volume. Absent ("auto"): from the exact solution if that is
     /// given by expressions, else zero.
-    std::optional<Components>                 body_force;
+    std::optional<Components>  body_force;
+    std::optional<std::string> temperature; ///< above that without strain
     std::map<std::string, BoundaryParameters> boundaries;
   };
 

@@ -41,6 +41,10 @@ namespace mortise
     Loads
     loads(const Body &body) const;
 
+    /// The strain, the same in all directions, that @p body has from its temperature; null without.
+    std::function<double(const dealii::Point<dim> &)>
+    thermal_strain(const BodyParameters &body) const;
+
     /// The gap that @p interface leaves between the bodies; null where it is zero at all times.
     std::function<double(const dealii::Point<dim> &)>
     offset(const InterfaceParameters &interface) const;

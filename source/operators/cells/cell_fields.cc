@@ -125,6 +125,26 @@ namespace mortise
                      const BodySolution       &solution)
   {
     reinit(cell, cell_coefficients(body, cell, solution));
+    thermal_strains.clear();
+    if (solution.thermal_strain)
+      for (const Point<dim> &x : points)
+        thermal_strains.push_back(solution.thermal_strain(x));
+  }
+
+  Tensor<2, dim>
+  CellFields::elastic(Tensor<2, dim> gradient, const unsigned int q) const
+  {
+    if (!thermal_strains.empty())
+      for (unsigned int c = 0; c < dim; ++c)
+        gradient[c][c] -= thermal_strains[q];
+    return gradient;
+  }
+
+  SymmetricTensor<2, dim>
+  CellFields::stress(const unsigned int q) const
+  {
+    return body.material.stress(elastic(gradients[q], q),
+                                pressures.empty() ? 0. : pressures[q]);
   }
 
   void

@@ -14,14 +14,16 @@ namespace mortise
     Hexahedra(const Body &body, const unsigned int degree)
       : rule(degree + 1)
       , geometry(body, ReferenceCells::Hexahedron, rule)
-      , line(
-          transposed(lobatto_table(degree, rule.get_tensor_basis()[0]).values))
+      , table(lobatto_table(degree, rule.get_tensor_basis()[0]))
+      , line(transposed(table.values))
+      , slope(transposed(table.slopes))
       , modes(cell_dof_indices(degree))
     {}
 
     const QGauss<dim>               rule;
     CellGeometry                    geometry;
-    const FullMatrix<double>        line; ///< (function, point)
+    const LineTable                 table;
+    const FullMatrix<double>        line, slope; ///< (function, point)
     const std::vector<unsigned int> modes;
   };
 
@@ -42,10 +44,13 @@ namespace mortise
   LoadKernel::compute(const Body::CellIterator &cell, const Loads &loads)
   {
     load = 0.;
-    if (loads.body_force && body.mesh.tetrahedra)
-      add_to_tetrahedron(cell, loads);
-    else if (loads.body_force)
-      add_to_hexahedron(cell, loads);
+    if (loads.body_force || loads.thermal_strain)
+      {
+        if (body.mesh.tetrahedra)
+          add_to_tetrahedron(cell, loads);
+        else
+          add_to_hexahedron(cell, loads);
+      }
     if (cell->at_boundary())
       for (const unsigned int f : cell->face_indices())
         for (const TractionCondition &condition : loads.tractions)
@@ -65,23 +70,57 @@ namespace mortise
     const auto        &jacobians = hexahedra->geometry.jacobians(cell);
     const auto        &line      = hexahedra->line;
     const unsigned int n         = line.n();
-    std::array<TensorArray, dim> forces;
-    for (TensorArray &force : forces)
-      force = {{{n, n, n}}, std::vector<double>(points.size())};
-    for (unsigned int q = 0; q < points.size(); ++q)
+    const TensorArray  zero{{{n, n, n}}, std::vector<double>(points.size())};
+    const auto         weight = [&](const unsigned int q) {
+      return determinant(jacobians[q]) * hexahedra->rule.weight(q);
+    };
+    const auto add = [&](const unsigned int c, const TensorArray &sums) {
+      for (unsigned int i = 0; i < sums.values.size(); ++i)
+        load(system_index[c][hexahedra->modes[i]]) += sums.values[i];
+    };
+    if (loads.body_force)
       {
-        const Tensor<1, dim> force = loads.body_force(points[q]) *
-                                     determinant(jacobians[q]) *
-                                     hexahedra->rule.weight(q);
+        std::array<TensorArray, dim> forces{{zero, zero, zero}};
+        for (unsigned int q = 0; q < points.size(); ++q)
+          {
+            const Tensor<1, dim> force =
+              loads.body_force(points[q]) * weight(q);
+            for (unsigned int c = 0; c < dim; ++c)
+              forces[c].values[q] = force[c];
+          }
         for (unsigned int c = 0; c < dim; ++c)
-          forces[c].values[q] = force[c];
+          add(c, apply_product(line, line, line, forces[c]));
       }
-    for (unsigned int c = 0; c < dim; ++c)
+    if (loads.thermal_strain)
       {
-        const auto sums = apply_product(line, line, line, forces[c]).values;
-        for (unsigned int i = 0; i < sums.size(); ++i)
-          load(system_index[c][hexahedra->modes[i]]) += sums[i];
+        std::array<std::array<TensorArray, dim>, dim> stresses;
+        for (auto &row : stresses)
+          row = {{zero, zero, zero}};
+        for (unsigned int q = 0; q < points.size(); ++q)
+          {
+            // jacobians are dx_c / dxi_a as [a][c]
+            const Tensor<2, dim> stress = thermal_stress(loads, points[q]) *
+                                          invert(jacobians[q]) * weight(q);
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int a = 0; a < dim; ++a)
+                stresses[c][a].values[q] = -stress[c][a];
+          }
+        const auto &slope = hexahedra->slope;
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            add(c, apply_product(slope, line, line, stresses[c][0]));
+            add(c, apply_product(line, slope, line, stresses[c][1]));
+            add(c, apply_product(line, line, slope, stresses[c][2]));
+          }
       }
+  }
+
+  Tensor<2, dim>
+  LoadKernel::thermal_stress(const Loads &loads, const Point<dim> &x) const
+  {
+    return body.material.stress(-loads.thermal_strain(x) *
+                                  Tensor<2, dim>(unit_symmetric_tensor<dim>()),
+                                0.);
   }
 
   void
@@ -93,17 +132,23 @@ namespace mortise
         *body.mapping,
         system.base_element(0),
         simplex_quadrature<dim>(2 * system.degree + body.mapping_degree - 1),
-        update_values | update_JxW_values | update_quadrature_points);
+        update_values | update_gradients | update_JxW_values |
+          update_quadrature_points);
     tetrahedra->reinit(Triangulation<dim>::cell_iterator(cell));
     for (unsigned int q = 0; q < tetrahedra->n_quadrature_points; ++q)
       {
-        const Tensor<1, dim> force =
-          loads.body_force(tetrahedra->quadrature_point(q)) *
-          tetrahedra->JxW(q);
+        const Point<dim> &x = tetrahedra->quadrature_point(q);
+        Tensor<1, dim>    force;
+        Tensor<2, dim>    stress;
+        if (loads.body_force)
+          force = loads.body_force(x) * tetrahedra->JxW(q);
+        if (loads.thermal_strain)
+          stress = thermal_stress(loads, x) * tetrahedra->JxW(q);
         for (unsigned int c = 0; c < dim; ++c)
           for (const unsigned int i : tetrahedra->dof_indices())
             load(system_index[c][i]) +=
-              force[c] * tetrahedra->shape_value(i, q);
+              force[c] * tetrahedra->shape_value(i, q) -
+              stress[c] * tetrahedra->shape_grad(i, q);
       }
   }
 

@@ -46,6 +46,15 @@ namespace mortise
     std::vector<dealii::Tensor<1, dim>> values;
     std::vector<dealii::Tensor<2, dim>> gradients; ///< du_c/dx_e as [c][e]
     std::vector<double> pressures; ///< of the mixed form, else empty
+    std::vector<double> thermal_strains; ///< if there are any, else empty
+
+    /// @p gradient at point @p q without the thermal strain.
+    dealii::Tensor<2, dim>
+    elastic(dealii::Tensor<2, dim> gradient, unsigned int q) const;
+
+    /// At point @p q.
+    dealii::SymmetricTensor<2, dim>
+    stress(unsigned int q) const;
 
   private:
     struct Hexahedra;  ///< of one degree

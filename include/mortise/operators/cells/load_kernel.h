@@ -23,7 +23,8 @@ namespace mortise
     LoadKernel(const Body &body, const dealii::FiniteElement<dim> &system);
     ~LoadKernel();
 
-    /// int b.v + int t.v in the numbering of @p cell.
+    /// int b.v + int t.v - int sigma_0 : grad v, see for_each_loaded_cell(), in
+    /// the numbering of @p cell.
     const dealii::Vector<double> &
     compute(const Body::CellIterator &cell, const Loads &loads);
 
@@ -34,6 +35,9 @@ namespace mortise
     add_to_hexahedron(const Body::CellIterator &cell, const Loads &loads);
     void
     add_to_tetrahedron(const Body::CellIterator &cell, const Loads &loads);
+    /// Where nothing moves, without the pressure of the mixed form.
+    dealii::Tensor<2, dim>
+    thermal_stress(const Loads &loads, const dealii::Point<dim> &x) const;
     void
     add_traction(const Body::CellIterator &cell,
                  unsigned int              f,
