@@ -138,7 +138,11 @@ namespace mortise
   CoarseGeometry::root_placement(const CellIterator &cell) const
   {
     Placement result;
-    result.coarse_cell = cell->id().get_coarse_cell_id();
+    // p4est permutes coarse cells, of which every rank has all, and ids tell
+    // its order; what METIS distributes keeps its order in ids alone
+    result.coarse_cell = nodes_per_cell == hex_nodes ?
+                           cell->index() :
+                           cell->id().get_coarse_cell_id();
     AssertThrow(result.coarse_cell < n_cells(),
                 ExcMessage("CoarseGeometry: the triangulation has more coarse "
                            "cells than the geometry"));
