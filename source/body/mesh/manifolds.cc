@@ -2,11 +2,12 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/table.h>
 
-#include <boost/container/small_vector.hpp>
-
 #include <mortise/body/mesh/manifolds.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace mortise
 {
@@ -14,43 +15,72 @@ namespace mortise
 
   namespace
   {
-    /// A point seen from a centre.
-    struct Polar
+    /// Around one axis of the octant: (radius, two angles), in the frame of the
+    /// body.
+    class OctantChart
     {
-      double       radius;
-      Tensor<1, 3> direction;
+    public:
+      /// Around the axis that is nearest to all of @p points.
+      explicit OctantChart(const std::vector<Point<3>> &points)
+      {
+        Tensor<1, 3> sum;
+        for (const Point<3> &p : points)
+          sum += Tensor<1, 3>(p) / p.norm();
+        for (unsigned int d = 1; d < 3; ++d)
+          if (sum[d] > sum[axis])
+            axis = d;
+      }
+
+      Point<3>
+      pull_back(const Point<3> &x) const
+      {
+        const double along = x[axis];
+        Assert(along > 0., ExcMessage("The point is not in the chart."));
+        return Point<3>(Tensor<1, 3>(x).norm(),
+                        std::atan(x[(axis + 1) % 3] / along),
+                        std::atan(x[(axis + 2) % 3] / along));
+      }
+
+      Point<3>
+      push_forward(const Point<3> &chart) const
+      {
+        Tensor<1, 3> direction;
+        direction[axis]           = 1.;
+        direction[(axis + 1) % 3] = std::tan(chart[1]);
+        direction[(axis + 2) % 3] = std::tan(chart[2]);
+        return Point<3>((chart[0] / direction.norm()) * direction);
+      }
+
+      /// The derivative of push_forward() at @p chart in @p direction.
+      Tensor<1, 3>
+      derivative(const Point<3>     &chart,
+                 const Tensor<1, 3> &direction) const
+      {
+        Tensor<1, 3> to, slope; // before it is brought to the sphere
+        to[axis] = 1.;
+        for (unsigned int i = 1; i < 3; ++i)
+          {
+            const double t         = std::tan(chart[i]);
+            to[(axis + i) % 3]     = t;
+            slope[(axis + i) % 3]  = (1. + t * t) * direction[i];
+          }
+        const double       norm = to.norm();
+        const Tensor<1, 3> e    = to / norm;
+        return direction[0] * e +
+               (chart[0] / norm) * (slope - (slope * e) * e);
+      }
+
+    private:
+      unsigned int axis = 0;
     };
 
-    Polar
-    polar(const Tensor<1, 3> &x)
+    /// @p points in the frame of the body.
+    std::vector<Point<3>>
+    in_body(const RigidMotion &motion, const ArrayView<const Point<3>> &points)
     {
-      const double r = x.norm();
-      Assert(r > 0., ExcMessage("The centre has no direction."));
-      return {r, x / r};
-    }
-
-    Point<3>
-    mean(const Point<3>                                   &centre,
-         const boost::container::small_vector<Polar, 100> &points,
-         const double                                     *weights)
-    {
-      double       radius = 0.;
-      Tensor<1, 3> direction;
-      for (unsigned int i = 0; i < points.size(); ++i)
-        {
-          radius += weights[i] * points[i].radius;
-          direction += weights[i] * points[i].direction;
-        }
-      return centre + (radius / direction.norm()) * direction;
-    }
-
-    boost::container::small_vector<Polar, 100>
-    polar_points(const Point<3>                  &centre,
-                 const ArrayView<const Point<3>> &points)
-    {
-      boost::container::small_vector<Polar, 100> result;
+      std::vector<Point<3>> result;
       for (const Point<3> &p : points)
-        result.push_back(polar(p - centre));
+        result.push_back(motion.inverse(p));
       return result;
     }
 
@@ -67,7 +97,7 @@ namespace mortise
   } // namespace
 
   SphereManifold::SphereManifold(const RigidMotion &motion)
-    : centre(motion.translation)
+    : motion(motion)
   {}
 
   std::unique_ptr<Manifold<3>>
@@ -81,7 +111,11 @@ namespace mortise
                                 const ArrayView<const double>   &weights) const
   {
     AssertDimension(points.size(), weights.size());
-    return mean(centre, polar_points(centre, points), weights.data());
+    Table<2, double> table(1, weights.size());
+    std::copy(weights.begin(), weights.end(), &table(0, 0));
+    Point<3> result;
+    get_new_points(points, table, ArrayView<Point<3>>(&result, 1));
+    return result;
   }
 
   void
@@ -91,21 +125,29 @@ namespace mortise
   {
     AssertDimension(points.size(), weights.size(1));
     AssertDimension(new_points.size(), weights.size(0));
-    // The caller may pass the same memory twice.
-    const auto polars = polar_points(centre, points);
+    // the caller may pass the same memory twice
+    std::vector<Point<3>> charts = in_body(motion, points);
+    const OctantChart     chart(charts);
+    for (Point<3> &p : charts)
+      p = chart.pull_back(p);
     for (unsigned int row = 0; row < weights.size(0); ++row)
-      new_points[row] = mean(centre, polars, &weights(row, 0));
+      {
+        Point<3> mean;
+        for (unsigned int i = 0; i < charts.size(); ++i)
+          mean += weights(row, i) * Tensor<1, 3>(charts[i]);
+        new_points[row] = motion(chart.push_forward(mean));
+      }
   }
 
   Tensor<1, 3>
   SphereManifold::get_tangent_vector(const Point<3> &x1,
                                      const Point<3> &x2) const
   {
-    const Polar a = polar(x1 - centre), b = polar(x2 - centre);
-    // Derivative at t = 0 of (r1 + t (r2 - r1)) times the normalised d1 + t (d2
-    // - d1).
-    return (b.radius - a.radius) * a.direction +
-           a.radius * (b.direction - (a.direction * b.direction) * a.direction);
+    const std::array<Point<3>, 2> ends{{motion.inverse(x1), motion.inverse(x2)}};
+    const OctantChart chart(std::vector<Point<3>>(ends.begin(), ends.end()));
+    const Point<3>    from = chart.pull_back(ends[0]);
+    return motion.rotation *
+           chart.derivative(from, chart.pull_back(ends[1]) - from);
   }
 
   CylinderManifold::CylinderManifold(const RigidMotion &motion)

@@ -11,10 +11,12 @@
 
 namespace mortise
 {
-  /// Concentric spheres about the body's origin: a point between others has the
-  /// weighted mean of their radii and the normalised weighted mean of their
-  /// directions. Weights must be such that the mean direction does not vanish
-  /// (an octant always is).
+  /// Concentric spheres about the body's origin in the charts of a cube that is
+  /// blown up: (r, atan(x_l / x_a), atan(x_k / x_a)) around each axis a. A point
+  /// between others is the weighted mean in the chart around the axis nearest to
+  /// them: cells are boxes there, and the same ones however often they are cut.
+  /// On a plane x_a = x_l both charts have the same lines. Points must lie in the
+  /// octant x, y, z >= 0, those of a cell in one chart.
   class SphereManifold : public dealii::Manifold<3>
   {
   public:
@@ -39,7 +41,7 @@ namespace mortise
                        const dealii::Point<3> &x2) const override;
 
   private:
-    dealii::Point<3> centre;
+    RigidMotion motion;
   };
 
   /// Concentric cylinders about the body's z axis; chart (r, angle, z) with the
