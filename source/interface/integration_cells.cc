@@ -70,8 +70,25 @@ namespace mortise
 
 
   void
+  IntegrationPoints::move(const unsigned int from, const unsigned int to)
+  {
+    for (auto *arrays : {&slave_xi, &master_eta})
+      for (auto &array : *arrays)
+        array[to] = array[from];
+    for (auto *arrays : {&slave_x, &master_x})
+      for (auto &array : *arrays)
+        array[to] = array[from];
+    weight[to] = weight[from];
+    gap[to]    = gap[from];
+  }
+
+
+
+  void
   Coverage::add(const Coverage &other)
   {
+    gap_sum += other.gap_sum;
+    distance_sum += other.distance_sum;
     slave_area += other.slave_area;
     covered_area += other.covered_area;
     n_candidates += other.n_candidates;
@@ -85,7 +102,7 @@ namespace mortise
 
 
   void
-  Coverage::add(const PairResult &pair, const unsigned int n_points_of_pair)
+  Coverage::add(const PairResult &pair, const IntegrationPoints &points)
   {
     ++n_candidates;
     n_failures += pair.status == PairStatus::failed ? 1 : 0;
@@ -94,7 +111,12 @@ namespace mortise
     ++n_pairs;
     covered_area += pair.area;
     n_cells += pair.n_cells;
-    n_points += n_points_of_pair;
+    n_points += points.size();
+    for (unsigned int q = 0; q < points.size(); ++q)
+      {
+        gap_sum += points.weight[q] * points.gap[q];
+        distance_sum += points.weight[q] * std::fabs(points.gap[q]);
+      }
     max_gap = std::max(max_gap, pair.max_gap);
   }
 

@@ -40,6 +40,73 @@ namespace mortise
     const FaceTree tree(near_masters, options.distance);
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       tree.candidates(slave_surface.faces[s], candidates[s]);
+    if (options.slave_boundary && may_see_through())
+      visibility =
+        std::make_unique<Visibility>(exchange_near_faces(slave_surface.faces,
+                                                         options
+                                                           .slave_boundary(),
+                                                         options.distance,
+                                                         comm),
+                                     exchange_near_faces(slave_surface.faces,
+                                                         options
+                                                           .master_boundary(),
+                                                         options.distance,
+                                                         comm));
+  }
+
+  namespace
+  {
+    /// Of the depth of the cells behind both faces: no body ends within that.
+    constexpr double safe_distance = 0.25;
+  } // namespace
+
+  bool
+  InterfaceHandler::may_see_through() const
+  {
+    unsigned int found = 0;
+    for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
+      for (const unsigned int m : candidates[s])
+        {
+          const FaceFrame &slave  = slave_surface.faces[s].frame;
+          const FaceFrame &master = near_masters[m].frame;
+          const double     depth  = std::min(slave_surface.traces[s].depth,
+                                        near_traces[m].depth);
+          if (std::fabs((master.center - slave.center) * slave.normal) >
+              safe_distance * depth)
+            found = 1;
+        }
+    return Utilities::MPI::max(found, comm) == 1;
+  }
+
+  void
+  InterfaceHandler::drop_hidden(const unsigned int s,
+                                const unsigned int m,
+                                PairResult        &pair,
+                                IntegrationPoints &points) const
+  {
+    if (!visibility || pair.max_gap <=
+                         safe_distance * std::min(slave_surface.traces[s].depth,
+                                                  near_traces[m].depth))
+      return;
+    const auto point = [](const std::array<std::vector<double>, 3> &x,
+                          const unsigned int                        q) {
+      return Point<3>(x[0][q], x[1][q], x[2][q]);
+    };
+    unsigned int n = 0;
+    pair.area = pair.max_gap = 0.;
+    for (unsigned int q = 0; q < points.size(); ++q)
+      if (!visibility->is_hidden(slave_surface.faces[s].id,
+                                 near_masters[m].id,
+                                 point(points.slave_x, q),
+                                 point(points.master_x, q)))
+        {
+          pair.area += points.weight[q];
+          pair.max_gap = std::max(pair.max_gap, std::fabs(points.gap[q]));
+          points.move(q, n++);
+        }
+    points.resize(n);
+    if (n == 0)
+      pair.status = PairStatus::hidden;
   }
 
   bool
@@ -57,7 +124,7 @@ namespace mortise
                                             near_traces[m].degree,
                                             points))
         {
-          coverage.add(*pair, points.size());
+          coverage.add(*pair, points);
           coverage.n_candidates = candidates[s].size();
           visitor(s, m, points);
           return true;
@@ -79,6 +146,7 @@ namespace mortise
     Point<3>        worst_centre;
     Clock::duration clipping(0);
     std::uint64_t   n_coinciding = 0;
+    double sagitta = 0., largest_coverage = 0.;
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       {
         auto before = Clock::now();
@@ -94,13 +162,15 @@ namespace mortise
             for (const unsigned int m : candidates[s])
               {
                 before = Clock::now();
-                const PairResult pair =
+                PairResult pair =
                   integrator.integrate(near_masters[m],
                                        slave_surface.traces[s].degree,
                                        near_traces[m].degree,
                                        points);
+                if (pair.status == PairStatus::accepted)
+                  drop_hidden(s, m, pair, points);
                 clipping += Clock::now() - before;
-                face.add(pair, points.size());
+                face.add(pair, points);
                 if (pair.status == PairStatus::accepted)
                   visitor(s, m, points);
               }
@@ -111,8 +181,12 @@ namespace mortise
             worst_error  = std::fabs(1. - covered_fraction[s]);
             worst_centre = slave_surface.faces[s].frame.center;
           }
+        largest_coverage = std::max(largest_coverage, covered_fraction[s]);
+        sagitta += face.covered_area * mortise::sagitta(slave_surface.faces[s]);
         sum.add(face);
       }
+    totals.largest_coverage = Utilities::MPI::max(largest_coverage, comm);
+    totals.sagitta_mean     = Utilities::MPI::sum(sagitta, comm);
     totals.clipping_seconds = std::chrono::duration<double>(clipping).count();
     totals.coinciding_faces = Utilities::MPI::sum(n_coinciding, comm);
     sum_report(sum, worst_error, worst_centre);
@@ -138,6 +212,13 @@ namespace mortise
     totals.slave_area        = Utilities::MPI::sum(local.slave_area, comm);
     totals.covered_area      = Utilities::MPI::sum(local.covered_area, comm);
     totals.worst_face_error  = Utilities::MPI::max(worst_error, comm);
+    totals.distance_max      = Utilities::MPI::max(local.max_gap, comm);
+    totals.gap_mean          = Utilities::MPI::sum(local.gap_sum, comm);
+    totals.distance_mean     = Utilities::MPI::sum(local.distance_sum, comm);
+    if (totals.covered_area > 0.)
+      for (double *mean :
+           {&totals.gap_mean, &totals.distance_mean, &totals.sagitta_mean})
+        *mean /= totals.covered_area;
 
     // several faces may be equally bad: name the one of the lowest rank
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);

@@ -111,9 +111,25 @@ namespace mortise
                    box.upper[2]);
     }
 
+    /// Cosine between the outward normals of the faces themselves, in the
+    /// middle, from which they do not face each other: those of a corner do
+    /// not, whatever the mean normals around its edge are.
+    constexpr double across = -0.1;
+
+    Tensor<1, 3>
+    own_normal(const SurfaceFace &face)
+    {
+      const Tensor<1, 3> area = face.orientation *
+                                cross_product_3d(face.frame.tangent[0],
+                                                 face.frame.tangent[1]);
+      return area / area.norm();
+    }
+
     bool
     normals_may_oppose(const SurfaceFace &a, const SurfaceFace &b)
     {
+      if (own_normal(a) * own_normal(b) > across)
+        return false;
       for (unsigned int v = 0; v < n_vertices(a.shape); ++v)
         for (unsigned int w = 0; w < n_vertices(b.shape); ++w)
           if (a.vertex_normals[v] * b.vertex_normals[w] < 0)

@@ -334,4 +334,16 @@ namespace mortise
       face.orientation * cross_product_3d(point.dx[0], point.dx[1]);
     return normal / normal.norm();
   }
+
+  double
+  sagitta(const SurfaceFace &face)
+  {
+    const auto own   = corner_normals(face);
+    double     angle = 0.;
+    for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
+      angle =
+        std::max(angle,
+                 (own[v] / own[v].norm() - face.vertex_normals[v]).norm());
+    return face.size * angle / 4.;
+  }
 } // namespace mortise

@@ -99,6 +99,10 @@ namespace mortise
       visit("quadrature_points", interface.quadrature_points);
       visit("slave_area", interface.slave_area);
       visit("covered_area", interface.covered_area);
+      visit("gap_mean", interface.gap_mean);
+      visit("distance_mean", interface.distance_mean);
+      visit("distance_max", interface.distance_max);
+      visit("sagitta_mean", interface.sagitta_mean);
       visit("worst_face_coverage_error", interface.worst_face_coverage_error);
       visit("partition_of_unity_error", interface.partition_of_unity_error);
       visit("force_residual", interface.force_residual);

@@ -127,10 +127,22 @@ namespace mortise
         Allowed::one_of({"standard", "dual"}));
       section.add(
         "Search distance",
-        interface.search_distance.by_size,
+        "0.5",
         "Largest gap or penetration that is bridged, as a fraction of the size of the "
-        "larger face [-]. With Adaptivity contact is looked for as far as sides have moved in the last cycle, too.",
-        Allowed::positive_number());
+        "larger face [-], or a length. A partner faces the slave and is not seen through a body. "
+        "With Adaptivity contact is looked for as far as sides have moved in the last cycle, too.",
+        {"a positive number, or \"length NUMBER\""},
+        [&interface](const ParameterValue &value) {
+          const std::string word      = "length ";
+          SearchDistance   &distance  = interface.search_distance;
+          const bool        is_length = value.text.rfind(word, 0) == 0;
+          const double      number =
+            value.number(is_length ? value.text.substr(word.size()) : value.text);
+          if (!(number > 0.))
+            value.fail(in_quotes(value.text));
+          distance = SearchDistance();
+          (is_length ? distance.length : distance.by_size) = number;
+        });
       section.add("Quadrature points",
                   "auto",
                   "Points per direction on a cell. auto: as many as needed.",

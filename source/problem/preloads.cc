@@ -53,6 +53,17 @@ namespace mortise
                 sum += normal;
                 number += 1.;
               }
+          const auto n_patches =
+            std::count_if(couplings.sides().begin(),
+                          couplings.sides().end(),
+                          [&](const InterfaceParameters &other) {
+                            return other.name == given.name;
+                          });
+          if (n_patches > 1)
+            run.parameters.fail("Interface " + given.name + "/Preload",
+                                "an interface with edges, in " +
+                                  std::to_string(n_patches) + " smooth patches",
+                                "an interface that is about flat");
           sum    = Utilities::MPI::sum(sum, run.comm);
           number = Utilities::MPI::sum(number, run.comm);
           if (sum.norm() < flat * number)

@@ -72,6 +72,13 @@ namespace mortise
     InterfaceOptions options;
     options.distance             = given.search_distance;
     options.points_per_direction = given.quadrature_points;
+    const auto boundary          = [&](const SideParameters &side) {
+      return [&body = *spaces.bodies[side.body]] {
+        return straight_boundary(body);
+      };
+    };
+    options.slave_boundary  = boundary(given.slave);
+    options.master_boundary = boundary(given.master);
     Coupling coupling;
     coupling.is_spring  = given.law == "spring";
     coupling.is_contact = given.law == "contact";
@@ -112,10 +119,9 @@ namespace mortise
     for (const InterfaceParameters &given : run.parameters.interfaces)
       {
         const auto slave = faces_of(given, given.slave);
+        // tractions jump at edges
         const auto patches =
-          tied_directions(run.parameters, given) == TiedDirections::normal ?
-            smooth_patches(*spaces.bodies[given.slave.body], slave) :
-            std::vector<std::vector<BoundaryFace>>{slave};
+          smooth_patches(*spaces.bodies[given.slave.body], slave);
         for (unsigned int k = 0; k < patches.size(); ++k)
           {
             interfaces.push_back(given);
@@ -136,6 +142,42 @@ namespace mortise
   }
 
   void
+  SceneCouplings::warn_of_mesh_gap(const unsigned int i) const
+  {
+    const InterfaceReport     &report = couplings[i].interface->report();
+    const InterfaceParameters &given  = interfaces[i];
+    const std::string          mean   = RunLog::number(report.gap_mean),
+                      largest         = RunLog::number(report.distance_max),
+                      off_by          = RunLog::number(report.sagitta_mean);
+    const std::string text =
+      "interface " + couplings[i].interface->name() + ": the meshes are " +
+      RunLog::number(report.distance_mean) + " apart in the mean, " + largest +
+      " at most (with signs, " + mean + " in the mean; negative: they overlap)";
+    // straight faces of both sides on one round surface
+    const double facets = 2. * report.sagitta_mean;
+    const double size =
+      std::sqrt(report.slave_area / std::max<double>(1., report.slave_faces));
+    const bool is_rounding = report.distance_max < 1e-6 * size;
+    if (is_rounding)
+      return;
+    if (!couplings[i].is_contact)
+      {
+        if (report.distance_mean > facets + 1e-3 * size)
+          run.log.warning(
+            text + ", which Law = " + given.law +
+            " takes for closed: rotations of the bodies then bring moments that are not there. Allowed: meshes "
+            "that touch; for an interference that is drawn Law = contact, or Offset in its place");
+        return;
+      }
+    if (given.mesh_gap == "real" &&
+        report.sagitta_mean > 0.1 * std::fabs(report.gap_mean))
+      run.log.warning(
+        text + "; straight faces on a round surface are " + off_by +
+        " off by themselves, which is not small beside that. Allowed: finer meshes, Mesh/Curved "
+        "boundaries, or Mesh gap = ignored with an Offset");
+  }
+
+  void
   SceneCouplings::check_overlap(const unsigned int i) const
   {
     const InterfaceReport     &report = couplings[i].interface->report();
@@ -147,12 +189,27 @@ namespace mortise
         side_text(run.parameters, given.slave) + " and " +
         side_text(run.parameters, given.master) +
         " do not meet: no pair of faces overlaps within the search distance of " +
-        RunLog::number(given.search_distance.by_size) +
-        " face sizes. Check positions, names and Search distance");
+        (given.search_distance.length > 0. ?
+           RunLog::number(given.search_distance.length) :
+           RunLog::number(given.search_distance.by_size) + " face sizes") +
+        ", or is seen but through a body. Check positions, names and Search distance");
     if (report.failed_pairs > 0)
       run.log.warning("interface " + name + ": the projection of " +
                       std::to_string(report.failed_pairs) +
                       " pairs of faces did not converge");
+    if (report.largest_coverage > 1. + 1e-6)
+      {
+        std::ostringstream text;
+        text << "Interface " << given.name << ": a face of the slave has "
+             << RunLog::number(report.largest_coverage)
+             << " times its area in partners; worst is the face at "
+             << report.worst_face_centre
+             << ". Parts of " << side_text(run.parameters, given.master)
+             << " lie in several layers before it; allowed: one layer. Make "
+                "those that do not belong to the interface boundaries of their own";
+        throw InputError(text.str());
+      }
+    warn_of_mesh_gap(i);
     if (report.covered_area < 0.999 * report.slave_area)
       {
         std::ostringstream text;
@@ -178,8 +235,8 @@ namespace mortise
                           interfaces.end(),
                           same_interface) == 1)
           continue;
-        run.log.warning("interface " + couplings[i].interface->name() +
-                        ": the surfaces do not meet; nothing is tied");
+        run.log.line("  interface " + couplings[i].interface->name() +
+                     ": this smooth patch of the slave meets no master");
         couplings.erase(couplings.begin() + i);
         interfaces.erase(interfaces.begin() + i);
       }
@@ -238,6 +295,10 @@ namespace mortise
     result.quadrature_points         = report.quadrature_points;
     result.slave_area                = report.slave_area;
     result.covered_area              = report.covered_area;
+    result.gap_mean                  = report.gap_mean;
+    result.distance_mean             = report.distance_mean;
+    result.distance_max              = report.distance_max;
+    result.sagitta_mean              = report.sagitta_mean;
     result.worst_face_coverage_error = report.worst_face_error;
     result.partition_of_unity_error  = errors.partition_of_unity;
     result.linear_completeness_error = errors.linear_completeness;

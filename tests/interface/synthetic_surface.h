@@ -218,7 +218,7 @@ namespace synthetic
           {
             const PairResult pair =
               integrator.integrate(masters[m], degree, degree, points);
-            face.add(pair, points.size());
+            face.add(pair, points);
             if (visitor && pair.status == PairStatus::accepted)
               visitor(slave, masters[m], pair, points);
           }

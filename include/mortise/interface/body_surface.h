@@ -73,6 +73,11 @@ namespace mortise
   SurfaceFace
   face_geometry(const Body &body, const BoundaryFace &face);
 
+  /// The owned faces of the whole boundary, straight between their vertices;
+  /// finalized.
+  std::vector<SurfaceFace>
+  straight_boundary(const Body &body);
+
   /// Numbers of the face's vertices in the mesh, as average_vertex_normals()
   /// takes them.
   std::array<std::uint64_t, 4>

@@ -35,6 +35,10 @@ namespace mortise
 
     void
     resize(const unsigned int n);
+
+    /// Point @p from takes the place of point @p to.
+    void
+    move(unsigned int from, unsigned int to);
   };
 
   /// What became of a pair.
@@ -46,6 +50,7 @@ namespace mortise
                    ///< overlap
     too_far,       ///< the gap exceeds the search fraction of the larger face
                    ///< somewhere
+    hidden,        ///< the partner would be seen through a body
     failed ///< a Newton iteration did not converge: to be counted and reported
   };
 
@@ -126,11 +131,12 @@ namespace mortise
     unsigned int n_points     = 0;
     unsigned int n_failures   = 0; ///< pairs with status failed
     double       max_gap      = 0;
+    double       gap_sum = 0, distance_sum = 0; ///< of gaps and magnitudes, by area
 
     void
     add(const Coverage &other);
 
     void
-    add(const PairResult &pair, const unsigned int n_points);
+    add(const PairResult &pair, const IntegrationPoints &points);
   };
 } // namespace mortise

@@ -5,8 +5,10 @@
 
 #include <mortise/interface/body_surface.h>
 #include <mortise/interface/integration_cells.h>
+#include <mortise/interface/visibility.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +22,9 @@ namespace mortise
     /// Points per direction in an integration cell; absent: by degrees and
     /// geometry.
     std::optional<unsigned int> points_per_direction;
+    /// Owned faces of the whole boundaries of both bodies, asked for where a
+    /// partner might be seen through them; empty: never.
+    std::function<std::vector<SurfaceFace>()> slave_boundary, master_boundary;
   };
 
   /// Totals over all ranks.
@@ -35,6 +40,14 @@ namespace mortise
     std::uint64_t largest_integration_cells = 0; ///< of the busiest rank
     std::uint64_t quadrature_points         = 0;
     std::uint64_t failed_pairs = 0; ///< projections that did not converge
+    /// The gap between the meshes along the normal, positive where they are
+    /// apart, over the covered area: its mean, the mean of its magnitude, the
+    /// largest magnitude.
+    double gap_mean = 0., distance_mean = 0., distance_max = 0.;
+    /// sagitta() of the slave faces, the mean over the covered area.
+    double sagitta_mean = 0.;
+    /// Largest covered part of a face.
+    double largest_coverage = 0.;
     double        slave_area   = 0.;
     double        covered_area = 0.;
     double        worst_face_error =
@@ -113,6 +126,15 @@ namespace mortise
     }
 
   private:
+    /// May a partner be farther away than bodies are thick? Collective.
+    bool
+    may_see_through() const;
+    /// Leaves of @p points those whose partners are seen.
+    void
+    drop_hidden(unsigned int       s,
+                unsigned int       m,
+                PairResult        &pair,
+                IntegrationPoints &points) const;
     /// False where no candidate has the same points as slave face @p s.
     bool
     visit_coinciding(unsigned int       s,
@@ -133,6 +155,7 @@ namespace mortise
     std::vector<SurfaceFace>               near_masters;
     std::vector<FaceTrace>                 near_traces;
     std::vector<std::vector<unsigned int>> candidates; ///< by slave face
+    std::unique_ptr<Visibility>            visibility; ///< where it is needed
     std::vector<double>                    covered_fraction;
     InterfaceReport                        totals;
   };

@@ -16,12 +16,13 @@ namespace mortise
   struct SearchDistance
   {
     double by_size = 0.5; ///< times the size of the larger one
+    double length  = 0.;  ///< if it is positive, in place of that
     double least   = 0.;  ///< a length, however small both are
 
     double
     of(const double size) const
     {
-      return std::max(by_size * size, least);
+      return std::max(length > 0. ? length : by_size * size, least);
     }
   };
 

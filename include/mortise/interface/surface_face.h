@@ -112,6 +112,12 @@ namespace mortise
   double
   face_area(const SurfaceFace &face, const unsigned int n = 0);
 
+  /// How far @p face lies off the smooth surface that it stands for: size times
+  /// angle by 4, the angle that of its own normals at the vertices against
+  /// those averaged over the faces around. Zero where faces meet smoothly.
+  double
+  sagitta(const SurfaceFace &face);
+
   /// The point of a face at reference coordinates @p xi.
   dealii::Point<3>
   face_point(const SurfaceFace &face, const dealii::Point<2> &xi);

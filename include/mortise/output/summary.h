@@ -76,6 +76,10 @@ namespace mortise
     std::uint64_t                 quadrature_points = 0;
     double                        slave_area        = 0.;
     double                        covered_area      = 0.;
+    /// Between the meshes along the slave's normal, over the covered area, see
+    /// InterfaceReport; lengths.
+    double gap_mean = 0., distance_mean = 0., distance_max = 0.,
+           sagitta_mean = 0.;
     std::optional<double>         worst_face_coverage_error;
     std::optional<double>         partition_of_unity_error;
     std::optional<double>         force_residual;

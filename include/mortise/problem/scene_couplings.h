@@ -113,6 +113,9 @@ namespace mortise
   private:
     void
     find_pairs();
+    /// Where the gap between the meshes is not what is meant.
+    void
+    warn_of_mesh_gap(unsigned int i) const;
     /// @p name: of the interface, or of a patch; @p slave: its faces.
     Coupling
     make_coupling(const InterfaceParameters       &given,
