@@ -340,7 +340,11 @@ namespace mortise
         std::to_string(report.iterations) + " iterations, allowed is " +
         RunLog::number(context.parameters.solver.tolerance) +
         ". Results so far are written. " +
-        (report.relative_residual <= report.attainable ?
+        (contact && !contact->settled() ?
+           "Its " + std::to_string(contact->n_sets()) +
+             " sets of multipliers that press did not come to an end. Take the "
+             "finer or the softer side of each contact as slave" :
+         report.relative_residual <= report.attainable ?
            "Rounding leaves up to " + RunLog::number(report.attainable) +
              " whatever the method, since moduli or sizes differ too much" :
            "Raise Solver/Max iterations or try another Solver/Method"));
