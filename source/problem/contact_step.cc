@@ -2,6 +2,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/problem/contact_fall.h>
 #include <mortise/problem/contact_step.h>
 
 #include <algorithm>
@@ -307,6 +308,12 @@ namespace mortise
                   !(extended && next.change.closed > 0) && !next.set.cycles();
         if (tolerance == asked && !next.change.any())
           break;
+        if (tolerance == asked && !next.free.empty())
+          {
+            next.set.start_from(
+              fall(discretisation, load, x, next.set.active()));
+            next.free = free_motions(next.set.active());
+          }
         if (tolerance == asked && !next.free.empty())
           throw InputError("Contact is lost: where it pulls it opens, and what "
                            "still presses holds no longer. " +

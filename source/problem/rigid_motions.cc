@@ -100,7 +100,6 @@ namespace mortise
       {
         const MPI_Comm comm =
           bodies.front()->triangulation().get_communicator();
-        std::vector<Extent> where;
         for (const auto &body : bodies)
           {
             where.push_back(extent(*body));
@@ -117,6 +116,23 @@ namespace mortise
         find_held();
         if (std::find(held.begin(), held.end(), false) != held.end())
           find_free();
+      }
+
+      /// All of them.
+      FreeMotions
+      free_motions() const
+      {
+        FreeMotions result{where, {}};
+        for (const auto &vector : free)
+          {
+            result.motions.emplace_back(place.size(), Motion{});
+            for (unsigned int b = 0; b < place.size(); ++b)
+              if (place[b] >= 0)
+                std::copy_n(vector.begin() + 6 * place[b],
+                            6,
+                            result.motions.back()[b].begin());
+          }
+        return result;
       }
 
       /// Of body @p b: what moves.
@@ -214,6 +230,7 @@ namespace mortise
 
       const std::vector<TieSupport>   &ties;
       const double                     zero; ///< see null_space()
+      std::vector<Extent>              where;
       std::vector<Support>             of_body, of_tie;
       std::vector<std::size_t>         n_multipliers; ///< by tie, of all ranks
       std::vector<bool>                held;
@@ -221,6 +238,15 @@ namespace mortise
       std::vector<std::vector<double>> free;
     };
   } // namespace
+
+  FreeMotions
+  find_free_motions(
+    const Bodies                                       &bodies,
+    const std::vector<std::vector<DirichletCondition>> &dirichlet,
+    const std::vector<TieSupport>                      &ties)
+  {
+    return Supports(bodies, dirichlet, ties).free_motions();
+  }
 
   void
   check_rigid_motions(

@@ -9,6 +9,14 @@
 
 namespace mortise
 {
+  /// Rigid motions that neither Dirichlet conditions nor the multipliers of @p ties
+  /// prevent. Collective.
+  FreeMotions
+  find_free_motions(
+    const Bodies                                       &bodies,
+    const std::vector<std::vector<DirichletCondition>> &dirichlet,
+    const std::vector<TieSupport>                      &ties);
+
   /// Throw InputError (on all ranks) that names the motions which neither
   /// Dirichlet conditions nor the multipliers of the interfaces prevent. @p dirichlet by body.
   /// Collective.

@@ -25,6 +25,13 @@ namespace mortise
     double             size = 0.;
   };
 
+  /// Rigid motions of a scene that nothing prevents.
+  struct FreeMotions
+  {
+    std::vector<Extent>              of_body; ///< what they are about
+    std::vector<std::vector<Motion>> motions; ///< by motion and body
+  };
+
   /// Of the box around the body. Collective.
   Extent
   extent(const Body &body);
