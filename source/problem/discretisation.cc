@@ -27,6 +27,7 @@ namespace mortise
     if (spaces.fields.pressure.numbering.size() > 0)
       system.owned_pressure = spaces.owned_pressure();
     system.owned_multiplier.set_size(0);
+    check_pieces(spaces.bodies, spaces.dirichlet, run.parameters.interfaces);
     if (run.parameters.interfaces.empty())
       check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
     else

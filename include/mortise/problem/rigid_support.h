@@ -5,6 +5,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <mortise/body/boundary_conditions.h>
+#include <mortise/body/pieces.h>
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/scene_system.h>
 
@@ -32,9 +33,23 @@ namespace mortise
     std::vector<std::vector<Motion>> motions; ///< by motion and body
   };
 
-  /// Of the box around the body. Collective.
+  /// The cells of one piece of a body, or all.
+  struct PartOfBody
+  {
+    const Pieces *pieces = nullptr;
+    unsigned int  number = 0;
+
+    bool
+    has(const Body::CellIterator &cell) const
+    {
+      return pieces == nullptr ||
+             pieces->of_cell[cell->active_cell_index()] == number;
+    }
+  };
+
+  /// Of the box around the body, or a part of it. Collective.
   Extent
-  extent(const Body &body);
+  extent(const Body &body, const PartOfBody &part = {});
 
   /// Component @p c of a + w x (position - centre), for position / weight.
   Motion
@@ -89,11 +104,12 @@ namespace mortise
     std::vector<double> sums;
   };
 
-  /// Of the prescribed displacements of one body. Collective.
+  /// Of the prescribed displacements of one body, or a part of it. Collective.
   Support
   support_of(const Body                            &body,
              const std::vector<DirichletCondition> &dirichlet,
-             const Extent                          &where);
+             const Extent                          &where,
+             const PartOfBody                      &part = {});
 
   /// What an interface does against the relative motion of two bodies.
   struct TieSupport
