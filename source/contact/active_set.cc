@@ -78,10 +78,11 @@ namespace mortise
     for (unsigned int i = 0; i < now.size(); ++i)
       if (one_sided[i])
         {
-          const double value = now[i] ? multiplier[i] : gap[i],
-                       small = now[i] ? least :
-                                        std::max(least / stiffness[i],
-                                                 rounding_of_gaps * length);
+          const double value    = now[i] ? multiplier[i] : gap[i],
+                       rounding = rounding_of_gaps * length,
+                       small    = now[i] ?
+                                    std::max(least, rounding * stiffness[i]) :
+                                    std::max(least / stiffness[i], rounding);
           turns[i]           = value < -small;
           unclear[i]         = !turns[i] && value <= small;
         }

@@ -297,7 +297,8 @@ namespace mortise
     const auto           dependent =
       find_dependent_multipliers(system.coupling,
                                  residual.inverse_diagonal_u(),
-                                 residual.inverse_diagonal_lambda());
+                                 residual.inverse_diagonal_lambda(),
+                                 system.spring_compliance);
     if (!dependent.empty())
       throw InputError(
         "Interfaces tie the same displacements more than once, so that tractions "
