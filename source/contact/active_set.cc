@@ -16,6 +16,19 @@ namespace mortise
   {
     /// Less than that of a length is rounding.
     constexpr double rounding_of_gaps = 1e-13;
+
+    /// Sets in turn without fewer violations.
+    constexpr unsigned int max_patience = 8;
+
+    /// Less than that of the largest pressure is rounding.
+    constexpr double rounding_of_pressures = 1e-13;
+
+    std::uint64_t
+    count(const std::vector<bool> &flags, const MPI_Comm comm)
+    {
+      const std::uint64_t mine = std::count(flags.begin(), flags.end(), true);
+      return Utilities::MPI::sum(mine, comm);
+    }
   } // namespace
 
   ActiveSet::ActiveSet(std::vector<bool>             one_sided,
@@ -26,16 +39,20 @@ namespace mortise
     , stiffness(std::move(stiffness))
     , first(first)
     , comm(comm)
-    , now(this->one_sided.size(), true)
     , unclear(this->one_sided.size(), false)
-  {}
+  {
+    start_from(std::vector<bool>(this->one_sided.size(), true));
+  }
 
   void
   ActiveSet::start_from(const std::vector<bool> &active)
   {
     now = active;
     seen.clear();
-    one_by_one = false;
+    descending = false;
+    falling.clear();
+    fewest   = std::numeric_limits<std::uint64_t>::max();
+    patience = max_patience;
   }
 
   ActiveSet::Change
@@ -61,35 +78,41 @@ namespace mortise
     for (unsigned int i = 0; i < now.size(); ++i)
       if (one_sided[i])
         {
-          const double value = now[i] ? multiplier[i] : gap[i],
-                       small = now[i] ? least :
-                                        std::max(least / stiffness[i],
-                                                 rounding_of_gaps * length);
+          const double value    = now[i] ? multiplier[i] : gap[i],
+                       rounding = rounding_of_gaps * length,
+                       small    = now[i] ?
+                                    std::max(least, rounding * stiffness[i]) :
+                                    std::max(least / stiffness[i], rounding);
           turns[i]           = value < -small;
           unclear[i]         = !turns[i] && value <= small;
         }
-    const auto none = std::numeric_limits<types::global_dof_index>::max();
-    const auto mine = std::find(turns.begin(), turns.end(), true);
-    const auto least_wrong = Utilities::MPI::min(
-      mine == turns.end() ? none : first + (mine - turns.begin()), comm);
     const std::vector<bool> before = now;
-    const auto              turn   = [&] {
+    const auto              turn   = [&](const std::vector<bool> &those) {
       for (unsigned int i = 0; i < now.size(); ++i)
-        now[i] = before[i] != turns[i];
+        now[i] = before[i] != those[i];
     };
-    if (!one_by_one && least_wrong != none)
+    if (const auto n_wrong = count(turns, comm); !descending && n_wrong > 0)
       {
+        std::vector<bool> more = turns;
         if (extend)
-          extend(turns);
-        turn();
-        if (seen.count(fingerprint()) > 0)
-          one_by_one = true;
+          extend(more);
+        turn(more);
+        if (n_wrong < fewest)
+          {
+            fewest   = n_wrong;
+            patience = max_patience;
+          }
+        else
+          --patience;
+        if (patience == 0 || seen.count(fingerprint()) > 0)
+          descending = true;
+        else
+          turns = std::move(more);
       }
-    if (one_by_one)
+    if (descending)
       {
-        for (unsigned int i = 0; i < now.size(); ++i)
-          turns[i] = first + i == least_wrong;
-        turn();
+        descend(multiplier, before, rounding_of_pressures * largest[0], turns);
+        turn(turns);
       }
     std::uint64_t counts[3] = {0, 0, 0}, sums[3];
     for (unsigned int i = 0; i < now.size(); ++i)
@@ -100,6 +123,37 @@ namespace mortise
       }
     MPI_Allreduce(counts, sums, 3, MPI_UINT64_T, MPI_SUM, comm);
     return {sums[0], sums[1], sums[2]};
+  }
+
+  void
+  ActiveSet::descend(const double            *multiplier,
+                     const std::vector<bool> &before,
+                     const double             rounding,
+                     std::vector<bool>       &turns)
+  {
+    std::vector<bool> pulls(turns);
+    for (unsigned int i = 0; i < pulls.size(); ++i)
+      pulls[i] = pulls[i] && before[i];
+    const bool none_pulls = count(pulls, comm) == 0;
+    if (!none_pulls)
+      turns = pulls;
+    double length = 1.;
+    if (none_pulls)
+      falling.assign(before.size(), 0.);
+    else if (falling.size() < before.size())
+      length = 0.; // none yet: all that pull open
+    else
+      for (unsigned int i = 0; i < falling.size(); ++i)
+        if (pulls[i])
+          length = std::min(length, falling[i] / (falling[i] - multiplier[i]));
+    length = Utilities::MPI::min(length, comm);
+    for (unsigned int i = 0; i < falling.size(); ++i)
+      if (one_sided[i] && before[i])
+        {
+          falling[i] = std::max(0., falling[i] + length * (multiplier[i] - falling[i]));
+          if (!none_pulls)
+            turns[i] = pulls[i] && falling[i] <= rounding;
+        }
   }
 
   std::uint64_t

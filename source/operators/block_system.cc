@@ -36,6 +36,20 @@ namespace mortise
     return force * u;
   }
 
+  double
+  BlockSystem::energy_product(const SystemVector &x) const
+  {
+    double result = stiffness_product(x.displacement);
+    if (has_springs())
+      {
+        Vector opening(x.multiplier);
+        spring_compliance.vmult(opening, x.multiplier);
+        clear_inactive(opening.begin());
+        result += opening * x.multiplier;
+      }
+    return result;
+  }
+
   void
   BlockSystem::apply_mixed(Vector       &dst_u,
                            Vector       &dst_p,

@@ -6,6 +6,7 @@
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/mortar/penetration.h>
 #include <mortise/problem/contact_results.h>
+#include <mortise/problem/rigid_support.h>
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,9 @@ namespace mortise
   {
     /// Beside how far sides move: a user should know.
     constexpr double large_penetration = 0.1;
+
+    /// Of the size of a body.
+    constexpr double rounding_of_places = 1e-14;
 
     /// Of all interfaces, by owned multiplier.
     struct ContactState
@@ -61,8 +65,8 @@ namespace mortise
           const bool              active = state.status.begin()[first + k] > 0.;
           const double            pressure = state.pressure.begin()[first + k];
           least = std::min(least, state.gap.begin()[first + k]);
-          ++(active ? result.active : result.inactive);
           result.undecided += undecided[first + k] ? 1 : 0;
+          ++(active ? result.active : result.inactive);
           if (!active)
             continue;
           result.area += of.area;
@@ -208,7 +212,17 @@ namespace mortise
                                   {solved.data.offset(given),
                                    given.mesh_gap == "real"},
                                   run.comm);
-            if (contact.penetration_max > large_penetration * moved)
+            if (contact.undecided > 0)
+              run.log.warning(
+                "interface " + given.name + ": at " +
+                std::to_string(contact.undecided) + " of " +
+                std::to_string(contact.active + contact.inactive) +
+                " nodes the sides neither press nor are apart by more than rounding, so that "
+                "the area in contact is not determined there");
+            if (contact.penetration_max > large_penetration * moved &&
+                contact.penetration_max >
+                  rounding_of_places *
+                    extent(*discretisation.bodies()[given.slave.body]).size)
               run.log.warning(
                 "interface " + given.name + ": the bodies overlap by up to " +
                 RunLog::number(contact.penetration_max) +

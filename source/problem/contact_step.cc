@@ -2,6 +2,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
+#include <mortise/problem/contact_fall.h>
 #include <mortise/problem/contact_step.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace mortise
 
   namespace
   {
-    constexpr unsigned int max_sets = 100;
+    constexpr unsigned int max_sets = 1000;
 
     /// Of solves on the way to the set: doc/contact.md.
     constexpr double loose = 1e-2;
@@ -242,7 +243,7 @@ namespace mortise
                  std::to_string(change.closed) + " close, " +
                  std::to_string(change.undecided) + " undecided, " +
                  std::to_string(n_iterations) + " iterations" +
-                 (set.cycles() ? ", one by one since sets came back" : ""));
+                 (set.cycles() ? ", by the energy since sets came back" : ""));
   }
 
   ContactStep::Next
@@ -293,7 +294,8 @@ namespace mortise
         setup_seconds += report.setup_seconds;
         solve_seconds += report.solve_seconds;
         iterations += report.iterations;
-        report.converged = report.converged && sets <= max_sets;
+        is_settled       = sets <= max_sets;
+        report.converged = report.converged && is_settled;
         if (!report.converged)
           break;
         Next next = advance(load, x, tolerance, extends && tolerance > asked);
@@ -306,6 +308,12 @@ namespace mortise
                   !(extended && next.change.closed > 0) && !next.set.cycles();
         if (tolerance == asked && !next.change.any())
           break;
+        if (tolerance == asked && !next.free.empty())
+          {
+            next.set.start_from(
+              fall(discretisation, load, x, next.set.active()));
+            next.free = free_motions(next.set.active());
+          }
         if (tolerance == asked && !next.free.empty())
           throw InputError("Contact is lost: where it pulls it opens, and what "
                            "still presses holds no longer. " +

@@ -27,6 +27,7 @@ namespace mortise
     if (spaces.fields.pressure.numbering.size() > 0)
       system.owned_pressure = spaces.owned_pressure();
     system.owned_multiplier.set_size(0);
+    check_pieces(spaces.bodies, spaces.dirichlet, run.parameters.interfaces);
     if (run.parameters.interfaces.empty())
       check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
     else
@@ -296,7 +297,8 @@ namespace mortise
     const auto           dependent =
       find_dependent_multipliers(system.coupling,
                                  residual.inverse_diagonal_u(),
-                                 residual.inverse_diagonal_lambda());
+                                 residual.inverse_diagonal_lambda(),
+                                 system.spring_compliance);
     if (!dependent.empty())
       throw InputError(
         "Interfaces tie the same displacements more than once, so that tractions "

@@ -3,6 +3,7 @@
 #include <mortise/problem/discretisation.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace mortise
 {
@@ -77,6 +78,35 @@ namespace mortise
           gap += couplings.all()[i].multipliers->n_owned();
       }
     return result;
+  }
+
+  SystemVector
+  Discretisation::rigid_motion(const FreeMotions &free,
+                               const unsigned int k) const
+  {
+    std::vector<BodySolution> moved = zero_solutions(spaces.bodies);
+    for (const auto &body : spaces.bodies)
+      {
+        BodyVector   &u      = moved[body->index].displacement;
+        const Motion &motion = free.motions[k][body->index];
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const unsigned int v : cell->vertex_indices())
+              for (unsigned int c = 0; c < dim; ++c)
+                if (const auto dof =
+                      cell->vertex_dof_index(v, c, cell->active_fe_index());
+                    u.in_local_range(dof))
+                  {
+                    const Motion row =
+                      row_of(free.of_body[body->index], c, cell->vertex(v));
+                    u(dof) = std::inner_product(row.begin(),
+                                                row.end(),
+                                                motion.begin(),
+                                                0.);
+                  }
+        u.update_ghost_values();
+      }
+    return mortise::system_vector(spaces.fields, system, {}, moved);
   }
 
   void

@@ -90,4 +90,38 @@ namespace mortise
         finder.look(name, value);
     return finder.found;
   }
+
+  std::string
+  not_converged(const SolveReport &report,
+                const double       tolerance,
+                const unsigned int n_sets)
+  {
+    const std::string other =
+      report.method == "direct" ? "" : ", or try Solver/Method = direct";
+    std::ostringstream text;
+    if (!report.prepared)
+      {
+        text << "The solver (" << report.method
+             << ") could not be set up: its factorisation meets a pivot that is not positive, as "
+                "where something moves that nothing holds, or moduli or sizes "
+                "differ beyond rounding. No result is known. Check what holds "
+                "each part of the bodies"
+             << other;
+        return text.str();
+      }
+    text << "The solver (" << report.method
+         << ") did not converge: relative residual " << report.relative_residual
+         << " after " << report.iterations << " iterations, allowed is "
+         << tolerance << ". Results so far are written. ";
+    if (n_sets > 0)
+      text << "Its " << n_sets
+           << " sets of multipliers that press did not come to an end. Take "
+              "the finer or the softer side of each contact as slave";
+    else if (report.relative_residual <= report.attainable)
+      text << "Rounding leaves up to " << report.attainable
+           << " whatever the method, since moduli or sizes differ too much";
+    else
+      text << "Raise Solver/Max iterations or try another Solver/Method";
+    return text.str();
+  }
 } // namespace mortise

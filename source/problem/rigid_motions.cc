@@ -1,9 +1,12 @@
 #include <mortise/base/error.h>
+#include <mortise/body/pieces.h>
 #include <mortise/problem/rigid_motions.h>
+#include <mortise/problem/scene_spaces.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <sstream>
 
 namespace mortise
 {
@@ -81,6 +84,44 @@ namespace mortise
       return text;
     }
 
+    /// By piece of @p body: how many of its faces are on sides of interfaces. Collective.
+    std::vector<unsigned int>
+    faces_in_interfaces(const Bodies                           &bodies,
+                        const Body                             &body,
+                        const Pieces                           &pieces,
+                        const std::vector<InterfaceParameters> &interfaces)
+    {
+      std::vector<unsigned int> n(pieces.n, 0);
+      for (const InterfaceParameters &interface : interfaces)
+        for (const SideParameters *side : {&interface.slave, &interface.master})
+          if (side->body == body.index)
+            for (const BoundaryFace &face :
+                 side_faces(bodies, *side, "Interface " + interface.name))
+              ++n[pieces.of_cell[face.cell->active_cell_index()]];
+      Utilities::MPI::sum(n, body.triangulation().get_communicator(), n);
+      return n;
+    }
+
+    /// In words, where prescribed displacements alone hold the part. Collective.
+    std::string
+    free_motions_of_part(const Body                            &body,
+                         const std::vector<DirichletCondition> &dirichlet,
+                         const Extent                          &where,
+                         const PartOfBody                      &part)
+    {
+      RigidMatrix matrix(6, 6);
+      matrix = 0.;
+      add_block(
+        matrix, 0, 0, support_of(body, dirichlet, where, part), 0, 0);
+      std::vector<Motion> motions;
+      for (const auto &vector : null_space(matrix, zero_support))
+        {
+          motions.emplace_back();
+          std::copy_n(vector.begin(), 6, motions.back().begin());
+        }
+      return describe(motions);
+    }
+
     /// What holds the bodies.
     class Supports
     {
@@ -100,7 +141,6 @@ namespace mortise
       {
         const MPI_Comm comm =
           bodies.front()->triangulation().get_communicator();
-        std::vector<Extent> where;
         for (const auto &body : bodies)
           {
             where.push_back(extent(*body));
@@ -117,6 +157,23 @@ namespace mortise
         find_held();
         if (std::find(held.begin(), held.end(), false) != held.end())
           find_free();
+      }
+
+      /// All of them.
+      FreeMotions
+      free_motions() const
+      {
+        FreeMotions result{where, {}};
+        for (const auto &vector : free)
+          {
+            result.motions.emplace_back(place.size(), Motion{});
+            for (unsigned int b = 0; b < place.size(); ++b)
+              if (place[b] >= 0)
+                std::copy_n(vector.begin() + 6 * place[b],
+                            6,
+                            result.motions.back()[b].begin());
+          }
+        return result;
       }
 
       /// Of body @p b: what moves.
@@ -214,6 +271,7 @@ namespace mortise
 
       const std::vector<TieSupport>   &ties;
       const double                     zero; ///< see null_space()
+      std::vector<Extent>              where;
       std::vector<Support>             of_body, of_tie;
       std::vector<std::size_t>         n_multipliers; ///< by tie, of all ranks
       std::vector<bool>                held;
@@ -221,6 +279,59 @@ namespace mortise
       std::vector<std::vector<double>> free;
     };
   } // namespace
+
+  void
+  check_pieces(const Bodies                                       &bodies,
+               const std::vector<std::vector<DirichletCondition>> &dirichlet,
+               const std::vector<InterfaceParameters>             &interfaces)
+  {
+    constexpr unsigned int max_named = 3;
+    std::string            message;
+    unsigned int           n_free = 0;
+    for (const auto &body : bodies)
+      {
+        const Pieces pieces = find_pieces(*body);
+        if (pieces.n == 1)
+          continue;
+        const auto n_tied = faces_in_interfaces(bodies, *body, pieces, interfaces);
+        for (unsigned int k = 0; k < pieces.n; ++k)
+          {
+            if (n_tied[k] > 0)
+              continue;
+            const PartOfBody  part{&pieces, k};
+            const Extent      where = extent(*body, part);
+            const std::string motions =
+              free_motions_of_part(*body, dirichlet[body->index], where, part);
+            if (motions.empty() || ++n_free > max_named)
+              continue;
+            std::ostringstream text;
+            text << (message.empty() ? "" : "; ") << "the piece of body "
+                 << body->name << " around (" << where.centre << "), one of "
+                 << pieces.n << " that share no node, can move freely: "
+                 << motions;
+            message += text.str();
+          }
+      }
+    if (n_free > max_named)
+      message += "; and " + std::to_string(n_free - max_named) + " more";
+    if (n_free > 0)
+      throw InputError(
+        "Boundary conditions and interfaces leave rigid motions free: " +
+        message +
+        ". Prescribe displacements (Boundary ... / Displacement) that prevent "
+        "them, let solids that touch share their faces (gmsh: Coherence, or "
+        "BooleanFragments), or make the pieces bodies and tie them by an "
+        "interface");
+  }
+
+  FreeMotions
+  find_free_motions(
+    const Bodies                                       &bodies,
+    const std::vector<std::vector<DirichletCondition>> &dirichlet,
+    const std::vector<TieSupport>                      &ties)
+  {
+    return Supports(bodies, dirichlet, ties).free_motions();
+  }
 
   void
   check_rigid_motions(

@@ -11,12 +11,12 @@ namespace mortise
   using namespace dealii;
 
   Extent
-  extent(const Body &body)
+  extent(const Body &body, const PartOfBody &part)
   {
     std::vector<double> lower(dim, std::numeric_limits<double>::max()),
       upper(dim, -lower[0]);
     for (const auto &cell : body.dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
+      if (cell->is_locally_owned() && part.has(cell))
         for (const unsigned int v : cell->vertex_indices())
           for (unsigned int c = 0; c < dim; ++c)
             {
@@ -68,12 +68,13 @@ namespace mortise
   Support
   support_of(const Body                            &body,
              const std::vector<DirichletCondition> &dirichlet,
-             const Extent                          &where)
+             const Extent                          &where,
+             const PartOfBody                      &part)
   {
     Support support(1);
     for (const DirichletCondition &condition : dirichlet)
       for (const auto &[cell, f] : boundary_faces(body, condition.boundary))
-        if (cell->is_locally_owned())
+        if (cell->is_locally_owned() && part.has(cell))
           for (const unsigned int v : cell->face(f)->vertex_indices())
             for (unsigned int c = 0; c < dim; ++c)
               if (condition.fixed[c])

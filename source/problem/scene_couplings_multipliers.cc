@@ -217,8 +217,8 @@ namespace mortise
       supports = std::move(ties);
   }
 
-  void
-  SceneCouplings::check_held(const std::vector<bool> &active) const
+  std::vector<TieSupport>
+  SceneCouplings::supports_of(const std::vector<bool> &active) const
   {
     auto         ties  = supports;
     unsigned int first = 0;
@@ -231,7 +231,21 @@ namespace mortise
         first += tie.multipliers.size();
         tie.multipliers = std::move(pressing);
       }
-    check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
+    return ties;
+  }
+
+  void
+  SceneCouplings::check_held(const std::vector<bool> &active) const
+  {
+    check_rigid_motions(spaces.bodies, spaces.dirichlet, supports_of(active));
+  }
+
+  FreeMotions
+  SceneCouplings::free_motions(const std::vector<bool> &active) const
+  {
+    return find_free_motions(spaces.bodies,
+                             spaces.dirichlet,
+                             supports_of(active));
   }
 
   void

@@ -2,6 +2,8 @@
 
 #include <mortise/base/error.h>
 #include <mortise/problem/formulation.h>
+#include <mortise/problem/interface_law.h>
+#include <mortise/problem/rigid_support.h>
 #include <mortise/problem/scene_spaces.h>
 
 #include <algorithm>
@@ -119,6 +121,31 @@ namespace mortise
       return constraints;
     }
 
+    /// The least that a spring carries per area when a body moves by its size,
+    /// a modulus; stiffnesses of zero carry nothing. Collective.
+    double
+    softest_spring(const RunContext &run, const Bodies &bodies)
+    {
+      double softest = std::numeric_limits<double>::max();
+      for (const InterfaceParameters &interface : run.parameters.interfaces)
+        if (const auto stiffness = spring_stiffness(run.parameters, interface))
+          {
+            const double size = extent(*bodies[interface.slave.body]).size;
+            for (const BoundaryFace &face :
+                 side_faces(bodies,
+                            interface.slave,
+                            "Interface " + interface.name))
+              {
+                const Stiffness at =
+                  stiffness(face.cell->face(face.number)->center());
+                for (const double k : {at.normal, at.tangential})
+                  if (k > 0.)
+                    softest = std::min(softest, k * size);
+              }
+          }
+      return Utilities::MPI::min(softest, run.comm);
+    }
+
     /// The method, and the nodal spaces that it needs.
     void
     choose_method(const RunContext &run, SceneSpaces &spaces)
@@ -136,7 +163,8 @@ namespace mortise
         choose_solver(run.parameters.solver.method,
                       {spaces.fields.displacement.numbering.size(),
                        mixed,
-                       stiffest / softest});
+                       stiffest / softest,
+                       stiffest / softest_spring(run, spaces.bodies)});
       spaces.nodal = make_nodal_spaces(scene, run.comm);
       if (spaces.choice.method == SolverMethod::direct)
         spaces.nodal.resize(1);

@@ -334,16 +334,9 @@ namespace mortise
                        interruption::what_is_complete());
     if (!report.converged)
       throw ConvergenceError(
-        "The solver (" + report.method +
-        ") did not converge: relative residual " +
-        RunLog::number(report.relative_residual) + " after " +
-        std::to_string(report.iterations) + " iterations, allowed is " +
-        RunLog::number(context.parameters.solver.tolerance) +
-        ". Results so far are written. " +
-        (report.relative_residual <= report.attainable ?
-           "Rounding leaves up to " + RunLog::number(report.attainable) +
-             " whatever the method, since moduli or sizes differ too much" :
-           "Raise Solver/Max iterations or try another Solver/Method"));
+        not_converged(report,
+                      context.parameters.solver.tolerance,
+                      contact && !contact->settled() ? contact->n_sets() : 0));
     if (adaptivity && !adaptivity->reached())
       throw ConvergenceError(adaptivity->missed());
   }

@@ -107,7 +107,10 @@ namespace mortise
     if (valid)
       run(scaled, x, is_zero, report);
     else
-      report.relative_residual = 1.;
+      {
+        report.prepared          = false;
+        report.relative_residual = 1.;
+      }
     scale(x, 1. / factor);
     if (report.converged)
       remember(rhs, x);

@@ -18,6 +18,9 @@ namespace mortise
     /// A stiff body that a soft one holds: preconditioners in single precision
     /// see how it moves up to a contrast of 1e7 (tests/solvers/contrast.cc).
     constexpr double largest_contrast = 1e6;
+    /// Bodies that springs hold, in double precision up to 1e10: fewer
+    /// iterations are lost than a factorisation costs.
+    constexpr double largest_contrast_of_springs = 1e9;
   } // namespace
 
   std::vector<std::string>
@@ -46,6 +49,11 @@ namespace mortise
         scene.n_displacements <= max_direct_dofs)
       return {SolverMethod::direct,
               "chosen since moduli differ by more than a million"};
+    if (scene.contrast_of_springs > largest_contrast_of_springs &&
+        scene.n_displacements <= max_direct_dofs)
+      return {SolverMethod::direct,
+              "chosen since springs are softer than bodies by more than a "
+              "thousand million"};
     if (scene.mixed)
       return {SolverMethod::saddle_point, "chosen in mixed form"};
     return {SolverMethod::condensed, "chosen in displacement form"};

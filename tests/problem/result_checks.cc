@@ -109,6 +109,35 @@ namespace
                       {what.str(), "other units"});
       }
   }
+  /// What a solve lacks: the reason, and no advice that does not help.
+  void
+  test_not_converged()
+  {
+    SolveReport report;
+    report.method            = "condensed";
+    report.relative_residual = 1.;
+    report.prepared          = false;
+    const auto has = [](const std::string &text, const std::string &part) {
+      return text.find(part) != std::string::npos;
+    };
+    std::string text = not_converged(report, 1e-10, 0);
+    verdict(has(text, "could not be set up") && has(text, "direct") &&
+              !has(text, "Max iterations"),
+            "a set-up that failed",
+            text);
+    report.method = "direct";
+    text          = not_converged(report, 1e-10, 0);
+    verdict(has(text, "could not be set up") && !has(text, "Method"),
+            "a factorisation that failed",
+            text);
+    report.prepared = true;
+    text            = not_converged(report, 1e-10, 1001);
+    verdict(has(text, "1001 sets") && !has(text, "Max iterations"),
+            "sets without end",
+            text);
+    verdict(has(not_converged(report, 1e-10, 0), "Raise Solver/Max iterations"),
+            "too few iterations");
+  }
 } // namespace
 
 int
@@ -116,6 +145,7 @@ main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   test_results();
+  test_not_converged();
   test_loads();
   return 0;
 }

@@ -49,9 +49,8 @@ namespace mortise
 
     /// Go to the next set from what solves the equations of this one: active
     /// multipliers that pull open, gaps that are negative close. When a set
-    /// comes back, from then on only the first of these does, which ends
-    /// whatever the gaps' matrix is, as long as its
-    /// principal minors are positive. Source: Murty (1974).
+    /// comes back, or eight in turn have no fewer violations than one before,
+    /// the energy decides from then on: see descend().
     ///
     /// @p multiplier: by owned one, a pressure; @p gap: a length; @p length: what rounding of gaps is
     /// relative to; @p accuracy: of both, relative to the largest pressure. @p extend: may add to those
@@ -70,11 +69,11 @@ namespace mortise
       return unclear;
     }
 
-    /// Has a set come back since the start?
+    /// Have sets come back since the start?
     bool
     cycles() const
     {
-      return one_by_one;
+      return descending;
     }
 
     /// Active ones among those that may press only, of all ranks. Collective.
@@ -84,6 +83,18 @@ namespace mortise
   private:
     std::uint64_t
     fingerprint() const;
+    /// Keeps pressures that press everywhere and whose complementary energy
+    /// falls from set to set, so that none comes back. They are those of a set
+    /// where nothing pulls; then all gaps that overlap close. Where a set pulls,
+    /// they go towards its pressures until the first is zero, and what pulls and
+    /// is zero opens. Source: Lawson and Hanson (1974), several at a time as
+    /// far as it goes. @p before: the set of these multipliers; @p rounding: of pressures;
+    /// @p turns: those that violate, then those to turn. Collective.
+    void
+    descend(const double            *multiplier,
+            const std::vector<bool> &before,
+            double                   rounding,
+            std::vector<bool>       &turns);
 
     std::vector<bool>               one_sided;
     std::vector<double>             stiffness;
@@ -91,6 +102,9 @@ namespace mortise
     MPI_Comm                        comm;
     std::vector<bool>               now, unclear;
     std::set<std::uint64_t>         seen; ///< fingerprints
-    bool                            one_by_one = false;
+    std::uint64_t                   fewest;   ///< violations since the start
+    unsigned int                    patience; ///< sets until there are fewer
+    bool                            descending;
+    std::vector<double> falling; ///< see descend(); empty at its beginning
   };
 } // namespace mortise

@@ -85,6 +85,10 @@ namespace mortise
     double
     stiffness_product(const Vector &u) const;
 
+    /// Twice the energy of what bodies and springs carry. Collective.
+    double
+    energy_product(const SystemVector &x) const;
+
     /// dst_u = K u + G^T p, dst_p = G u - C p, the latter without the parts
     /// that belong to free constants. Collective.
     void

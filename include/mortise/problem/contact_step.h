@@ -31,7 +31,7 @@ namespace mortise
     /// the constructor was told, or where the gap is closed before anything
     /// moves; all where these do not hold the bodies. On the way linear solves
     /// are as loose as the choice of the next set allows. The report is that of
-    /// the last one, its seconds those of all; not converged after 100 sets.
+    /// the last one, its seconds those of all; not converged after 1000 sets.
     /// Throws InputError that names body and motion where contact is lost.
     /// Collective.
     SolveReport
@@ -50,6 +50,13 @@ namespace mortise
     n_sets() const
     {
       return sets;
+    }
+
+    /// Likewise: did the sets come to an end?
+    bool
+    settled() const
+    {
+      return is_settled;
     }
 
     /// Likewise, by owned multiplier: neither pressure nor gap.
@@ -124,6 +131,7 @@ namespace mortise
 
     unsigned int      sets = 0, iterations = 0;
     std::vector<bool> unclear;
+    bool              is_settled = true;
     bool              is_shown = false;
     bool          cold = true; ///< does the first set of the step know little?
     std::uint64_t n_shown = 0; ///< of the set that coarse levels see

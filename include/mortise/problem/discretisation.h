@@ -69,6 +69,10 @@ namespace mortise
     Vector
     gaps(const SceneLoad &load, const SystemVector &x) const;
 
+    /// Motion @p k of @p free as unknowns: exact at vertices, and linear between them. Collective.
+    SystemVector
+    rigid_motion(const FreeMotions &free, unsigned int k) const;
+
     /// The solution by body. Collective.
     std::vector<BodySolution>
     solutions(const SceneLoad &load, const SystemVector &solution) const;

@@ -4,6 +4,7 @@
 
 #include <mortise/operators/block_system.h>
 #include <mortise/output/summary.h>
+#include <mortise/solvers/solve_report.h>
 
 #include <string>
 
@@ -19,4 +20,11 @@ namespace mortise
   /// all are.
   std::string
   first_not_finite(const StepSummary &step);
+
+  /// What a solve that ended with @p report lacks of @p tolerance, and what to do about it. @p n_sets:
+  /// of contact, where these did not come to an end.
+  std::string
+  not_converged(const SolveReport &report,
+                double             tolerance,
+                unsigned int       n_sets);
 } // namespace mortise

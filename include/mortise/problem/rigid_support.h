@@ -5,6 +5,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <mortise/body/boundary_conditions.h>
+#include <mortise/body/pieces.h>
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/scene_system.h>
 
@@ -25,9 +26,30 @@ namespace mortise
     double             size = 0.;
   };
 
-  /// Of the box around the body. Collective.
+  /// Rigid motions of a scene that nothing prevents.
+  struct FreeMotions
+  {
+    std::vector<Extent>              of_body; ///< what they are about
+    std::vector<std::vector<Motion>> motions; ///< by motion and body
+  };
+
+  /// The cells of one piece of a body, or all.
+  struct PartOfBody
+  {
+    const Pieces *pieces = nullptr;
+    unsigned int  number = 0;
+
+    bool
+    has(const Body::CellIterator &cell) const
+    {
+      return pieces == nullptr ||
+             pieces->of_cell[cell->active_cell_index()] == number;
+    }
+  };
+
+  /// Of the box around the body, or a part of it. Collective.
   Extent
-  extent(const Body &body);
+  extent(const Body &body, const PartOfBody &part = {});
 
   /// Component @p c of a + w x (position - centre), for position / weight.
   Motion
@@ -82,11 +104,12 @@ namespace mortise
     std::vector<double> sums;
   };
 
-  /// Of the prescribed displacements of one body. Collective.
+  /// Of the prescribed displacements of one body, or a part of it. Collective.
   Support
   support_of(const Body                            &body,
              const std::vector<DirichletCondition> &dirichlet,
-             const Extent                          &where);
+             const Extent                          &where,
+             const PartOfBody                      &part = {});
 
   /// What an interface does against the relative motion of two bodies.
   struct TieSupport

@@ -57,6 +57,10 @@ namespace mortise
     void
     check_held(const std::vector<bool> &active) const;
 
+    /// Those that @p active multipliers, by owned one, leave. Collective.
+    FreeMotions
+    free_motions(const std::vector<bool> &active) const;
+
     /// Does an interface let bodies slide?
     bool
     slide() const
@@ -145,6 +149,9 @@ namespace mortise
     number_multipliers();
     std::vector<TieSupport>
     tie_supports() const;
+    /// The ties of active multipliers, in scenes with contact.
+    std::vector<TieSupport>
+    supports_of(const std::vector<bool> &active) const;
     /// Throws InputError where constant tractions do not pass interface @p i, though its master
     /// could follow. @p states: of its slave faces.
     void

@@ -18,6 +18,8 @@ namespace mortise
     dealii::types::global_dof_index n_displacements;
     bool                            mixed;    ///< has pressures
     double                          contrast; ///< largest ratio of moduli
+    /// Likewise, of moduli to what springs carry, stiffness times length.
+    double contrast_of_springs = 1.;
   };
 
   /// The method for a scene: what was asked for, else the one that measurements

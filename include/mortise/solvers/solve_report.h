@@ -17,6 +17,7 @@ namespace mortise
     /// tolerance was reached, so that it was not looked at.
     double attainable    = 0.;
     bool   converged     = false;
+    bool   prepared      = true; ///< did the set-up give a preconditioner?
     double setup_seconds = 0.; ///< since the last report
     double solve_seconds = 0.;
   };

@@ -164,8 +164,8 @@ namespace mortise
       }
     const auto relative_error = [&] {
       return factors->solve(r, correction) ?
-               std::sqrt(system.stiffness_product(correction.displacement) /
-                         system.stiffness_product(x.displacement)) :
+               std::sqrt(system.energy_product(correction) /
+                         system.energy_product(x)) :
                1.;
     };
     residual->judge({rhs, x, r}, options.tolerance, relative_error, report);

@@ -9,7 +9,8 @@ namespace mortise
   std::vector<dealii::types::global_dof_index>
   find_dependent_multipliers(const CouplingMatrix &coupling,
                              const Epetra_Vector  &inverse_diagonal,
-                             const Epetra_Vector  &scale)
+                             const Epetra_Vector  &scale,
+                             const SparseMatrix   &compliance)
   {
     const auto root = [](const Epetra_Vector &square) {
       Epetra_Vector result(square);
@@ -22,6 +23,14 @@ namespace mortise
     B.RightScale(root(inverse_diagonal));
     Epetra_CrsMatrix C(Copy, B.RowMap(), 0);
     EpetraExt::MatrixMatrix::Multiply(B, false, B, true, C);
+    if (compliance.m() > 0)
+      {
+        Epetra_Vector diagonal(C.RowMap()), opening(diagonal);
+        C.ExtractDiagonalCopy(diagonal);
+        compliance.trilinos_matrix().ExtractDiagonalCopy(opening);
+        diagonal.Multiply(1., scale, opening, 1.);
+        C.ReplaceDiagonalValues(diagonal);
+      }
     MumpsFactorisation factorisation;
     factorisation.initialize(C, MatrixKind::positive_semidefinite);
     return factorisation.null_rows();

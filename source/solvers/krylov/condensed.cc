@@ -40,11 +40,11 @@ namespace mortise
         , no_offset(y)
       {}
 
-      /// Start from what @p x holds, whose energy u . K u this takes into account.
+      /// Start from what @p x holds, whose energy this takes into account.
       void
       start(const SystemVector &x)
       {
-        energy_of_u = system.stiffness_product(x.displacement);
+        energy_of_x = system.energy_product(x);
       }
 
       /// Go on from what @p x holds until the residual is small enough.
@@ -68,7 +68,7 @@ namespace mortise
             const double rho = r * z; // estimates the energy of the error
             if (reached <= target &&
                 rho <= std::pow(options.energy_tolerance(), 2) *
-                         std::max(energy_of_u, residual.least_energy(rhs_norm)))
+                         std::max(energy_of_x, residual.least_energy(rhs_norm)))
               break;
             if (first)
               d = z;
@@ -101,8 +101,7 @@ namespace mortise
           SystemVector unused = all_r;
           remove_multipliers(unused.multiplier);
           precondition();
-          return std::sqrt((z * r) /
-                           system.stiffness_product(x.displacement));
+          return std::sqrt((z * r) / system.energy_product(x));
         };
         residual.judge({rhs, x, all_r},
                        options.tolerance,
@@ -163,7 +162,7 @@ namespace mortise
         if (has_springs)
           x.multiplier.add(alpha, d_lambda);
         r.add(-alpha, kd);
-        energy_of_u += alpha * rho;
+        energy_of_x += alpha * rho;
         return true;
       }
 
@@ -180,7 +179,7 @@ namespace mortise
       const bool                 has_springs;
       Vector                     y, z_lambda, d_lambda; ///< multipliers
       const Vector               no_offset;             ///< likewise
-      double                     energy_of_u = 0.; ///< gained so far
+      double                     energy_of_x = 0.; ///< gained so far
     };
   } // namespace
 

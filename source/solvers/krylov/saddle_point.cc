@@ -236,11 +236,11 @@ namespace mortise
       mutable BlockVector                     scratch;
     };
 
-    /// u . K u + p . P p, what error_energy() is to be small beside.
+    /// That of bodies and springs and p . P p, what error_energy() is to be small beside.
     double
     energy_of(const SystemVector &x, const BlockSystem &system)
     {
-      double energy = system.stiffness_product(x.displacement);
+      double energy = system.energy_product(x);
       if (system.mixed())
         {
           Vector g(x.pressure);
