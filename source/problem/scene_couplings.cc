@@ -69,6 +69,12 @@ namespace mortise
                              spaces.fields.displacement.constraints,
                              spaces.nodal);
     };
+    BodySurface slave_surface = surface(given.slave, slave);
+    slave_surface.direction   = given.direction;
+    BodySurface master_surface =
+      given.is_support ?
+        rigid_counterpart(slave_surface) :
+        surface(given.master, faces_of(given, given.master));
     InterfaceOptions options;
     options.distance             = given.search_distance;
     options.points_per_direction = given.quadrature_points;
@@ -78,9 +84,8 @@ namespace mortise
     coupling.directions = tied_directions(run.parameters, given);
     coupling.interface =
       std::make_unique<InterfaceHandler>(name,
-                                         surface(given.slave, slave),
-                                         surface(given.master,
-                                                 faces_of(given, given.master)),
+                                         std::move(slave_surface),
+                                         std::move(master_surface),
                                          options,
                                          run.comm);
     return coupling;
@@ -95,7 +100,7 @@ namespace mortise
                          spaces.choice.method != SolverMethod::direct,
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
-                         !coupling.is_spring);
+                         !coupling.is_spring && !given.is_support);
     if (const auto stiffness = spring_stiffness(run.parameters, given))
       set_springs(stiffness,
                   slave_normals(*spaces.bodies[given.slave.body],
@@ -113,7 +118,8 @@ namespace mortise
       {
         const auto slave = faces_of(given, given.slave);
         const auto patches =
-          tied_directions(run.parameters, given) == TiedDirections::normal ?
+          tied_directions(run.parameters, given) == TiedDirections::normal &&
+              !given.direction ?
             smooth_patches(*spaces.bodies[given.slave.body], slave) :
             std::vector<std::vector<BoundaryFace>>{slave};
         for (unsigned int k = 0; k < patches.size(); ++k)
