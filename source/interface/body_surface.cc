@@ -4,6 +4,9 @@
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/interface/body_surface.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace mortise
 {
   using namespace dealii;
@@ -191,5 +194,36 @@ namespace mortise
           surface.faces.push_back(std::move(faces[i]));
         }
     return surface;
+  }
+
+  BodySurface
+  rigid_counterpart(const BodySurface &surface)
+  {
+    BodySurface result = surface;
+    for (unsigned int s = 0; s < result.faces.size(); ++s)
+      {
+        SurfaceFace &face  = result.faces[s];
+        FaceTrace   &trace = result.traces[s];
+        face.orientation *= -1.;
+        for (auto &normal : face.vertex_normals)
+          normal *= -1.;
+        face.finalize();
+        trace.modulus = std::numeric_limits<double>::infinity();
+        std::fill(trace.begin.begin(), trace.begin.end(), 0);
+        std::fill(trace.prescribed.begin(),
+                  trace.prescribed.end(),
+                  numbers::invalid_dof_index);
+        trace.column.clear();
+        trace.weight.clear();
+        for (FaceNodes &nodes : trace.nodes)
+          nodes = {nodes.degree,
+                   {},
+                   std::vector<unsigned int>(
+                     trace_basis(trace.shape, nodes.degree).size() + 1, 0),
+                   {},
+                   {}};
+        face.payload = Utilities::pack(trace, false);
+      }
+    return result;
   }
 } // namespace mortise

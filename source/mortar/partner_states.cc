@@ -29,6 +29,13 @@ namespace mortise
              first.face_numbers[0] == second.face_numbers[0];
     }
 
+    /// Supports of one boundary, which are orthogonal, do not compete.
+    bool
+    have_directions(const Coupling &a, const Coupling &b)
+    {
+      return a.interface->slave().direction && b.interface->slave().direction;
+    }
+
     /// Does interface @p a have more of slave face @p s than @p b? Of halves, the first by name
     /// counts as more.
     bool
@@ -44,11 +51,15 @@ namespace mortise
 
     /// Does something of the normal lie in the directions that are free?
     bool
-    can_follow_normal(const SurfaceFace           &face,
+    can_follow_normal(const BodySurface           &slave,
+                      const unsigned int           s,
                       const std::array<bool, dim> &free)
     {
       constexpr double rounding = 1e-3;
-      for (const auto &normal : face.vertex_normals)
+      auto             normals  = slave.faces[s].vertex_normals;
+      if (slave.direction)
+        normals.fill(*slave.direction);
+      for (const auto &normal : normals)
         for (unsigned int c = 0; c < dim; ++c)
           if (free[c] && std::fabs(normal[c]) > rounding)
             return true;
@@ -64,7 +75,8 @@ namespace mortise
       {
         std::vector<const Coupling *> sharing;
         for (const Coupling &other : couplings)
-          if (&other != &coupling && have_same_slave(coupling, other))
+          if (&other != &coupling && have_same_slave(coupling, other) &&
+              !have_directions(coupling, other))
             sharing.push_back(&other);
         all.emplace_back();
         for (unsigned int s = 0; s < coupling.local.size(); ++s)
@@ -85,7 +97,8 @@ namespace mortise
               find_free(coupling.interface->master_traces()[partner.master]);
             if (coupling.directions == TiedDirections::normal)
               state.can_follow = {
-                {can_follow_normal(coupling.interface->slave().faces[s],
+                {can_follow_normal(coupling.interface->slave(),
+                                   s,
                                    state.can_follow)}};
             all.back().push_back(state);
           }

@@ -3,6 +3,7 @@
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/mortar/slave_normals.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -121,6 +122,12 @@ namespace mortise
   slave_normals(const Body &body, const BodySurface &slave)
   {
     Normals normals = face_normals(slave);
+    if (slave.direction)
+      {
+        for (auto &of_face : normals)
+          std::fill(of_face.begin(), of_face.end(), *slave.direction);
+        return normals;
+      }
     for_each_mean(body,
                   slave,
                   normals,
@@ -137,7 +144,9 @@ namespace mortise
   find_sharp_edge(const Body &body, const BodySurface &slave)
   {
     std::optional<Point<dim>> result;
-    const Normals             normals = face_normals(slave);
+    if (slave.direction)
+      return result;
+    const Normals normals = face_normals(slave);
     for_each_mean(body,
                   slave,
                   normals,

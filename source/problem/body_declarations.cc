@@ -21,6 +21,20 @@ namespace mortise
     }
 
     void
+    set_displacement(BoundaryParameters &boundary, const ParameterValue &value)
+    {
+      const std::string along_normal = "normal";
+      boundary.displacement.reset();
+      boundary.normal_displacement.reset();
+      if (value.text.compare(0, along_normal.size(), along_normal) != 0)
+        return value.read(boundary.displacement);
+      const auto record = value.records(2);
+      if (record.size() != 1 || record[0][0] != along_normal)
+        value.fail(in_quotes(value.text));
+      boundary.normal_displacement = record[0][1];
+    }
+
+    void
     declare_boundary(const ParameterSection &section,
                      BoundaryParameters     &boundary)
     {
@@ -47,9 +61,18 @@ namespace mortise
         {"three expressions \"Mx; My; Mz\" in t"});
       section.add(
         "Displacement",
-        boundary.displacement,
-        "Prescribed displacement [length]; - leaves a component free. Empty: all free.",
-        {"three of: an expression, -, or exact, as in \"-, -, 0\"; or exact for all three"});
+        "",
+        "Prescribed displacement [length]; - leaves a component free. normal: along the outward normal of the surface, free across "
+        "it, as on rollers. Empty: all free.",
+        {"three of: an expression, -, or exact, as in \"-, -, 0\"; exact for all three; or \"normal: an expression\""},
+        [&boundary](const ParameterValue &value) {
+          set_displacement(boundary, value);
+        });
+      section.add(
+        "Displacement axes",
+        boundary.displacement_axes,
+        "Rotates the axes of Displacement about those of the scene, x, then y, then z [degrees].",
+        {"3 numbers"});
     }
 
     void

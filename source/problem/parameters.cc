@@ -134,6 +134,7 @@ namespace mortise
         }
       for (const ParameterEntry &entry : entries)
         entry.set({entry.value, entry.where, entry.allowed});
+      add_supports(parameters);
       // cycles find degrees, those that are given are where they begin
       if (parameters.adaptivity.target_error)
         for (BodyParameters &body : parameters.bodies)

@@ -318,6 +318,10 @@ namespace mortise
     check_interface(const Parameters          &parameters,
                     const InterfaceParameters &interface)
     {
+      if (interface.is_support)
+        return check_expression(parameters.where(interface.displacement_path),
+                                interface.offset,
+                                parameters.steps.first_time());
       const std::string     section = "Interface " + interface.name;
       const SideParameters &slave = interface.slave, &master = interface.master;
       check_expression(parameters.where(section + "/Offset"),
@@ -342,7 +346,8 @@ namespace mortise
       const auto &boundaries = parameters.bodies[slave.body].boundaries;
       for (const std::string &boundary : slave.boundaries)
         if (const auto given = boundaries.find(boundary);
-            given != boundaries.end() && given->second.displacement)
+            given != boundaries.end() &&
+            (given->second.displacement || given->second.normal_displacement))
           parameters.fail(
             section + "/Slave",
             in_quotes(parameters.bodies[slave.body].name + ": " + boundary) +
@@ -369,7 +374,7 @@ namespace mortise
     {
       for (const InterfaceParameters &a : parameters.interfaces)
         for (const InterfaceParameters &b : parameters.interfaces)
-          if (&a < &b &&
+          if (&a < &b && !a.is_support && !b.is_support &&
               ((share(a.slave, b.slave) && share(a.master, b.master)) ||
                (share(a.slave, b.master) && share(a.master, b.slave))))
             parameters.fail("Interface " + b.name + "/Slave",

@@ -150,7 +150,11 @@ namespace mortise
         for (const TieSupport &tie : ties)
           {
             of_tie.push_back(
-              support_of(tie, where[tie.slave], where[tie.master], comm));
+              support_of(tie,
+                         where[tie.slave],
+                         where[tie.master == TieSupport::ground ? tie.slave :
+                                                                  tie.master],
+                         comm));
             n_multipliers.push_back(
               Utilities::MPI::sum(tie.multipliers.size(), comm));
           }
@@ -234,7 +238,9 @@ namespace mortise
                     const unsigned int sides[] = {ties[t].slave,
                                                   ties[t].master};
                     for (unsigned int i = 0; i < 2; ++i)
-                      if (sides[i] == b && held[sides[1 - i]])
+                      if (sides[i] == b &&
+                          (sides[1 - i] == TieSupport::ground ||
+                           held[sides[1 - i]]))
                         add_block(matrix, 0, 0, of_tie[t], i, i);
                   }
                 again = held[b] = null_space(matrix, zero).empty();
@@ -260,7 +266,10 @@ namespace mortise
             add_block(matrix, place[b], place[b], of_body[b], 0, 0);
         for (unsigned int t = 0; t < ties.size(); ++t)
           {
-            const int sides[] = {place[ties[t].slave], place[ties[t].master]};
+            const int sides[] = {place[ties[t].slave],
+                                 ties[t].master == TieSupport::ground ?
+                                   -1 :
+                                   place[ties[t].master]};
             for (unsigned int i = 0; i < 2; ++i)
               for (unsigned int j = 0; j < 2; ++j)
                 if (sides[i] >= 0 && sides[j] >= 0)

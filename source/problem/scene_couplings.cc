@@ -69,6 +69,12 @@ namespace mortise
                              spaces.fields.displacement.constraints,
                              spaces.nodal);
     };
+    BodySurface slave_surface = surface(given.slave, slave);
+    slave_surface.direction   = given.direction;
+    BodySurface master_surface =
+      given.is_support ?
+        rigid_counterpart(slave_surface) :
+        surface(given.master, faces_of(given, given.master));
     InterfaceOptions options;
     options.distance             = given.search_distance;
     options.points_per_direction = given.quadrature_points;
@@ -85,9 +91,8 @@ namespace mortise
     coupling.directions = tied_directions(run.parameters, given);
     coupling.interface =
       std::make_unique<InterfaceHandler>(name,
-                                         surface(given.slave, slave),
-                                         surface(given.master,
-                                                 faces_of(given, given.master)),
+                                         std::move(slave_surface),
+                                         std::move(master_surface),
                                          options,
                                          run.comm);
     return coupling;
@@ -102,7 +107,7 @@ namespace mortise
                          spaces.choice.method != SolverMethod::direct,
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
-                         !coupling.is_spring);
+                         !coupling.is_spring && !given.is_support);
     if (const auto stiffness = spring_stiffness(run.parameters, given))
       set_springs(stiffness,
                   slave_normals(*spaces.bodies[given.slave.body],
@@ -121,7 +126,9 @@ namespace mortise
         const auto slave = faces_of(given, given.slave);
         // tractions jump at edges
         const auto patches =
-          smooth_patches(*spaces.bodies[given.slave.body], slave);
+          given.direction ?
+            std::vector<std::vector<BoundaryFace>>{slave} :
+            smooth_patches(*spaces.bodies[given.slave.body], slave);
         for (unsigned int k = 0; k < patches.size(); ++k)
           {
             interfaces.push_back(given);

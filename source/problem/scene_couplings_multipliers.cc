@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 namespace mortise
@@ -99,8 +100,16 @@ namespace mortise
                                states,
                                spaces.fields.displacement.numbering,
                                run.comm);
+    // supports of one boundary take nothing from each other
+    std::map<std::string, std::vector<bool>> taken_before;
     for (const unsigned int i : shared.order())
       {
+        const std::vector<bool> &taken =
+          interfaces[i].direction ?
+            taken_before
+              .try_emplace(interfaces[i].displacement_path, shared.taken())
+              .first->second :
+            shared.taken();
         const SideParameters &slave    = interfaces[i].slave;
         const Body           &body     = *spaces.bodies[slave.body];
         Coupling             &coupling = couplings[i];
@@ -108,8 +117,7 @@ namespace mortise
           std::make_unique<MultiplierSpace>(body,
                                             coupling.interface->slave(),
                                             states[i],
-                                            blocked_dofs(slave.body,
-                                                         shared.taken()),
+                                            blocked_dofs(slave.body, taken),
                                             coupling.directions,
                                             coupling.is_contact);
         shared.take(i);
@@ -142,7 +150,8 @@ namespace mortise
         const InterfaceReport &report = couplings[i].interface->report();
         ties.push_back({couplings[i].interface->name(),
                         interfaces[i].slave.body,
-                        interfaces[i].master.body,
+                        interfaces[i].is_support ? TieSupport::ground :
+                                                   interfaces[i].master.body,
                         multiplier_moments(couplings[i], owned, run.comm),
                         report.covered_area / report.slave_area,
                         couplings[i].directions,
@@ -155,7 +164,9 @@ namespace mortise
                                 std::pow(slave.faces[s].size, 2);
             for (const unsigned int v : face->vertex_indices())
               ties.back().places.push_back(
-                {face->vertex(v), area, slave.faces[s].vertex_normals[v]});
+                {face->vertex(v),
+                 area,
+                 slave.direction.value_or(slave.faces[s].vertex_normals[v])});
           }
       }
     return ties;

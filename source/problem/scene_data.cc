@@ -1,5 +1,6 @@
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/base/rigid_motion.h>
 #include <mortise/operators/boundary_area.h>
 #include <mortise/problem/formulation.h>
 #include <mortise/problem/scene_data.h>
@@ -243,7 +244,9 @@ namespace mortise
   SceneData::offset(const InterfaceParameters &given) const
   {
     const std::string where =
-      parameters.where("Interface " + given.name + "/Offset");
+      parameters.where(given.is_support ? given.displacement_path :
+                                          "Interface " + given.name +
+                                            "/Offset");
     const Expression expression(given.offset, where, time);
     if (expression.is_constant() && !expression.depends_on_time() &&
         expression.value(Point<dim>()) == 0.)
@@ -287,11 +290,14 @@ namespace mortise
             body.boundary_id(entry.first, parameters.where(where));
           for (unsigned int c = 0; c < dim; ++c)
             condition.fixed[c] = !field[c].free;
+          const Tensor<2, dim> axes =
+            RigidMotion(entry.second.displacement_axes, {}).rotation;
           if (!all_zero(field))
             condition.value = [=, &watch](const Point<dim> &x) {
-              return evaluate(field, x, watch, [&](const Point<dim> &p) {
-                return exact->displacement(p, b);
-              });
+              return axes *
+                     evaluate(field, x, watch, [&](const Point<dim> &p) {
+                       return exact->displacement(p, b);
+                     });
             };
           conditions.push_back(condition);
         }

@@ -88,6 +88,8 @@ namespace mortise
         }
       for (const InterfaceParameters &interface : parameters.interfaces)
         {
+          if (interface.is_support)
+            continue;
           LameSolution::Layer &a     = layers[interface.slave.body],
                               &b     = layers[interface.master.body];
           LameSolution::Layer &outer = a.inner_radius < b.inner_radius ? b : a;

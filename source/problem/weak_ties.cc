@@ -128,6 +128,7 @@ namespace mortise
     std::vector<unsigned int> weak;
     for (unsigned int t = 0; t < ties.size(); ++t)
       if (ties[t].slave != ties[t].master &&
+          ties[t].master != TieSupport::ground &&
           is_weak(ties[t], bodies, dirichlet, comm))
         weak.push_back(t);
     std::sort(weak.begin(), weak.end(), [&](const auto a, const auto b) {

@@ -54,7 +54,8 @@ namespace
               Components{{"0", "-", "pow(x, 2)"}},
             "displacement with commas within and between");
     verdict(p.interfaces.size() == 1 && p.interfaces[0].slave.body == 0 &&
-              p.interfaces[0].slave.boundary == "outside" &&
+              p.interfaces[0].slave.boundaries ==
+                std::vector<std::string>{"outside"} &&
               p.interfaces[0].master.body == 1,
             "interface");
     verdict(p.exact_solution.kind == ExactKind::thick_sphere, "exact solution");

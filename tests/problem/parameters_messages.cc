@@ -366,7 +366,7 @@ namespace
                "inner: outside",
                {"Interface glue/Master (line 39",
                 "inner: outside",
-                "which is the slave"});
+                "which is on the slave's side"});
     check_edit("a slave with a displacement",
                "inner: outside",
                "inner: xmin",

@@ -12,6 +12,7 @@
 #include <mortise/body/spaces/numbering.h>
 #include <mortise/interface/surface_face.h>
 
+#include <optional>
 #include <vector>
 
 namespace mortise
@@ -67,6 +68,9 @@ namespace mortise
     std::vector<Body::CellIterator> cells;
     std::vector<unsigned int>       face_numbers;
     std::vector<BoundaryFace>       known; ///< of ghost cells, too
+    /// What stands for the normal along which bodies are tied, of unit length;
+    /// absent: it does.
+    std::optional<dealii::Tensor<1, dim>> direction;
   };
 
   /// The face's geometry, that of the body's mapping, exactly; not finalized.
@@ -92,6 +96,11 @@ namespace mortise
                   const FieldNumbering                    &numbering,
                   const dealii::AffineConstraints<double> &constraints,
                   const NodalSpaces                       &levels = {});
+
+  /// What faces @p surface everywhere and never moves: the same faces seen from the other side,
+  /// with traces without columns.
+  BodySurface
+  rigid_counterpart(const BodySurface &surface);
 
   /// Dofs (numbering of the body's DoFHandler) of the face functions of
   /// component c: entry [c][k], k as in FaceTrace.

@@ -19,7 +19,7 @@ namespace mortise
 
   /// Outward, of unit length, by slave face and node, nodes as in TraceBasis.
   /// Where nodes hang, degrees meet or edges are sharp, faces keep normals of
-  /// their own. Collective.
+  /// their own. All are the surface's direction if it has one. Collective.
   std::vector<std::vector<dealii::Tensor<1, dim>>>
   slave_normals(const Body &body, const BodySurface &slave);
 

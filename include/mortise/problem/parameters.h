@@ -41,6 +41,8 @@ namespace mortise
     std::optional<Components>  traction;
     std::optional<Components>  force, moment; ///< totals
     std::optional<Components>  displacement;
+    std::array<double, 3>      displacement_axes{}; ///< rotation, degrees
+    std::optional<std::string> normal_displacement; ///< of all that alone
   };
 
   /// Unknowns of a body: displacement, or displacement and pressure.
@@ -93,6 +95,12 @@ namespace mortise
     /// Adaptivity sets the least one, by how far sides have moved.
     SearchDistance search_distance;
     unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
+
+    /// A support: nothing moves in place of the master, which is the slave's
+    /// boundary again; what Offset would be is the displacement.
+    bool                                is_support = false;
+    std::optional<dealii::Tensor<1, 3>> direction; ///< else the normal
+    std::string displacement_path; ///< of the parameter that asks for it
   };
 
   enum class ExactKind
@@ -193,6 +201,12 @@ namespace mortise
   /// "body: boundary, boundary", for messages.
   std::string
   side_text(const Parameters &parameters, const SideParameters &side);
+
+  /// Append the supports: interfaces that stand for displacements along normals
+  /// or along axes that are not those of the scene, one for each component.
+  /// Throws InputError.
+  void
+  add_supports(Parameters &parameters);
 
   /// Fields that Output/Fields may name.
   const std::vector<std::string> &

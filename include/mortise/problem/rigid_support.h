@@ -114,6 +114,9 @@ namespace mortise
   /// What an interface does against the relative motion of two bodies.
   struct TieSupport
   {
+    /// As a master: what never moves.
+    static constexpr unsigned int ground = -1;
+
     std::string                   name;
     unsigned int                  slave, master; ///< bodies
     std::vector<MultiplierMoment> multipliers;   ///< of this rank

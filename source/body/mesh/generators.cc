@@ -14,6 +14,9 @@ namespace mortise
 
   namespace
   {
+    /// Zero is what faces get where the part of a mesh that a rank knows ends.
+    constexpr types::boundary_id first_id = 1;
+
     using Lattice = std::array<unsigned int, 3>;
 
     /// No boundary on this side of a block of cells.
@@ -26,7 +29,8 @@ namespace mortise
       std::function<unsigned int(const Lattice &)>
         vertex; ///< index of a lattice point's vertex
       std::function<unsigned int(const Lattice &)> material; ///< id of a cell
-      std::array<int, 6> boundaries; ///< ids in deal.II's order of faces
+      /// Ids above first_id, in deal.II's order of faces.
+      std::array<int, 6> boundaries;
     };
 
     void
@@ -71,7 +75,7 @@ namespace mortise
                       p[f]             = b + v / 2;
                       quad.vertices[v] = block.vertex(p);
                     }
-                  quad.boundary_id = block.boundaries[face];
+                  quad.boundary_id = first_id + block.boundaries[face];
                   mesh.faces.boundary_quads.push_back(quad);
                 }
           }
@@ -336,7 +340,7 @@ namespace mortise
     const std::vector<std::string> boundaries =
       generator_boundaries(parameters);
     for (unsigned int id = 0; id < boundaries.size(); ++id)
-      mesh.names.boundaries[boundaries[id]] = id;
+      mesh.names.boundaries[boundaries[id]] = first_id + id;
     return mesh;
   }
 } // namespace mortise

@@ -42,7 +42,7 @@ namespace mortise
   CoarseMesh
   generate(const MeshParameters &parameters);
 
-  /// Boundary names of a generator, in the order of their ids.
+  /// Boundary names of a generator, in the order of their ids, from 1 on.
   std::vector<std::string>
   generator_boundaries(const MeshParameters &parameters);
 
