@@ -101,7 +101,7 @@ namespace mortise
   }
 
   std::vector<SurfaceFace>
-  straight_boundary(const Body &body)
+  whole_boundary(const Body &body)
   {
     std::vector<SurfaceFace> result;
     for (const auto &cell : body.dof_handler.active_cell_iterators())
@@ -109,18 +109,8 @@ namespace mortise
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
             {
-              const CellFace     face(cell, f);
-              SurfaceFace        straight;
-              const unsigned int n = face.basis->n_vertices();
-              straight.shape       = face.basis->shape;
-              straight.orientation = face.orientation;
-              straight.id    = cell->global_active_cell_index() * 6 + f;
-              straight.owner = cell->subdomain_id();
-              straight.points.resize(4);
-              for (unsigned int v = 0; v < n; ++v)
-                straight.points[v] = cell->vertex(face.vertices[v]);
-              straight.finalize();
-              result.push_back(std::move(straight));
+              result.push_back(face_geometry(body, {cell, f}));
+              result.back().finalize();
             }
     return result;
   }

@@ -84,21 +84,20 @@ namespace mortise
                                 PairResult        &pair,
                                 IntegrationPoints &points) const
   {
-    if (!visibility || pair.max_gap <=
-                         safe_distance * std::min(slave_surface.traces[s].depth,
-                                                  near_traces[m].depth))
+    const double safe =
+      safe_distance *
+      std::min(slave_surface.traces[s].depth, near_traces[m].depth);
+    if (!visibility || pair.max_gap <= safe)
       return;
-    const auto point = [](const std::array<std::vector<double>, 3> &x,
-                          const unsigned int                        q) {
-      return Point<3>(x[0][q], x[1][q], x[2][q]);
-    };
+    const std::vector<bool> hidden =
+      visibility->hidden(slave_surface.faces[s].id,
+                         near_masters[m].id,
+                         safe,
+                         points);
     unsigned int n = 0;
     pair.area = pair.max_gap = 0.;
     for (unsigned int q = 0; q < points.size(); ++q)
-      if (!visibility->is_hidden(slave_surface.faces[s].id,
-                                 near_masters[m].id,
-                                 point(points.slave_x, q),
-                                 point(points.master_x, q)))
+      if (!hidden[q])
         {
           pair.area += points.weight[q];
           pair.max_gap = std::max(pair.max_gap, std::fabs(points.gap[q]));

@@ -4,10 +4,10 @@
 
 #include <boost/iterator/function_output_iterator.hpp>
 
+#include <mortise/interface/projection.h>
 #include <mortise/interface/visibility.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace mortise
@@ -16,34 +16,53 @@ namespace mortise
 
   namespace
   {
-    using Triangle = std::array<Point<3>, 3>;
-
-    /// Part of the way that belongs to the ends.
+    /// Largest part of the way that belongs to each end.
     constexpr double near_end = 0.05;
 
-    /// Sine of the angle from which a face is crossed and not grazed.
+    /// Cosine between way and normal from which a face is crossed and not
+    /// grazed.
     constexpr double grazing = 0.1;
 
-    bool
-    crosses(const Point<3>     &from,
-            const Tensor<1, 3> &way,
-            const Triangle     &triangle)
+    /// How far beyond its rim a face is crossed, in its reference coordinates:
+    /// no way leads between two faces.
+    constexpr double rim = 1e-6;
+
+    /// Points and the ways to their partners, eight at a time.
+    struct Ways
     {
-      // from + t way = a + u (b - a) + v (c - a)
-      const Tensor<1, 3> e1 = triangle[1] - triangle[0],
-                         e2 = triangle[2] - triangle[0];
-      const Tensor<1, 3> normal = cross_product_3d(e1, e2);
-      const double       d      = normal * way;
-      if (std::fabs(d) <= grazing * normal.norm() * way.norm())
-        return false;
-      const double       t  = normal * (triangle[0] - from) / d;
-      const Tensor<1, 3> at = from + t * way - triangle[0];
-      const double       u  = cross_product_3d(at, e2) * normal /
-                       normal.norm_square(),
-                   v = cross_product_3d(e1, at) * normal / normal.norm_square();
-      constexpr double rim = -1e-6;
-      return t > near_end && t < 1. - near_end && u >= rim && v >= rim &&
-             u + v <= 1. - rim;
+      Vec3<Lanes> from, way;
+    };
+
+    /// Those from point @p begin on; beyond the last one it is repeated.
+    Ways
+    ways(const IntegrationPoints &points, const unsigned int begin)
+    {
+      Ways result;
+      for (unsigned int l = 0; l < n_lanes; ++l)
+        {
+          const unsigned int q = std::min(begin + l, points.size() - 1);
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              result.from[d][l] = points.slave_x[d][q];
+              result.way[d][l]  = points.master_x[d][q] - points.slave_x[d][q];
+            }
+        }
+      return result;
+    }
+
+    BoundingBox<3>
+    box_of(const IntegrationPoints &points)
+    {
+      Point<3> lower, upper;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          const auto &a = points.slave_x[d], &b = points.master_x[d];
+          const auto  of_a = std::minmax_element(a.begin(), a.end()),
+                     of_b = std::minmax_element(b.begin(), b.end());
+          lower[d] = std::min(*of_a.first, *of_b.first);
+          upper[d] = std::max(*of_a.second, *of_b.second);
+        }
+      return BoundingBox<3>({lower, upper});
     }
   } // namespace
 
@@ -51,9 +70,10 @@ namespace mortise
   {
     struct Face
     {
-      std::uint64_t           id;
-      std::array<Triangle, 2> triangles;
-      unsigned int            n_triangles;
+      std::uint64_t id;
+      MasterMap     map; ///< about its own centre
+      Vec3<double>  center;
+      Vec3<double>  normal; ///< outward, in the middle, times area
     };
 
     using Box = BoundingBox<3>;
@@ -63,40 +83,68 @@ namespace mortise
       std::vector<std::pair<Box, unsigned int>> all;
       for (const SurfaceFace &face : boundary)
         {
-          std::array<Point<3>, 4> vertex;
-          for (unsigned int v = 0; v < n_vertices(face.shape); ++v)
-            vertex[v] = face_point(face, Point<2>(v % 2, v / 2));
-          faces.push_back({face.id,
-                           {{{{vertex[0], vertex[1], vertex[2]}},
-                             {{vertex[3], vertex[1], vertex[2]}}}},
-                           n_vertices(face.shape) - 2});
+          Face of;
+          of.id = face.id;
+          of.map.reinit(face, face.frame.center);
+          of.center = to_vec3(face.frame.center);
+          of.normal = to_vec3(face.orientation *
+                              cross_product_3d(face.frame.tangent[0],
+                                               face.frame.tangent[1]));
+          faces.push_back(of);
           all.emplace_back(Box({face.lower, face.upper}), faces.size() - 1);
         }
       boxes = pack_rtree(all);
     }
 
-    bool
-    is_crossed(const std::uint64_t except,
-               const Point<3>     &from,
-               const Point<3>     &to) const
+    /// Sets entries of @p result where a face other than @p except is crossed.
+    void
+    mark_crossed(const std::uint64_t      except,
+                 const double             safe,
+                 const IntegrationPoints &points,
+                 std::vector<bool>       &result) const
     {
-      Point<3> lower, upper;
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          lower[d] = std::min(from[d], to[d]);
-          upper[d] = std::max(from[d], to[d]);
-        }
-      bool       crossed = false;
-      const auto test    = [&](const std::pair<Box, unsigned int> &entry) {
+      const auto test = [&](const std::pair<Box, unsigned int> &entry) {
         const Face &face = faces[entry.second];
-        if (crossed || face.id == except)
-          return;
-        for (unsigned int k = 0; k < face.n_triangles; ++k)
-          crossed = crossed || crosses(from, to - from, face.triangles[k]);
+        if (face.id != except)
+          for (unsigned int begin = 0; begin < points.size(); begin += n_lanes)
+            mark_crossed(face, safe, points, begin, result);
       };
-      boxes.query(boost::geometry::index::intersects(Box({lower, upper})),
+      boxes.query(boost::geometry::index::intersects(box_of(points)),
                   boost::make_function_output_iterator(test));
-      return crossed;
+    }
+
+    void
+    mark_crossed(const Face              &face,
+                 const double             safe,
+                 const IntegrationPoints &points,
+                 const unsigned int       begin,
+                 std::vector<bool>       &result) const
+    {
+      const Ways of = ways(points, begin);
+      // the projection looks for a place that faces the point: towards it where
+      // the way enters the body, backwards where it leaves
+      const Lanes along = dot(of.way, face.normal);
+      const Lanes sign = along > 0. ? broadcast(-1.) : broadcast(1.);
+      Lanes       eta[2], t, slope;
+      Vec3<Lanes> at;
+      const Vec3<Lanes>  from   = of.from - broadcast(face.center);
+      const unsigned int failed =
+        face.map.project(from, sign * of.way, false, eta, t, at, slope);
+      t                  = sign * t;
+      const Lanes  length = square_root(dot(of.way, of.way));
+      const double size   = std::sqrt(dot(face.normal, face.normal));
+      for (unsigned int l = 0; l < n_lanes && begin + l < points.size(); ++l)
+        {
+          const double most = 1. + rim;
+          const double end  = std::min(near_end, safe / length[l]);
+          if ((failed & (1u << l)) == 0 && t[l] > end &&
+              t[l] < 1. - end && eta[0][l] >= -rim && eta[1][l] >= -rim &&
+              (face.map.shape == FaceShape::triangle ?
+                 eta[0][l] + eta[1][l] <= most :
+                 eta[0][l] <= most && eta[1][l] <= most) &&
+              std::fabs(slope[l]) > grazing * size * length[l])
+            result[begin + l] = true;
+        }
     }
 
     std::vector<Face>                   faces;
@@ -111,13 +159,18 @@ namespace mortise
 
   Visibility::~Visibility() = default;
 
-  bool
-  Visibility::is_hidden(const std::uint64_t slave,
-                        const std::uint64_t master,
-                        const Point<3>     &slave_point,
-                        const Point<3>     &master_point) const
+  std::vector<bool>
+  Visibility::hidden(const std::uint64_t      slave,
+                     const std::uint64_t      master,
+                     const double             safe,
+                     const IntegrationPoints &points) const
   {
-    return slave_tree->is_crossed(slave, slave_point, master_point) ||
-           master_tree->is_crossed(master, slave_point, master_point);
+    std::vector<bool> result(points.size(), false);
+    if (points.size() > 0)
+      {
+        slave_tree->mark_crossed(slave, safe, points, result);
+        master_tree->mark_crossed(master, safe, points, result);
+      }
+    return result;
   }
 } // namespace mortise

@@ -80,7 +80,7 @@ namespace mortise
     options.points_per_direction = given.quadrature_points;
     const auto boundary          = [&](const SideParameters &side) {
       return [&body = *spaces.bodies[side.body]] {
-        return straight_boundary(body);
+        return whole_boundary(body);
       };
     };
     options.slave_boundary  = boundary(given.slave);

@@ -77,10 +77,10 @@ namespace mortise
   SurfaceFace
   face_geometry(const Body &body, const BoundaryFace &face);
 
-  /// The owned faces of the whole boundary, straight between their vertices;
-  /// finalized.
+  /// The owned faces of the whole boundary, finalized; their normals are their
+  /// own.
   std::vector<SurfaceFace>
-  straight_boundary(const Body &body);
+  whole_boundary(const Body &body);
 
   /// Numbers of the face's vertices in the mesh, as average_vertex_normals()
   /// takes them.

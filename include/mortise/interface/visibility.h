@@ -2,6 +2,7 @@
 // seen through a body. It never decides which faces belong to the interface.
 #pragma once
 
+#include <mortise/interface/integration_cells.h>
 #include <mortise/interface/surface_face.h>
 
 #include <memory>
@@ -13,19 +14,22 @@ namespace mortise
   {
   public:
     /// Faces of the whole boundaries of both bodies that are near to the slave faces of this
-    /// rank; their straight pictures count, by the vertices.
+    /// rank, finalized. They count as curved as they are: where bodies are
+    /// thinner than their faces bend, straight ones lie on the other side of
+    /// the points.
     Visibility(const std::vector<SurfaceFace> &slave_boundary,
                const std::vector<SurfaceFace> &master_boundary);
     ~Visibility();
 
-    /// Is there a face between @p slave_point and @p master_point, other than faces @p slave
+    /// By point of a pair: is there a face between it and its partner, other than faces @p slave
     /// and @p master (ids) on which they lie? What lies in the outer twentieths
-    /// of the way is taken for their neighbourhood.
-    bool
-    is_hidden(std::uint64_t           slave,
-              std::uint64_t           master,
-              const dealii::Point<3> &slave_point,
-              const dealii::Point<3> &master_point) const;
+    /// of the way, and no farther from its ends than @p safe [length], in which no body ends, is
+    /// their neighbourhood.
+    std::vector<bool>
+    hidden(std::uint64_t            slave,
+           std::uint64_t            master,
+           double                   safe,
+           const IntegrationPoints &points) const;
 
   private:
     struct Tree;
