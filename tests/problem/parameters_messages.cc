@@ -378,7 +378,7 @@ namespace
                   {"Interface glue/Law", "got \"glue\"", "tie"});
     check_setting("search distance 0",
                   "Interface glue/Search distance=0",
-                  {"Search distance", "got 0", "positive"});
+                  {"Search distance", "got \"0\"", "positive"});
     check_setting("no quadrature points",
                   "Interface glue/Quadrature points=0",
                   {"Quadrature points", "got \"0\"", "auto"});
