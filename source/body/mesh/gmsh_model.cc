@@ -211,10 +211,20 @@ namespace mortise
           if (mesh_size > 0.)
             gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
           if (sizes != nullptr)
-            gmsh::model::mesh::setSizeCallback(
-              [sizes](int, int, double x, double y, double z) {
-                return (*sizes)(Point<3>(x, y, z));
-              });
+            {
+              // gmsh takes the least size itself, from 4.9 on it passes the
+              // one that it would take
+              const auto least =
+                [sizes](int, int, double x, double y, double z, auto... other) {
+                  return std::min({(*sizes)(Point<3>(x, y, z)), other...});
+                };
+              using Least = decltype(least);
+              static_assert(
+                std::is_invocable_r_v<double, Least, int, int, double, double, double> &&
+                  std::is_invocable_r_v<double, Least, int, int, double, double, double, double>,
+                "callbacks of both versions of gmsh");
+              gmsh::model::mesh::setSizeCallback(least);
+            }
           gmsh::model::mesh::generate(3);
         }
       GmshModel model;
