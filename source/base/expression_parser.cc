@@ -211,7 +211,7 @@ namespace mortise
       unsigned int
       unary()
       {
-        if (++depth > 200)
+        if (++signs > 200)
           fail(position, "signs are nested more than 200 deep");
         skip_space();
         const std::size_t at = position;
@@ -231,7 +231,7 @@ namespace mortise
                              // one after it
               node = make(Operation::power, {{node, unary(), 0}}, hat);
           }
-        --depth;
+        --signs;
         return node;
       }
 
@@ -365,6 +365,7 @@ namespace mortise
       const double       time;
       std::size_t        position = 0;
       unsigned int       depth    = 0;
+      unsigned int       signs    = 0;
       std::vector<Node>  nodes; ///< as parsed, folded parts included
     };
   } // namespace

@@ -220,6 +220,11 @@ namespace mortise
             line.origin +
             ": a subsection needs a name, as in \"subsection Solver\"");
         check_length(name, line.origin);
+        constexpr std::size_t deepest = 20;
+        if (sections.size() == deepest)
+          throw InputError(line.origin + ": subsections are nested more than " +
+                           std::to_string(deepest) +
+                           " deep; is an \"end\" missing?");
         sections.push_back(name);
         opened_at.push_back(line.origin);
         assignments.push_back({sections, "", "", line.origin});

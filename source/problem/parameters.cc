@@ -8,6 +8,7 @@
 #include <mortise/problem/parameters.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 namespace mortise
@@ -75,10 +76,16 @@ namespace mortise
           }
       for (const std::string &name : names)
         {
-          if (name.empty() || name.find_first_of(":;/") != std::string::npos)
+          // names are those of files, and stand in those that gather them
+          if (name.empty() || name == "." || name == ".." ||
+              name.find_first_of(":;/\\<>&\"'") != std::string::npos ||
+              std::any_of(name.begin(), name.end(), [](unsigned char c) {
+                return std::iscntrl(c);
+              }))
             throw InputError(
               origin + "got the name " + in_quotes(name) +
-              "; a name is not empty and contains none of : ; /");
+              "; a name is not empty, no . or .., and contains none of : ; / \\ < > & \" ' "
+              "and no control characters");
           if (name.size() > 100)
             throw InputError(origin + "got the name " + in_quotes(name) +
                              "; a name has at most 100 characters");

@@ -192,6 +192,9 @@ namespace mortise
   SolveReport
   Preloads::solve(const bool goes_on, SceneLoad &load, SystemVector &x)
   {
+    if (indices.empty())
+      return goes_on ? solver.solve_from(load.rhs, x) :
+                       solver.solve(load.rhs, x);
     const bool is_new =
       std::all_of(values.begin(), values.end(), [](const double value) {
         return value == 0.;

@@ -148,6 +148,13 @@ namespace mortise
     stage.details(std::to_string(faces) + " slave faces" + divided);
   }
 
+  namespace
+  {
+    /// What coarse curved faces may have that do not fit together is less, what
+    /// a second layer adds is more.
+    constexpr double most_coverage = 1.1;
+  } // namespace
+
   void
   SceneCouplings::warn_of_mesh_gap(const unsigned int i) const
   {
@@ -204,7 +211,7 @@ namespace mortise
       run.log.warning("interface " + name + ": the projection of " +
                       std::to_string(report.failed_pairs) +
                       " pairs of faces did not converge");
-    if (report.largest_coverage > 1. + 1e-6)
+    if (report.largest_coverage > most_coverage)
       {
         std::ostringstream text;
         text << "Interface " << given.name << ": a face of the slave has "

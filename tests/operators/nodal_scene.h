@@ -13,18 +13,18 @@
 
 namespace mortise::testing
 {
-  /// Holds the face with number 0, and of that with number 2 the second
-  /// component.
+  /// Holds the first boundary of the generators, which count from 1, and of the
+  /// third the second component.
   inline void
   hold_two_faces(const Body                        &body,
                  dealii::AffineConstraints<double> &constraints)
   {
     dealii::DoFTools::make_zero_boundary_constraints(body.dof_handler,
-                                                     0,
+                                                     1,
                                                      constraints);
     dealii::DoFTools::make_zero_boundary_constraints(
       body.dof_handler,
-      2,
+      3,
       constraints,
       dealii::ComponentMask({false, true, false}));
   }

@@ -96,7 +96,8 @@ namespace
       "an interface",
       step["interfaces"][0],
       "name slave_faces master_faces candidate_pairs pairs integration_cells "
-      "quadrature_points slave_area covered_area worst_face_coverage_error "
+      "quadrature_points slave_area covered_area gap_mean distance_mean distance_max "
+      "sagitta_mean worst_face_coverage_error "
       "partition_of_unity_error force_residual moment_residual linear_completeness_error");
     check_keys("solver",
                step["solver"],

@@ -117,7 +117,8 @@ namespace
             1e-10);
   }
 
-  /// The part on a plate, which one of the three planes touches.
+  /// The part on a plate, which one of the three planes touches: what meets
+  /// nothing is told and is no reason for a warning.
   void
   check_what_meets_nothing()
   {
@@ -134,14 +135,7 @@ namespace
       {},
       MPI_COMM_WORLD,
       &warnings);
-    unsigned int n_named = 0;
-    for (const std::string &warning : warnings)
-      for (const std::string name : {"glue-1", "glue-2", "glue-3"})
-        n_named += warning == "interface " + name +
-                                ": the surfaces do not meet; nothing is tied";
-    verdict("patches that meet nothing are named",
-            warnings.size() == 2 && n_named == 2 ? 0. : 1.,
-            0.);
+    verdict("patches that meet nothing bring no warning", warnings.size(), 0.);
   }
 } // namespace
 

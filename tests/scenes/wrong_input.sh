@@ -65,6 +65,10 @@ expect 2 'only Law = tie' "$scene" --set 'Interface glue/Preload=1' --set 'Inter
 expect 2 'a time without a Preload' "$scene" --set 'Interface glue/Preload until=1'
 expect 2 'without Material/Thermal expansion' "$scene" --set 'Body upper/Temperature=20'
 expect 2 'without Temperature' "$scene" --set 'Body upper/Material/Thermal expansion=1e-5'
+expect 2 'no . or ..' "$scene" --set 'Bodies=lower, upper, ..'
+for i in $(seq 30); do echo "subsection a"; done >"$work/deep.prm"
+expect 2 'nested more than 20 deep' "$work/deep.prm"
+expect 2 'more than 200 deep' "$scene" --set "Body upper/Body force=0; 0; $(printf '(%.0s' $(seq 201))1$(printf ')%.0s' $(seq 201))"
 expect 2 'an expression in t' "$scene" --set 'Body upper/Boundary zmax/Force=x; 0; 0'
 expect 2 'component y.*an expression in t' "$scene" --set 'Body upper/Boundary zmax/Moment=0; exact; 0'
 expect 2 'Displacement.*got "normal"' "$scene" --set 'Body upper/Boundary zmin/Displacement=normal'

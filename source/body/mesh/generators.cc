@@ -177,7 +177,11 @@ namespace mortise
       const unsigned int n = q.subdivisions[0], m = q.subdivisions[1];
       const RigidMotion  motion = rigid_motion(q);
       CoarseMesh         mesh;
-      mesh.manifold = std::make_unique<SphereManifold>(motion);
+      // tetrahedra are not cut, and means are as accurate as their elements
+      if (q.cells == "tetrahedra")
+        mesh.manifold = std::make_unique<SphereManifold>(motion);
+      else
+        mesh.manifold = std::make_unique<ShellOctantManifold>(n, motion);
 
       std::map<Lattice, unsigned int> index; // of the directions
       std::vector<Tensor<1, 3>>       directions;

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 namespace mortise
 {

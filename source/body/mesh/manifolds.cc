@@ -2,6 +2,8 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/table.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <mortise/body/mesh/manifolds.h>
 
 #include <algorithm>
@@ -15,13 +17,52 @@ namespace mortise
 
   namespace
   {
-    /// Around one axis of the octant: (radius, two angles), in the frame of the
-    /// body.
+    /// A point seen from a centre.
+    struct Polar
+    {
+      double       radius;
+      Tensor<1, 3> direction;
+    };
+
+    Polar
+    polar(const Tensor<1, 3> &x)
+    {
+      const double r = x.norm();
+      Assert(r > 0., ExcMessage("The centre has no direction."));
+      return {r, x / r};
+    }
+
+    Point<3>
+    mean(const Point<3>                                   &centre,
+         const boost::container::small_vector<Polar, 100> &points,
+         const double                                     *weights)
+    {
+      double       radius = 0.;
+      Tensor<1, 3> direction;
+      for (unsigned int i = 0; i < points.size(); ++i)
+        {
+          radius += weights[i] * points[i].radius;
+          direction += weights[i] * points[i].direction;
+        }
+      return centre + (radius / direction.norm()) * direction;
+    }
+
+    boost::container::small_vector<Polar, 100>
+    polar_points(const Point<3>                  &centre,
+                 const ArrayView<const Point<3>> &points)
+    {
+      boost::container::small_vector<Polar, 100> result;
+      for (const Point<3> &p : points)
+        result.push_back(polar(p - centre));
+      return result;
+    }
+
+    /// The chart of one coarse cell of a shell octant.
     class OctantChart
     {
     public:
-      /// Around the axis that is nearest to all of @p points.
-      explicit OctantChart(const std::vector<Point<3>> &points)
+      /// Of the cell, n on an edge of a patch, in whose middle @p points lie.
+      OctantChart(const std::vector<Point<3>> &points, const unsigned int n)
       {
         Tensor<1, 3> sum;
         for (const Point<3> &p : points)
@@ -29,49 +70,93 @@ namespace mortise
         for (unsigned int d = 1; d < 3; ++d)
           if (sum[d] > sum[axis])
             axis = d;
+        std::array<unsigned int, 2> first;
+        for (unsigned int i = 0; i < 2; ++i)
+          first[i] = std::min<unsigned int>(
+            n - 1,
+            std::max(0., std::atan(sum[along(i)] / sum[axis]) * 4. * n / numbers::PI));
+        for (unsigned int v = 0; v < 4; ++v)
+          {
+            corner[v][axis] = 1.;
+            for (unsigned int i = 0; i < 2; ++i)
+              {
+                const unsigned int k = first[i] + (i == 0 ? v % 2 : v / 2);
+                corner[v][along(i)] =
+                  k == n ? 1. : std::tan(0.25 * numbers::PI * k / n);
+              }
+            corner[v] /= corner[v].norm();
+          }
       }
 
+      /// (radius, xi, eta).
       Point<3>
       pull_back(const Point<3> &x) const
       {
-        const double along = x[axis];
-        Assert(along > 0., ExcMessage("The point is not in the chart."));
-        return Point<3>(Tensor<1, 3>(x).norm(),
-                        std::atan(x[(axis + 1) % 3] / along),
-                        std::atan(x[(axis + 2) % 3] / along));
+        // the components of the mean across x vanish: Newton's method
+        double xi = 0.5, eta = 0.5;
+        for (unsigned int iteration = 0; iteration < 20; ++iteration)
+          {
+            const Tensor<1, 3> b = mean(xi, eta), b_xi = slope(0, eta),
+                               b_eta = slope(1, xi);
+            const auto across = [&](const Tensor<1, 3> &y, const unsigned int i) {
+              return y[along(i)] * x[axis] - y[axis] * x[along(i)];
+            };
+            const double f = across(b, 0), g = across(b, 1),
+                         f_xi = across(b_xi, 0), f_eta = across(b_eta, 0),
+                         g_xi = across(b_xi, 1), g_eta = across(b_eta, 1),
+                         det = f_xi * g_eta - f_eta * g_xi;
+            const double d_xi  = (f * g_eta - f_eta * g) / det,
+                         d_eta = (f_xi * g - f * g_xi) / det;
+            xi -= d_xi;
+            eta -= d_eta;
+            if (std::fabs(d_xi) + std::fabs(d_eta) < 1e-14)
+              break;
+          }
+        return Point<3>(Tensor<1, 3>(x).norm(), xi, eta);
       }
 
       Point<3>
       push_forward(const Point<3> &chart) const
       {
-        Tensor<1, 3> direction;
-        direction[axis]           = 1.;
-        direction[(axis + 1) % 3] = std::tan(chart[1]);
-        direction[(axis + 2) % 3] = std::tan(chart[2]);
-        return Point<3>((chart[0] / direction.norm()) * direction);
+        const Tensor<1, 3> b = mean(chart[1], chart[2]);
+        return Point<3>((chart[0] / b.norm()) * b);
       }
 
-      /// The derivative of push_forward() at @p chart in @p direction.
+      /// Of push_forward() at @p chart in @p direction.
       Tensor<1, 3>
-      derivative(const Point<3>     &chart,
-                 const Tensor<1, 3> &direction) const
+      derivative(const Point<3> &chart, const Tensor<1, 3> &direction) const
       {
-        Tensor<1, 3> to, slope; // before it is brought to the sphere
-        to[axis] = 1.;
-        for (unsigned int i = 1; i < 3; ++i)
-          {
-            const double t         = std::tan(chart[i]);
-            to[(axis + i) % 3]     = t;
-            slope[(axis + i) % 3]  = (1. + t * t) * direction[i];
-          }
-        const double       norm = to.norm();
-        const Tensor<1, 3> e    = to / norm;
+        const Tensor<1, 3> b = mean(chart[1], chart[2]), e = b / b.norm(),
+                           rate = direction[1] * slope(0, chart[2]) +
+                                  direction[2] * slope(1, chart[1]);
         return direction[0] * e +
-               (chart[0] / norm) * (slope - (slope * e) * e);
+               (chart[0] / b.norm()) * (rate - (rate * e) * e);
       }
 
     private:
-      unsigned int axis = 0;
+      unsigned int
+      along(const unsigned int i) const
+      {
+        return (axis + 1 + i) % 3;
+      }
+
+      Tensor<1, 3>
+      mean(const double xi, const double eta) const
+      {
+        return (1. - eta) * ((1. - xi) * corner[0] + xi * corner[1]) +
+               eta * ((1. - xi) * corner[2] + xi * corner[3]);
+      }
+
+      /// d mean / d xi (i = 0) or eta (1), where the other one is @p t.
+      Tensor<1, 3>
+      slope(const unsigned int i, const double t) const
+      {
+        return (1. - t) * (corner[1 + i] - corner[0]) +
+               t * (corner[3] - corner[2 - i]);
+      }
+
+      unsigned int                axis = 0;
+      std::array<Tensor<1, 3>, 4> corner;
     };
 
     /// @p points in the frame of the body.
@@ -97,7 +182,7 @@ namespace mortise
   } // namespace
 
   SphereManifold::SphereManifold(const RigidMotion &motion)
-    : motion(motion)
+    : centre(motion.translation)
   {}
 
   std::unique_ptr<Manifold<3>>
@@ -111,11 +196,7 @@ namespace mortise
                                 const ArrayView<const double>   &weights) const
   {
     AssertDimension(points.size(), weights.size());
-    Table<2, double> table(1, weights.size());
-    std::copy(weights.begin(), weights.end(), &table(0, 0));
-    Point<3> result;
-    get_new_points(points, table, ArrayView<Point<3>>(&result, 1));
-    return result;
+    return mean(centre, polar_points(centre, points), weights.data());
   }
 
   void
@@ -125,9 +206,58 @@ namespace mortise
   {
     AssertDimension(points.size(), weights.size(1));
     AssertDimension(new_points.size(), weights.size(0));
+    // The caller may pass the same memory twice.
+    const auto polars = polar_points(centre, points);
+    for (unsigned int row = 0; row < weights.size(0); ++row)
+      new_points[row] = mean(centre, polars, &weights(row, 0));
+  }
+
+  Tensor<1, 3>
+  SphereManifold::get_tangent_vector(const Point<3> &x1,
+                                     const Point<3> &x2) const
+  {
+    const Polar a = polar(x1 - centre), b = polar(x2 - centre);
+    // Derivative at t = 0 of (r1 + t (r2 - r1)) times the normalised d1 + t (d2
+    // - d1).
+    return (b.radius - a.radius) * a.direction +
+           a.radius * (b.direction - (a.direction * b.direction) * a.direction);
+  }
+
+  ShellOctantManifold::ShellOctantManifold(const unsigned int n,
+                                           const RigidMotion &motion)
+    : n(n)
+    , motion(motion)
+  {}
+
+  std::unique_ptr<Manifold<3>>
+  ShellOctantManifold::clone() const
+  {
+    return std::make_unique<ShellOctantManifold>(*this);
+  }
+
+  Point<3>
+  ShellOctantManifold::get_new_point(
+    const ArrayView<const Point<3>> &points,
+    const ArrayView<const double>   &weights) const
+  {
+    AssertDimension(points.size(), weights.size());
+    Table<2, double> table(1, weights.size());
+    std::copy(weights.begin(), weights.end(), &table(0, 0));
+    Point<3> result;
+    get_new_points(points, table, ArrayView<Point<3>>(&result, 1));
+    return result;
+  }
+
+  void
+  ShellOctantManifold::get_new_points(const ArrayView<const Point<3>> &points,
+                                      const Table<2, double>          &weights,
+                                      ArrayView<Point<3>> new_points) const
+  {
+    AssertDimension(points.size(), weights.size(1));
+    AssertDimension(new_points.size(), weights.size(0));
     // the caller may pass the same memory twice
     std::vector<Point<3>> charts = in_body(motion, points);
-    const OctantChart     chart(charts);
+    const OctantChart     chart(charts, n);
     for (Point<3> &p : charts)
       p = chart.pull_back(p);
     for (unsigned int row = 0; row < weights.size(0); ++row)
@@ -140,12 +270,12 @@ namespace mortise
   }
 
   Tensor<1, 3>
-  SphereManifold::get_tangent_vector(const Point<3> &x1,
-                                     const Point<3> &x2) const
+  ShellOctantManifold::get_tangent_vector(const Point<3> &x1,
+                                          const Point<3> &x2) const
   {
-    const std::array<Point<3>, 2> ends{{motion.inverse(x1), motion.inverse(x2)}};
-    const OctantChart chart(std::vector<Point<3>>(ends.begin(), ends.end()));
-    const Point<3>    from = chart.pull_back(ends[0]);
+    const std::vector<Point<3>> ends = {motion.inverse(x1), motion.inverse(x2)};
+    const OctantChart           chart(ends, n);
+    const Point<3>              from = chart.pull_back(ends[0]);
     return motion.rotation *
            chart.derivative(from, chart.pull_back(ends[1]) - from);
   }

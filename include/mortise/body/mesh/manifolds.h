@@ -11,12 +11,10 @@
 
 namespace mortise
 {
-  /// Concentric spheres about the body's origin in the charts of a cube that is
-  /// blown up: (r, atan(x_l / x_a), atan(x_k / x_a)) around each axis a. A point
-  /// between others is the weighted mean in the chart around the axis nearest to
-  /// them: cells are boxes there, and the same ones however often they are cut.
-  /// On a plane x_a = x_l both charts have the same lines. Points must lie in the
-  /// octant x, y, z >= 0, those of a cell in one chart.
+  /// Concentric spheres about the body's origin: a point between others has the
+  /// weighted mean of their radii and the normalised weighted mean of their
+  /// directions. Weights must be such that the mean direction does not vanish
+  /// (an octant always is).
   class SphereManifold : public dealii::Manifold<3>
   {
   public:
@@ -41,7 +39,42 @@ namespace mortise
                        const dealii::Point<3> &x2) const override;
 
   private:
-    RigidMotion motion;
+    dealii::Point<3> centre;
+  };
+
+  /// The same for the hexahedra of a shell octant, whose coarse cells divide each
+  /// of three patches around an axis a into n x n equal angles atan(x_l / x_a),
+  /// atan(x_k / x_a). Chart: the radius and the coordinates in a coarse cell, where
+  /// a direction is the normalised bilinear mean of those of its corners. However
+  /// often cells are cut they follow the lines of their coarse cell, as those
+  /// beside them do that are not cut. Points are those of one coarse cell.
+  class ShellOctantManifold : public dealii::Manifold<3>
+  {
+  public:
+    /// @p n: cells along an edge of a patch.
+    ShellOctantManifold(unsigned int n, const RigidMotion &motion);
+
+    std::unique_ptr<dealii::Manifold<3>>
+    clone() const override;
+
+    dealii::Point<3>
+    get_new_point(
+      const dealii::ArrayView<const dealii::Point<3>> &points,
+      const dealii::ArrayView<const double>           &weights) const override;
+
+    void
+    get_new_points(
+      const dealii::ArrayView<const dealii::Point<3>> &points,
+      const dealii::Table<2, double>                  &weights,
+      dealii::ArrayView<dealii::Point<3>> new_points) const override;
+
+    dealii::Tensor<1, 3>
+    get_tangent_vector(const dealii::Point<3> &x1,
+                       const dealii::Point<3> &x2) const override;
+
+  private:
+    const unsigned int n;
+    const RigidMotion  motion;
   };
 
   /// Concentric cylinders about the body's z axis; chart (r, angle, z) with the
