@@ -30,8 +30,8 @@ namespace mortise
     }
   };
 
-  /// Nodes, some component of which may be free; where some of the face hang,
-  /// those that they hang on.
+  /// Nodes, where some of the face hang those that they hang on: the matrix also has the columns of
+  /// components that are prescribed.
   class NodalColumns
   {
   public:
@@ -49,14 +49,7 @@ namespace mortise
             for (unsigned int e = face.begin[k]; e < face.begin[k + 1]; ++e)
               add(face.nodes[face.column[e]], face.weight[e]);
           else
-            {
-              // what holds a mode holds the node in its place
-              bool is_free = false;
-              for (unsigned int row = k; row < dim * n; row += n)
-                is_free |= trace.begin[row + 1] > trace.begin[row];
-              if (is_free)
-                add(face.nodes[k], 1.);
-            }
+            add(face.nodes[k], 1.);
           begin.push_back(index.size());
         }
     }
@@ -84,44 +77,6 @@ namespace mortise
     }
 
     const FaceTrace                             &trace;
-    std::vector<unsigned int>                    begin;
-    std::vector<dealii::types::global_dof_index> index;
-    std::vector<double>                          weight;
-  };
-
-  /// The prescribed displacements of one side.
-  class PrescribedTrace
-  {
-  public:
-    static constexpr bool by_node = false;
-
-    explicit PrescribedTrace(const FaceTrace &trace)
-      : n_functions(trace.n_functions())
-      , begin(1)
-    {
-      for (const dealii::types::global_dof_index dof : trace.prescribed)
-        {
-          if (dof != dealii::numbers::invalid_dof_index)
-            index.push_back(dof);
-          begin.push_back(index.size());
-        }
-      weight.assign(index.size(), 1.);
-    }
-
-    Expansion
-    component(const unsigned int c) const
-    {
-      return {begin, index, weight, c * n_functions};
-    }
-
-    const dealii::FullMatrix<double> &
-    in_columns(const dealii::FullMatrix<double> &local) const
-    {
-      return local;
-    }
-
-  private:
-    unsigned int                                 n_functions;
     std::vector<unsigned int>                    begin;
     std::vector<dealii::types::global_dof_index> index;
     std::vector<double>                          weight;

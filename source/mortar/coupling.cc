@@ -289,15 +289,4 @@ namespace mortise
       all_frames, partition.owned_multiplier, owned, partition.comm, frames);
     return {std::move(entries), rows, std::move(frames)};
   }
-
-  void
-  assemble_prescribed_columns(const std::vector<Coupling> &couplings,
-                              const CouplingPartition     &partition,
-                              SparseMatrix                &coupling)
-  {
-    assemble_blocks<PrescribedTrace>(couplings,
-                                     rows_of(couplings),
-                                     partition,
-                                     coupling);
-  }
 } // namespace mortise

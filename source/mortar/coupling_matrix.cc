@@ -53,15 +53,21 @@ namespace mortise
     for (int i = 0; i < result.MyLength(); ++i)
       for (int c = 0; c < n; ++c)
         result[c][i] = by_displacement[n * i + c];
-    for (const unsigned int k : constrained)
-      result[k % n][k / n] = 0.;
     return result;
+  }
+
+  void
+  CouplingMatrix::clear_constrained(Epetra_MultiVector &by_component) const
+  {
+    for (const unsigned int k : constrained)
+      by_component[k % components_per_node][k / components_per_node] = 0.;
   }
 
   Epetra_MultiVector
   CouplingMatrix::on_columns(const double *by_displacement) const
   {
-    const Epetra_MultiVector owned = by_component(by_displacement);
+    Epetra_MultiVector owned = by_component(by_displacement);
+    clear_constrained(owned);
     if (scalar().Importer() == nullptr)
       return owned;
     Epetra_MultiVector result(scalar().ColMap(), owned.NumVectors());
@@ -70,13 +76,10 @@ namespace mortise
   }
 
   void
-  CouplingMatrix::vmult(Vector &dst, const Vector &u) const
+  CouplingMatrix::multiply(Vector &dst, const Epetra_MultiVector &u) const
   {
-    if (components_per_node == 1)
-      return entries->vmult(dst, u);
-    const Epetra_MultiVector from = by_component(u.begin());
-    Epetra_MultiVector       to(scalar().RowMap(), dim);
-    scalar().Multiply(false, from, to);
+    Epetra_MultiVector to(scalar().RowMap(), dim);
+    scalar().Multiply(false, u, to);
     Epetra_Vector rows(scalar().RowMap());
     for (int i = 0; i < rows.MyLength(); ++i)
       rows[i] = to[components[i]][representatives[i]];
@@ -89,11 +92,9 @@ namespace mortise
       std::copy_n(rows.Values(), rows.MyLength(), dst.begin());
   }
 
-  void
-  CouplingMatrix::Tvmult_add(Vector &dst, const Vector &lambda) const
+  Epetra_MultiVector
+  CouplingMatrix::forces(const Vector &lambda) const
   {
-    if (components_per_node == 1)
-      return entries->Tvmult_add(dst, lambda);
     Epetra_Vector rows(scalar().RowMap());
     if (has_frames())
       frames().Multiply(true,
@@ -108,11 +109,47 @@ namespace mortise
     for (int i = 0; i < rows.MyLength(); ++i)
       from[components[i]][representatives[i]] = rows[i];
     scalar().Multiply(true, from, to);
-    for (const unsigned int k : constrained)
-      to[k % dim][k / dim] = 0.;
-    for (int i = 0; i < to.MyLength(); ++i)
+    return to;
+  }
+
+  void
+  CouplingMatrix::add(const Epetra_MultiVector &by_component, double *dst)
+  {
+    for (int i = 0; i < by_component.MyLength(); ++i)
       for (unsigned int c = 0; c < dim; ++c)
-        dst.begin()[dim * i + c] += to[c][i];
+        dst[dim * i + c] += by_component[c][i];
+  }
+
+  void
+  CouplingMatrix::vmult(Vector &dst, const Vector &u) const
+  {
+    if (components_per_node == 1)
+      return entries->vmult(dst, u);
+    Epetra_MultiVector from = by_component(u.begin());
+    clear_constrained(from);
+    multiply(dst, from);
+  }
+
+  void
+  CouplingMatrix::vmult_free(Vector &dst, const double *u) const
+  {
+    multiply(dst, by_component(u));
+  }
+
+  void
+  CouplingMatrix::Tvmult_add(Vector &dst, const Vector &lambda) const
+  {
+    if (components_per_node == 1)
+      return entries->Tvmult_add(dst, lambda);
+    Epetra_MultiVector to = forces(lambda);
+    clear_constrained(to);
+    add(to, dst.begin());
+  }
+
+  void
+  CouplingMatrix::Tvmult_add_free(double *dst, const Vector &lambda) const
+  {
+    add(forces(lambda), dst);
   }
 
   Epetra_CrsMatrix

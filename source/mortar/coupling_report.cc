@@ -327,14 +327,15 @@ namespace mortise
         }
   }
 
-  ResultantErrors
-  resultant_errors(const Coupling &coupling,
-                   const Vector   &multiplier,
-                   const MPI_Comm  comm)
+  Resultants
+  resultants(const Coupling &coupling,
+             const Vector   &multiplier,
+             const MPI_Comm  comm)
   {
     const auto coefficients =
       multiplier_coefficients(coupling, multiplier, comm);
-    Tensor<1, dim> force, moment;
+    Resultants     result;
+    Tensor<1, dim> force, moment; // imbalance
     double         squared = 0.;
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       if (!coupling.local[s].partners.empty())
@@ -351,18 +352,28 @@ namespace mortise
                     squared += value[c] * multiplier_product(local, i, j) *
                                coefficients[s][c * n + j];
                 }
+              result.force +=
+                on_constants(local.constraint,
+                             i,
+                             coupling.interface->slave().traces[s].basis()) *
+                value;
+              result.moment += cross_product_3d(local.position_moment[i], value);
               force += row_difference(coupling, s, i) * value;
               moment += cross_product_3d(local.gap_moment[i], value);
             }
         }
+    result.force      = Utilities::MPI::sum(result.force, comm);
+    result.moment     = Utilities::MPI::sum(result.moment, comm);
     force             = Utilities::MPI::sum(force, comm);
     moment            = Utilities::MPI::sum(moment, comm);
     const double area = coupling.interface->report().covered_area;
     const double carried =
       std::sqrt(std::max(0., Utilities::MPI::sum(squared, comm)) * area);
-    if (!(carried > 0.))
-      return {};
-    return {force.norm() / carried,
-            moment.norm() / (carried * std::sqrt(area))};
+    if (carried > 0.)
+      {
+        result.force_residual  = force.norm() / carried;
+        result.moment_residual = moment.norm() / (carried * std::sqrt(area));
+      }
+    return result;
   }
 } // namespace mortise

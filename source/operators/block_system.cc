@@ -81,6 +81,15 @@ namespace mortise
   }
 
   void
+  BlockSystem::apply_to_constrained(const LevelVector<double> &u,
+                                    SystemVector              &rhs) const
+  {
+    nodal->apply_to_constrained(u, rhs);
+    if (owned_multiplier.size() > 0)
+      coupling.vmult_free(rhs.multiplier, u.begin());
+  }
+
+  void
   BlockSystem::apply_constraint(Vector &dst, const Vector &u) const
   {
     coupling.vmult(dst, u);

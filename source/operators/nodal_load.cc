@@ -79,10 +79,8 @@ namespace mortise
     };
   } // namespace
 
-  void
-  NodalSystem::assemble_load(const std::vector<Loads> &loads,
-                             const FieldNumbering     &numbering,
-                             SceneLoad                &load) const
+  LevelVector<double>
+  NodalSystem::external_forces(const std::vector<Loads> &loads) const
   {
     const NodalLevel   &level = all_levels.front();
     LevelVector<double> sum;
@@ -95,29 +93,31 @@ namespace mortise
                              by_node.add_displacement(*body, cell, local);
                            });
     stiffness->gather(sum);
-    if (Utilities::MPI::max(load.prescribed.empty() ? 0 : 1,
-                            level.layout->get_mpi_communicator()) == 1)
-      {
-        interpolate([&](const unsigned int body, const auto dof) {
-          return prescribed_value(load.prescribed, numbering(body, dof));
-        });
-        if (pressures)
-          {
-            p_in = 0.;
-            apply_mixed_free();
-            std::copy_n(p_out.begin(),
-                        p_out.locally_owned_size(),
-                        load.rhs.pressure.begin());
-            load.rhs.pressure *= -1.;
-          }
-        else
-          stiffness->vmult_free(out, in);
-        sum -= out;
-      }
+    return sum;
+  }
+
+  LevelVector<double>
+  NodalSystem::by_node(const Body            &body,
+                       const CellFunctionals &functionals) const
+  {
+    const NodalLevel   &level = all_levels.front();
+    LevelVector<double> sum;
+    stiffness->initialize(sum);
+    FunctionalByNode nodes(*level.space, *level.layout, sum);
+    for (const CellFunctional &on_cell : functionals)
+      nodes.add_displacement(body, on_cell.cell, on_cell.displacement);
+    stiffness->gather(sum);
+    return sum;
+  }
+
+  void
+  NodalSystem::add_loads(const std::vector<Loads> &loads, SceneLoad &load) const
+  {
+    load.external           = external_forces(loads);
+    LevelVector<double> sum = load.external;
     stiffness->clear_constrained(sum);
-    std::copy_n(sum.begin(),
-                sum.locally_owned_size(),
-                load.rhs.displacement.begin());
+    for (unsigned int i = 0; i < sum.locally_owned_size(); ++i)
+      load.rhs.displacement.begin()[i] += sum.local_element(i);
     if (pressures)
       add_expansion(loads, load.rhs.pressure);
   }
@@ -147,13 +147,7 @@ namespace mortise
                                    const CellFunctionals &functionals,
                                    SystemVector          &rhs) const
   {
-    const NodalLevel   &level = all_levels.front();
-    LevelVector<double> sum;
-    stiffness->initialize(sum);
-    FunctionalByNode by_node(*level.space, *level.layout, sum);
-    for (const CellFunctional &on_cell : functionals)
-      by_node.add_displacement(body, on_cell.cell, on_cell.displacement);
-    stiffness->gather(sum);
+    LevelVector<double> sum = by_node(body, functionals);
     stiffness->clear_constrained(sum);
     std::copy_n(sum.begin(),
                 sum.locally_owned_size(),

@@ -2,6 +2,7 @@
 #include <Epetra_Vector.h>
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/spaces/thickness_coarsening.h>
+#include <mortise/operators/block_system.h>
 #include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/nodal_system.h>
 
@@ -247,6 +248,45 @@ namespace mortise
                   order.values[i];
           }
       });
+  }
+
+  LevelVector<double>
+  NodalSystem::values_at_nodes(const Coefficients &coefficient) const
+  {
+    interpolate(coefficient);
+    return in;
+  }
+
+  LevelVector<double>
+  NodalSystem::internal_forces(const LevelVector<double> &u,
+                               const Vector              &p) const
+  {
+    in = u;
+    if (pressures)
+      {
+        copy(p_in, p);
+        apply_mixed_free();
+      }
+    else
+      stiffness->vmult_free(out, in);
+    return out;
+  }
+
+  void
+  NodalSystem::apply_to_constrained(const LevelVector<double> &u,
+                                    SystemVector              &rhs) const
+  {
+    in = u;
+    if (pressures)
+      {
+        p_in = 0.;
+        apply_mixed_free();
+        copy(rhs.pressure, p_out);
+      }
+    else
+      stiffness->vmult_free(out, in);
+    stiffness->clear_constrained(out);
+    copy(rhs.displacement, out);
   }
 
   void

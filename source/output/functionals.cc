@@ -109,12 +109,14 @@ namespace mortise
       FieldsOnFace(const Body            &body,
                    const Quadrature<dim> &rule,
                    const unsigned int     f)
-        : fields(body, [rule](const auto &) { return rule; })
+        : rule(rule)
+        , fields(body, [rule](const auto &) { return rule; })
         , geometry(body, f, rule)
       {}
 
-      CellFields   fields;
-      FaceGeometry geometry;
+      const Quadrature<dim> rule;
+      CellFields            fields;
+      FaceGeometry          geometry;
     };
 
     struct FunctionsOnFace
@@ -127,16 +129,18 @@ namespace mortise
             body,
             [rule](const auto &) { return rule; },
             update_gradients)
+        , weights(body, [rule](const auto &) { return rule; })
         , geometry(body, f, rule)
       {}
 
       const Quadrature<dim>          rule;
       ValuesByElement<FEValues<dim>> functions;
+      CellFields                     weights;
       FaceGeometry                   geometry;
     };
 
     /// Calls @p visit(cell, face) for the faces on @p boundary of owned cells, with the rule of
-    /// resultant() and a Face that stands on them.
+    /// stresses and a Face that stands on them.
     template <typename Face, typename Visit>
     void
     for_each_face(const Body              &body,
@@ -158,21 +162,33 @@ namespace mortise
     }
   } // namespace
 
-  Tensor<1, dim>
-  resultant(const Body              &body,
-            const BodySolution      &solution,
-            const types::boundary_id boundary)
+  CellFunctionals
+  stress_functionals(const Body              &body,
+                     const BodySolution      &solution,
+                     const types::boundary_id boundary)
   {
-    Tensor<1, dim> force;
-    for_each_face<FieldsOnFace>(
-      body, boundary, [&](const auto &cell, FieldsOnFace &face) {
-        face.fields.reinit(cell, solution);
-        for (unsigned int q = 0; q < face.geometry.points.size(); ++q)
-          force +=
+    CellFunctionals result;
+    const auto add_face = [&](const Body::CellIterator &cell,
+                              FieldsOnFace             &face) {
+      const auto            &fe = cell->get_fe();
+      dealii::Vector<double> forces(fe.n_dofs_per_cell());
+      face.fields.reinit(cell, solution);
+      for (unsigned int q = 0; q < face.geometry.points.size(); ++q)
+        {
+          const Tensor<1, dim> force =
             face.geometry.weights[q] *
             (face.fields.stress(q) * face.geometry.normals[q]);
-      });
-    return Utilities::MPI::sum(force, body.triangulation().get_communicator());
+          for (unsigned int k = 0; k < forces.size(); ++k)
+            {
+              const auto [c, i] = fe.system_to_component_index(k);
+              forces[k] +=
+                force[c] * fe.base_element(0).shape_value(i, face.rule.point(q));
+            }
+        }
+      result.push_back({cell, forces, {}});
+    };
+    for_each_face<FieldsOnFace>(body, boundary, add_face);
+    return result;
   }
 
   Tensor<1, dim>
@@ -192,9 +208,10 @@ namespace mortise
   }
 
   CellFunctionals
-  resultant_functional(const Body              &body,
-                       const types::boundary_id boundary,
-                       const unsigned int       c)
+  stress_functional(const Body              &body,
+                    const BodySolution      &weights,
+                    const types::boundary_id boundary,
+                    const unsigned int       c)
   {
     CellFunctionals result;
     const auto      add_face = [&](const Body::CellIterator &cell,
@@ -203,12 +220,14 @@ namespace mortise
       dealii::Vector<double> u(fe.n_dofs_per_cell()), p;
       FEValues<dim>         &functions = face.functions(cell);
       functions.reinit(Triangulation<dim>::cell_iterator(cell));
+      face.weights.reinit(cell, weights);
       std::vector<double> normals; // component c of them, weighted
       for (unsigned int q = 0; q < face.geometry.points.size(); ++q)
         {
           // e . sigma(h) n = h : sigma(e n^T), since moduli are symmetric
           Tensor<2, dim> unit;
-          unit[c] = face.geometry.weights[q] * face.geometry.normals[q];
+          unit[c] = face.geometry.weights[q] * face.weights.values[q][c] *
+                    face.geometry.normals[q];
           normals.push_back(unit[c][c]);
           const Tensor<2, dim> stress = body.material.stress(unit, 0.);
           for (unsigned int k = 0; k < u.size(); ++k)

@@ -99,6 +99,9 @@ namespace mortise
       visit("quadrature_points", interface.quadrature_points);
       visit("slave_area", interface.slave_area);
       visit("covered_area", interface.covered_area);
+      visit("area", interface.covered_area);
+      visit("force", interface.force);
+      visit("moment", interface.moment);
       visit("gap_mean", interface.gap_mean);
       visit("distance_mean", interface.distance_mean);
       visit("distance_max", interface.distance_max);
@@ -110,6 +113,15 @@ namespace mortise
       visit("linear_completeness_error", interface.linear_completeness_error);
       visit("contact", interface.contact);
       visit("preload", interface.preload);
+    }
+
+    template <typename Visit>
+    void
+    visit_members(EquilibriumSummary &equilibrium, const Visit &visit)
+    {
+      visit("applied", equilibrium.applied);
+      visit("reactions", equilibrium.reactions);
+      visit("sum", equilibrium.sum);
     }
 
     template <typename Visit>
@@ -162,6 +174,7 @@ namespace mortise
       visit("dofs", step.dofs);
       visit("interfaces", step.interfaces);
       visit("solver", step.solver);
+      visit("equilibrium", step.equilibrium);
       visit("errors", step.errors);
       visit("adaptivity", step.adaptivity);
       visit("quantities", step.quantities);

@@ -54,8 +54,10 @@ namespace mortise
                     const unsigned int                   first,
                     const ContactState                  &state,
                     const std::vector<bool>             &undecided,
-                    const MPI_Comm                       comm)
+                    const RunContext                    &run)
     {
+      const MPI_Comm comm = run.comm;
+      const auto    &about = run.parameters.output.moments_about;
       ContactSummary result;
       Tensor<1, dim> force, moment;
       double         work = 0., least = std::numeric_limits<double>::max();
@@ -83,6 +85,8 @@ namespace mortise
       result.pressure_max  = Utilities::MPI::max(result.pressure_max, comm);
       result.gap_min       = Utilities::MPI::min(least, comm);
       result.force         = components(Utilities::MPI::sum(force, comm));
+      moment -= cross_product_3d(Tensor<1, dim>({about[0], about[1], about[2]}),
+                                 force);
       result.moment        = components(Utilities::MPI::sum(moment, comm));
       for (std::uint64_t *count :
            {&result.active, &result.inactive, &result.undecided})
@@ -202,7 +206,7 @@ namespace mortise
                               first,
                               state,
                               solved.undecided,
-                              run.comm);
+                              run);
             const InterfaceParameters &given =
               discretisation.interfaces().sides()[i];
             contact.motion_max = moved;

@@ -57,13 +57,6 @@ namespace mortise
           assemble_compliance(couplings.all(),
                               partition,
                               system.spring_compliance);
-        if (spaces.has_prescribed_values())
-          assemble_prescribed_columns(
-            couplings.all(),
-            {spaces.fields.displacement.numbering.owned(),
-             system.owned_multiplier,
-             run.comm},
-            prescribed_columns);
       }
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
       interface_summaries.push_back(couplings.summary(i));
@@ -167,15 +160,17 @@ namespace mortise
     SceneLoad load{system.zero_vector(), prescribed_values(spaces, data)};
     for (const Loads &of_body : loads)
       load.thermal_strains.push_back(of_body.thermal_strain);
-    system.nodal->assemble_load(loads,
-                                spaces.fields.displacement.numbering,
-                                load);
-    if (prescribed_columns.m() > 0)
+    if (spaces.has_prescribed_values())
       {
-        Vector g = prescribed_vector(load);
-        g *= -1.;
-        prescribed_columns.vmult(load.rhs.multiplier, g);
+        const auto &numbering = spaces.fields.displacement.numbering;
+        system.apply_to_constrained(
+          system.nodal->values_at_nodes([&](const auto body, const auto dof) {
+            return prescribed_value(load.prescribed, numbering(body, dof));
+          }),
+          load.rhs);
+        scale(load.rhs, -1.);
       }
+    system.nodal->add_loads(loads, load);
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
       if (const auto offset = data.offset(couplings.sides()[i]);
           offset && load.rhs.multiplier.size() > 0)

@@ -349,7 +349,8 @@ namespace mortise
         });
       section.add("Resultants",
                   "",
-                  "Forces to report in the summary, on boundaries of bodies.",
+                  "Forces and moments to report in the summary, which act on boundaries of bodies: loads, "
+                  "reactions of supports, forces of interfaces.",
                   {"\"name: body: boundary; ...\""},
                   [&](const ParameterValue &value) {
                     output.resultants.clear();
@@ -359,6 +360,10 @@ namespace mortise
                          body_index(parameters, value, record[1]),
                          record[2]});
                   });
+      section.add("Moments about",
+                  output.moments_about,
+                  "The point about which moments of Resultants and interfaces are [length].",
+                  {"3 numbers"});
     }
   } // namespace
 

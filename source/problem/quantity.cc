@@ -90,33 +90,22 @@ namespace mortise
   }
 
   Tensor<1, dim>
-  Quantity::all_components(const Bodies                    &bodies,
+  Quantity::all_components(const Discretisation            &discretisation,
+                           const SolvedStep                &solved,
                            const std::vector<BodySolution> &solutions) const
   {
-    const Body         &body     = *bodies[this->body()];
-    const BodySolution &solution = solutions[body.index];
+    const Bodies &bodies = discretisation.bodies();
+    const Body   &body   = *bodies[this->body()];
     if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
-      return resultant(body, solution, body.boundary_id(force->boundary, ""));
+      return BoundaryForces(discretisation, solved, solutions)
+        .on(body.index, body.boundary_id(force->boundary, ""), {})
+        .force;
     const auto value = point_value(body,
-                                   solution.displacement,
+                                   solutions[body.index].displacement,
                                    std::get<PointQuantity>(quantity).point);
     if (!value)
       fail_outside(bodies);
     return *value;
-  }
-
-  double
-  Quantity::value(const Bodies                    &bodies,
-                  const std::vector<BodySolution> &solutions) const
-  {
-    return all_components(bodies, solutions)[component];
-  }
-
-  double
-  Quantity::size(const Bodies                    &bodies,
-                 const std::vector<BodySolution> &solutions) const
-  {
-    return all_components(bodies, solutions).norm();
   }
 
   double
@@ -132,21 +121,39 @@ namespace mortise
   }
 
   CellFunctionals
-  Quantity::derivative(const Bodies &bodies) const
+  Quantity::point_derivative(const Bodies        &bodies,
+                             const PointQuantity &point) const
   {
-    const Body &body = *bodies[this->body()];
-    if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
-      return resultant_functional(body,
-                                  body.boundary_id(force->boundary, ""),
-                                  component);
-    CellFunctionals result =
-      point_functional(body,
-                       std::get<PointQuantity>(quantity).point,
-                       component);
+    const Body     &body = *bodies[point.body];
+    CellFunctionals result = point_functional(body, point.point, component);
     if (Utilities::MPI::max(result.empty() ? 0 : 1,
                             body.triangulation().get_communicator()) == 0)
       fail_outside(bodies);
     return result;
+  }
+
+  void
+  Quantity::check_place(const Bodies &bodies) const
+  {
+    if (const auto *point = std::get_if<PointQuantity>(&quantity))
+      point_derivative(bodies, *point);
+  }
+
+  ReactionFunctional
+  Quantity::derivative(const Discretisation &discretisation) const
+  {
+    const Bodies &bodies = discretisation.bodies();
+    const Body   &body   = *bodies[this->body()];
+    if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
+      return reaction_functional(discretisation,
+                                 body.index,
+                                 body.boundary_id(force->boundary, ""),
+                                 component);
+    return {discretisation
+              .load(body,
+                    point_derivative(bodies, std::get<PointQuantity>(quantity)))
+              .rhs,
+            discretisation.linear_system().zero_vector().displacement};
   }
 
   DualSolution
@@ -154,15 +161,17 @@ namespace mortise
              const Discretisation            &discretisation,
              LinearSolver                    &solver,
              const Quantity                  &quantity,
+             const SolvedStep                &solved,
              const std::vector<BodySolution> &solutions,
              const std::vector<BodySolution> &start)
   {
-    DualSolution    result;
-    const Bodies   &bodies = discretisation.bodies();
-    const SceneLoad load   = discretisation.load(*bodies[quantity.body()],
-                                               quantity.derivative(bodies));
-    result.value           = quantity.value(bodies, solutions);
-    result.size            = quantity.size(bodies, solutions);
+    DualSolution         result;
+    const Tensor<1, dim> all =
+      quantity.all_components(discretisation, solved, solutions);
+    result.value            = all[quantity.component_number()];
+    result.size             = all.norm();
+    const auto   functional = quantity.derivative(discretisation);
+    SceneLoad    load{functional.rhs, {}};
     SystemVector z;
     if (start.empty())
       result.report = solver.solve(load.rhs, z);
@@ -171,6 +180,7 @@ namespace mortise
         z             = discretisation.system_vector(start, load);
         result.report = solver.solve_from(load.rhs, z);
       }
+    z.displacement -= functional.lift;
     result.solutions = discretisation.solutions(load, z);
     run.timers.add("dual", result.report.solve_seconds);
     run.log.stage_line("dual",

@@ -31,8 +31,8 @@ namespace mortise
                     "points",
                     "coverage",
                     "unity",
-                    "force",
-                    "moment",
+                    "imbalance",
+                    "of moments",
                     "linear"}};
       for (const InterfaceSummary &interface : step.interfaces)
         rows.push_back(
@@ -45,6 +45,37 @@ namespace mortise
            RunLog::number(*interface.moment_residual),
            RunLog::number(*interface.linear_completeness_error)});
       log.table(rows);
+    }
+
+    std::string
+    vector_text(const std::vector<double> &values)
+    {
+      std::string text;
+      for (const double value : values)
+        text += (text.empty() ? "" : ", ") + RunLog::number(value);
+      return text;
+    }
+
+    void
+    print_forces(RunLog &log, const StepSummary &step)
+    {
+      log.line();
+      Rows rows = {{"interface", "area", "force from slave to master", "moment"}};
+      for (const InterfaceSummary &interface : step.interfaces)
+        rows.push_back({interface.name,
+                        RunLog::number(interface.covered_area),
+                        vector_text(interface.force),
+                        vector_text(interface.moment)});
+      log.table(rows);
+    }
+
+    void
+    print_equilibrium(RunLog &log, const EquilibriumSummary &equilibrium)
+    {
+      log.line();
+      log.line("  equilibrium: applied " + vector_text(equilibrium.applied) +
+               "; reactions " + vector_text(equilibrium.reactions) +
+               "; sum " + vector_text(equilibrium.sum));
     }
 
     void
@@ -100,7 +131,12 @@ namespace mortise
   {
     print_bodies(log, step);
     if (!step.interfaces.empty())
-      print_interfaces(log, step);
+      {
+        print_interfaces(log, step);
+        print_forces(log, step);
+      }
+    if (step.equilibrium)
+      print_equilibrium(log, *step.equilibrium);
     if (step.errors)
       print_errors(log, step);
     if (step.adaptivity)

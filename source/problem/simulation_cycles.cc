@@ -13,6 +13,7 @@ namespace mortise
                         *discretisation,
                         *solver,
                         *quantity,
+                        solved,
                         fields.solutions,
                         adaptivity->dual_start(bodies));
     adaptivity->add(bodies,
@@ -55,7 +56,7 @@ namespace mortise
         context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
         discretise();
         if (const auto &quantity = adaptivity->quantity())
-          quantity->derivative(bodies); // tells of a point that is nowhere
+          quantity->check_place(bodies); // tells of a point that is nowhere
         step(writes);
         if (adaptivity->estimate())
           context.log.line("  " + adaptivity->found());

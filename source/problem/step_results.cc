@@ -1,6 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/output/functionals.h>
+#include <mortise/problem/boundary_forces.h>
 #include <mortise/problem/contact_results.h>
 #include <mortise/problem/interface_law.h>
 #include <mortise/problem/step_results.h>
@@ -138,12 +139,18 @@ namespace mortise
   {
     const Bodies &bodies     = discretisation.bodies();
     const auto   &interfaces = discretisation.interfaces().all();
+    const auto   &point      = run.parameters.output.moments_about;
+    const Point<dim> about(point[0], point[1], point[2]);
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       {
-        const ResultantErrors errors =
-          resultant_errors(interfaces[i], solved.solution.multiplier, run.comm);
-        summary.interfaces[i].force_residual  = errors.force;
-        summary.interfaces[i].moment_residual = errors.moment;
+        const Resultants carried =
+          resultants(interfaces[i], solved.solution.multiplier, run.comm);
+        InterfaceSummary &of  = summary.interfaces[i];
+        of.force              = components(carried.force);
+        of.moment             = components(
+          carried.moment - cross_product_3d(Tensor<1, dim>(about), carried.force));
+        of.force_residual  = carried.force_residual;
+        of.moment_residual = carried.moment_residual;
       }
     if (discretisation.interfaces().have_contact())
       add_contact(run, discretisation, solved, fields, summary);
@@ -163,14 +170,18 @@ namespace mortise
                                         value ? components(*value) :
                                                 std::vector<double>{});
       }
+    const BoundaryForces forces(discretisation, solved, fields.solutions);
+    summary.equilibrium = forces.equilibrium();
     for (const ResultantQuantity &quantity : run.parameters.output.resultants)
       {
-        const Body &body = *bodies[quantity.body];
-        summary.quantities.emplace_back(
-          quantity.name,
-          components(resultant(body,
-                               fields.solutions[quantity.body],
-                               body.boundary_id(quantity.boundary, ""))));
+        const ForceAndMoment on_boundary = forces.on(
+          quantity.body,
+          bodies[quantity.body]->boundary_id(quantity.boundary, ""),
+          about);
+        summary.quantities.emplace_back(quantity.name,
+                                        components(on_boundary.force));
+        summary.quantities.emplace_back(quantity.name + ", moment",
+                                        components(on_boundary.moment));
       }
   }
 } // namespace mortise

@@ -75,11 +75,11 @@ namespace mortise::testing
             errors.linear_completeness,
             1e-13);
     const auto balance =
-      resultant_errors(coupling,
+      resultants(coupling,
                        random(tied.scene.owned_multiplier, tied.scene.comm),
                        tied.scene.comm);
-    verdict(what + ": force 1e-13", balance.force, 1e-13);
-    verdict(what + ": moment 1e-13", balance.moment, 1e-13);
+    verdict(what + ": force 1e-13", balance.force_residual, 1e-13);
+    verdict(what + ": moment 1e-13", balance.moment_residual, 1e-13);
     check_work(what, tied, slave.degree);
 
     const Assembled alone(slave, master, MPI_COMM_SELF);
@@ -358,13 +358,13 @@ namespace mortise::testing
                       1e-13);
               errors.push_back(transfer.linear_completeness);
               const auto balance =
-                resultant_errors(tied.scene.coupling(),
+                resultants(tied.scene.coupling(),
                                  random(tied.scene.owned_multiplier,
                                         tied.scene.comm),
                                  tied.scene.comm);
-              verdict(mesh + ": force 1e-13", balance.force, 1e-13);
+              verdict(mesh + ": force 1e-13", balance.force_residual, 1e-13);
               verdict(mesh + ": moment within the gap",
-                      balance.moment,
+                      balance.moment_residual,
                       errors.back());
             }
           verdict(what + ": rate of linear completeness at least " +

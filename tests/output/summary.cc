@@ -68,6 +68,7 @@ namespace
     interface.linear_completeness_error = 0.;
     step.interfaces.push_back(interface);
     step.solver     = SolverSummary{"direct", "none", 1, 1e-16};
+    step.equilibrium = EquilibriumSummary{{1.}, {-1.}, {0.}};
     step.errors     = ErrorSummary{1e-3, 2e-3, 3e-3, {}, {}};
     step.quantities = {{"z first", {1., 2., 3.}}, {"a second", {4.}}};
     summary.steps.push_back(step);
@@ -87,7 +88,10 @@ namespace
     const Json &step = json["steps"][0];
     check_keys("a step",
                step,
-               "step cycle bodies dofs interfaces solver errors quantities");
+               "step cycle bodies dofs interfaces solver equilibrium errors quantities");
+    check_keys("equilibrium",
+               step["equilibrium"],
+               "applied reactions sum");
     check_keys("a body",
                step["bodies"][0],
                "name shape cells degree_min degree_max dofs");
@@ -96,7 +100,7 @@ namespace
       "an interface",
       step["interfaces"][0],
       "name slave_faces master_faces candidate_pairs pairs integration_cells "
-      "quadrature_points slave_area covered_area gap_mean distance_mean distance_max "
+      "quadrature_points slave_area covered_area area force moment gap_mean distance_mean distance_max "
       "sagitta_mean worst_face_coverage_error "
       "partition_of_unity_error force_residual moment_residual linear_completeness_error");
     check_keys("solver",

@@ -42,6 +42,13 @@ namespace mortise::testing
       return parameters;
     }
 
+    /// @p x must live on.
+    SolvedStep
+    solved(const SystemVector &x) const
+    {
+      return {data, load, x, {}, {}};
+    }
+
   private:
     static Parameters
     valid(Parameters parameters)

@@ -85,14 +85,6 @@ namespace mortise
                      MPI_Comm                 comm,
                      Coupling                &coupling);
 
-  /// The columns that this B lacks: those of prescribed displacements, and of
-  /// what hangs on them, in the numbering of the scene, which the partition has
-  /// for displacements here. Collective.
-  void
-  assemble_prescribed_columns(const std::vector<Coupling> &couplings,
-                              const CouplingPartition     &partition,
-                              SparseMatrix                &coupling);
-
   /// What a multiplier feels of rigid motions: that of component c over a bound
   /// of int |psi|.
   struct MultiplierMoment
@@ -124,19 +116,20 @@ namespace mortise
                   const dealii::IndexSet &owned_multiplier,
                   MPI_Comm                comm);
 
-  /// Imbalance of what the multipliers put on the two sides.
-  struct ResultantErrors
+  /// What the multipliers carry from the slave to the master.
+  struct Resultants
   {
-    double force = 0.; ///< |F_slave - F_master| / int |lambda|
-    double moment =
-      0.; ///< |M_slave - M_master| / (int |lambda| times the root of the area)
+    dealii::Tensor<1, dim> force;  ///< int lambda
+    dealii::Tensor<1, dim> moment; ///< int x_slave x lambda, about the origin
+    /// |F_slave - F_master| / int |lambda|
+    double force_residual = 0.;
+    /// |M_slave - M_master| / (int |lambda| times the root of the area)
+    double moment_residual = 0.;
   };
 
   /// @p multiplier: owned entries of the solution. Collective.
-  ResultantErrors
-  resultant_errors(const Coupling &coupling,
-                   const Vector   &multiplier,
-                   MPI_Comm        comm);
+  Resultants
+  resultants(const Coupling &coupling, const Vector &multiplier, MPI_Comm comm);
 
   /// By slave face of this rank and row of MultiplierSpace::rows(), the value
   /// of what

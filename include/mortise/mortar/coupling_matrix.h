@@ -105,6 +105,14 @@ namespace mortise
     void
     Tvmult_add(Vector &dst, const Vector &lambda) const;
 
+    /// dst = B u, without regard to what is constrained. @p u: by owned displacement. Collective.
+    void
+    vmult_free(Vector &dst, const double *u) const;
+
+    /// dst += B^T lambda, likewise. @p dst: by owned displacement. Collective.
+    void
+    Tvmult_add_free(double *dst, const Vector &lambda) const;
+
     /// diag(B T B^T), T diagonal, by owned displacement. Collective.
     Epetra_Vector
     diagonal_of_square(const Epetra_Vector &T) const;
@@ -117,6 +125,16 @@ namespace mortise
   private:
     Epetra_MultiVector
     by_component(const double *by_displacement) const;
+    void
+    clear_constrained(Epetra_MultiVector &by_component) const;
+    /// dst = B u, with all of B.
+    void
+    multiply(Vector &dst, const Epetra_MultiVector &u) const;
+    /// B^T lambda, with all of B, by component.
+    Epetra_MultiVector
+    forces(const Vector &lambda) const;
+    static void
+    add(const Epetra_MultiVector &by_component, double *dst);
 
     unsigned int                  components_per_node = 1;
     std::unique_ptr<SparseMatrix> entries, frames_of_rows;

@@ -97,6 +97,11 @@ namespace mortise
                 const Vector &u,
                 const Vector &p) const;
 
+    /// Set @p rhs to what the system is times @p u at nodes, which may be other than zero where components are
+    /// constrained. Collective.
+    void
+    apply_to_constrained(const LevelVector<double> &u, SystemVector &rhs) const;
+
     /// dst += G^T p. Collective.
     void
     add_pressure_force(Vector &dst, const Vector &p) const;

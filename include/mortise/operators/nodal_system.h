@@ -126,13 +126,38 @@ namespace mortise
       return leading;
     }
 
-    /// Set the right hand side of @p load: int b.v + int t.v - int sigma_0 : grad v (see
-    /// for_each_loaded_cell()) less the work of the prescribed displacements in it, zero where constrained, and what these leave to the
-    /// pressures. @p loads: by body. Collective.
+    /// A hierarchical coefficient, by body and dof.
+    using Coefficients =
+      std::function<double(unsigned int, dealii::types::global_dof_index)>;
+
+    /// The values at nodes of the function with these coefficients, also where it is prescribed. Collective.
+    LevelVector<double>
+    values_at_nodes(const Coefficients &coefficient) const;
+
+    /// K u + G^T p by node, what stresses resist with, also where components are
+    /// constrained; @p p is not read without bodies in mixed form. Collective.
+    LevelVector<double>
+    internal_forces(const LevelVector<double> &u, const Vector &p) const;
+
+    /// Set displacements and pressures of @p rhs to K u, zero where components are constrained, and G u, where @p u may
+    /// be other than zero at such. Collective.
     void
-    assemble_load(const std::vector<Loads> &loads,
-                  const FieldNumbering     &numbering,
-                  SceneLoad                &load) const;
+    apply_to_constrained(const LevelVector<double> &u, SystemVector &rhs) const;
+
+    /// int b.v + int t.v - int sigma_0 : grad v by node (see for_each_loaded_cell()), also where components are
+    /// constrained. @p loads: by body. Collective.
+    LevelVector<double>
+    external_forces(const std::vector<Loads> &loads) const;
+
+    /// What @p functionals on cells of @p body have for displacements, by node, also where
+    /// components are constrained. Collective.
+    LevelVector<double>
+    by_node(const Body &body, const CellFunctionals &functionals) const;
+
+    /// Set external forces of @p load, and add them to its right hand side, but where components are constrained, and
+    /// what thermal strains are to the pressures. Collective.
+    void
+    add_loads(const std::vector<Loads> &loads, SceneLoad &load) const;
 
     /// Add what thermal strains are to the pressures.
     void
@@ -144,10 +169,6 @@ namespace mortise
     assemble_functional(const Body            &body,
                         const CellFunctionals &functionals,
                         SystemVector          &rhs) const;
-
-    /// A hierarchical coefficient, by body and dof.
-    using Coefficients =
-      std::function<double(unsigned int, dealii::types::global_dof_index)>;
 
     /// What undoes for_each_coefficient(): the values at nodes, zero where constrained. Collective.
     void

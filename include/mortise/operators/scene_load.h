@@ -6,6 +6,7 @@
 
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/operators/block_system.h>
+#include <mortise/operators/levels/nodal_operator.h>
 #include <mortise/operators/prescribed_values.h>
 
 #include <functional>
@@ -32,6 +33,8 @@ namespace mortise
     SystemVector               rhs; ///< (f, h, g)
     PrescribedValues           prescribed;
     std::vector<ThermalStrain> thermal_strains = {}; ///< by body, or none
+    /// NodalSystem::external_forces(), or empty.
+    LevelVector<double> external = {};
   };
 
   /// Calls @p visit with the owned cells that may have loads and int b.v + int

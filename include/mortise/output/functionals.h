@@ -25,21 +25,23 @@ namespace mortise
                    const dealii::Point<dim> &point,
                    unsigned int              c);
 
-  /// Force on a boundary, int sigma_h n. Collective.
-  dealii::Tensor<1, dim>
-  resultant(const Body                &body,
-            const BodySolution        &solution,
-            dealii::types::boundary_id boundary);
+  /// int (sigma_h n) . v over @p boundary for the functions v of the cells there, forces.
+  CellFunctionals
+  stress_functionals(const Body                &body,
+                     const BodySolution        &solution,
+                     dealii::types::boundary_id boundary);
 
-  /// That of an exact solution, by the same rule. Collective.
+  /// int w (sigma n)_c over @p boundary as a functional of what has the stress, w component @p c of the
+  /// displacement of @p weights.
+  CellFunctionals
+  stress_functional(const Body                &body,
+                    const BodySolution        &weights,
+                    dealii::types::boundary_id boundary,
+                    unsigned int               c);
+
+  /// Force on a boundary, int sigma n of an exact solution. Collective.
   dealii::Tensor<1, dim>
   resultant(const Body                &body,
             const ExactSolution       &exact,
             dealii::types::boundary_id boundary);
-
-  /// Component @p c of resultant().
-  CellFunctionals
-  resultant_functional(const Body                &body,
-                       dealii::types::boundary_id boundary,
-                       unsigned int               c);
 } // namespace mortise

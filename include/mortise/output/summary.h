@@ -48,7 +48,7 @@ namespace mortise
   struct ContactSummary
   {
     double              area = 0.;          ///< that presses
-    std::vector<double> force, moment;      ///< on the slave, about the origin
+    std::vector<double> force, moment; ///< on the slave; as those of interfaces
     double              pressure_mean = 0.; ///< over that area, positive
     double              pressure_max  = 0.;
     double              gap_min       = 0.; ///< of all nodes
@@ -76,6 +76,8 @@ namespace mortise
     std::uint64_t                 quadrature_points = 0;
     double                        slave_area        = 0.;
     double                        covered_area      = 0.;
+    /// What the slave puts on the master, the moment about Output/Moments about; empty until solved.
+    std::vector<double> force, moment;
     /// Between the meshes along the slave's normal, over the covered area, see
     /// InterfaceReport; lengths.
     double gap_mean = 0., distance_mean = 0., distance_max = 0.,
@@ -87,6 +89,14 @@ namespace mortise
     std::optional<double>         linear_completeness_error;
     std::optional<ContactSummary> contact; ///< with that law
     std::optional<PreloadSummary> preload; ///< if it has one
+  };
+
+  /// Forces on all bodies together.
+  struct EquilibriumSummary
+  {
+    std::vector<double> applied;   ///< loads
+    std::vector<double> reactions; ///< of supports
+    std::vector<double> sum;       ///< of both, zero but for the solver's tolerance
   };
 
   struct SolverSummary
@@ -134,6 +144,7 @@ namespace mortise
     DofSummary                    dofs;
     std::vector<InterfaceSummary> interfaces;
     std::optional<SolverSummary>  solver; ///< absent until solved
+    std::optional<EquilibriumSummary> equilibrium; ///< absent until solved
     std::optional<ErrorSummary>   errors; ///< absent without an exact solution
     std::optional<AdaptivitySummary> adaptivity; ///< with a target
     /// User-requested functionals in the order of the request: point values,

@@ -105,6 +105,13 @@ namespace mortise
       return spaces.bodies;
     }
 
+    /// By body, what is prescribed and where.
+    const std::vector<std::vector<DirichletCondition>> &
+    dirichlet() const
+    {
+      return spaces.dirichlet;
+    }
+
     const SolverChoice &
     choice() const
     {
@@ -147,7 +154,6 @@ namespace mortise
     SceneSpaces               spaces;
     SceneCouplings            couplings;
     BlockSystem               system;
-    SparseMatrix              prescribed_columns; ///< of B, if there are any
     std::vector<FreePressure> free_pressures;
     std::vector<InterfaceSummary>              interface_summaries;
     std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;

@@ -152,7 +152,7 @@ namespace mortise
     dealii::Point<3> point;
   };
 
-  /// The force on a boundary of a body, reported in the summary.
+  /// What a boundary of a body bears, reported in the summary.
   struct ResultantQuantity
   {
     std::string  name;
@@ -167,6 +167,7 @@ namespace mortise
     unsigned int             checkpoint_every = 0; ///< steps; 0: no checkpoints
     std::vector<PointQuantity>     points;
     std::vector<ResultantQuantity> resultants;
+    std::array<double, 3> moments_about{}; ///< a point
   };
 
   struct Parameters

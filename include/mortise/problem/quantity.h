@@ -5,7 +5,7 @@
 #pragma once
 
 #include <mortise/output/functionals.h>
-#include <mortise/problem/discretisation.h>
+#include <mortise/problem/boundary_forces.h>
 #include <mortise/solvers/linear_solver.h>
 
 #include <optional>
@@ -30,34 +30,40 @@ namespace mortise
       return text;
     }
 
-    /// Throws InputError where a point lies outside its body. Collective.
-    double
-    value(const Bodies                    &bodies,
-          const std::vector<BodySolution> &solutions) const;
+    unsigned int
+    body() const;
+
+    /// All components of the displacement or force of which it is one. Throws InputError where a
+    /// point lies outside its body. Collective.
+    dealii::Tensor<1, dim>
+    all_components(const Discretisation            &discretisation,
+                   const SolvedStep                &solved,
+                   const std::vector<BodySolution> &solutions) const;
+
+    /// Which of them it is.
+    unsigned int
+    component_number() const
+    {
+      return component;
+    }
 
     double
     value(const Bodies &bodies, const ExactSolution &exact) const;
 
-    /// The derivative by the coefficients of body(). Throws InputError where a
+    /// Throws InputError where a point lies outside its body. Collective.
+    void
+    check_place(const Bodies &bodies) const;
+
+    /// The derivative by what is solved for. Throws InputError where a
     /// point lies outside. Collective.
-    CellFunctionals
-    derivative(const Bodies &bodies) const;
-
-    unsigned int
-    body() const;
-
-    /// Of the whole displacement or force of which it is a component.
-    /// Collective.
-    double
-    size(const Bodies                    &bodies,
-         const std::vector<BodySolution> &solutions) const;
+    ReactionFunctional
+    derivative(const Discretisation &discretisation) const;
 
   private:
     Quantity(const Parameters &parameters, const std::string &name);
 
-    dealii::Tensor<1, dim>
-    all_components(const Bodies                    &bodies,
-                   const std::vector<BodySolution> &solutions) const;
+    CellFunctionals
+    point_derivative(const Bodies &bodies, const PointQuantity &point) const;
     [[noreturn]] void
     fail_outside(const Bodies &bodies) const;
 
@@ -72,18 +78,21 @@ namespace mortise
   struct DualSolution
   {
     double                    value = 0.;
-    double                    size  = 0.; ///< Quantity::size()
-    std::vector<BodySolution> solutions;  ///< by body
+    double size = 0.; ///< of all components of the quantity
+    /// By body; less the function that the quantity is the energy product with, see
+    /// ReactionFunctional.
+    std::vector<BodySolution> solutions;
     SolveReport               report;
   };
 
-  /// Solve the system of @p discretisation, whose last @p solution that is, for the derivative of
+  /// Solve the system of @p discretisation, whose last solution is @p solved, @p solutions by body, for the derivative of
   /// @p quantity; @p start may be empty. Collective.
   DualSolution
   solve_dual(const RunContext                &run,
              const Discretisation            &discretisation,
              LinearSolver                    &solver,
              const Quantity                  &quantity,
+             const SolvedStep                &solved,
              const std::vector<BodySolution> &solutions,
              const std::vector<BodySolution> &start);
 } // namespace mortise

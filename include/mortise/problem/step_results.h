@@ -5,6 +5,7 @@
 #include <mortise/output/summary.h>
 #include <mortise/problem/adaptivity.h>
 #include <mortise/problem/discretisation.h>
+#include <mortise/problem/solved_step.h>
 
 #include <vector>
 
@@ -24,25 +25,6 @@ namespace mortise
     /// a target.
     std::vector<std::vector<double>> estimates;
   };
-
-  struct SolvedStep
-  {
-    const SceneData    &data;
-    const SceneLoad    &load;
-    const SystemVector &solution;
-    /// By owned multiplier: pressure and gap are zero but for rounding; empty
-    /// in a scene without contact.
-    const std::vector<bool> undecided;
-    /// By interface, what its preload adds to its offset, a length.
-    const std::vector<double> shortenings;
-  };
-
-  /// As the summary has vectors.
-  inline std::vector<double>
-  components(const dealii::Tensor<1, dim> &value)
-  {
-    return {value[0], value[1], value[2]};
-  }
 
   /// Collective.
   StepFields
