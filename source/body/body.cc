@@ -6,6 +6,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/body/body.h>
+#include <mortise/body/elements/conforming_nodes.h>
 #include <mortise/body/elements/hexahedral_mapping.h>
 #include <mortise/body/elements/legendre_elements.h>
 #include <mortise/body/elements/simplex_mapping.h>
@@ -170,7 +171,20 @@ namespace mortise
                           [&](const auto &cell) { return points(cell, unit); });
       }
     else
-      cache->initialize(MappingQ<dim>(mapping_degree), triangulation());
+      {
+        cache->initialize(MappingQ<dim>(mapping_degree), triangulation());
+        if (mesh.curved && triangulation().has_hanging_nodes())
+          {
+            const HexahedralMapping manifold(*cache);
+            const NodesOfCells      conforming =
+              conforming_nodes(manifold, mapping_degree, triangulation());
+            cache->initialize(triangulation(), [&](const auto &cell) {
+              const auto found = conforming.find({cell->level(), cell->index()});
+              return found == conforming.end() ? manifold.nodes(cell) :
+                                                 found->second;
+            });
+          }
+      }
     mapping = std::move(cache);
   }
 

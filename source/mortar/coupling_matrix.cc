@@ -64,14 +64,15 @@ namespace mortise
   }
 
   Epetra_MultiVector
-  CouplingMatrix::on_columns(const double *by_displacement) const
+  CouplingMatrix::on_columns(const double           *by_displacement,
+                             const Epetra_CrsMatrix &matrix) const
   {
     Epetra_MultiVector owned = by_component(by_displacement);
     clear_constrained(owned);
-    if (scalar().Importer() == nullptr)
+    if (matrix.Importer() == nullptr)
       return owned;
-    Epetra_MultiVector result(scalar().ColMap(), owned.NumVectors());
-    result.Import(owned, *scalar().Importer(), Insert);
+    Epetra_MultiVector result(matrix.ColMap(), owned.NumVectors());
+    result.Import(owned, *matrix.Importer(), Insert);
     return result;
   }
 

@@ -120,7 +120,15 @@ namespace mortise
     /// One value by owned displacement, on the columns of scalar(), a vector by
     /// component; zero where constrained. Collective.
     Epetra_MultiVector
-    on_columns(const double *by_displacement) const;
+    on_columns(const double *by_displacement) const
+    {
+      return on_columns(by_displacement, scalar());
+    }
+
+    /// Likewise on those of @p matrix, which has rows of scalar().
+    Epetra_MultiVector
+    on_columns(const double           *by_displacement,
+               const Epetra_CrsMatrix &matrix) const;
 
   private:
     Epetra_MultiVector
