@@ -5,11 +5,13 @@
 #include <mortise/output/checkpoint.h>
 #include <mortise/problem/contact_start.h>
 #include <mortise/problem/guard.h>
+#include <mortise/problem/points_outside.h>
 #include <mortise/problem/result_checks.h>
 #include <mortise/problem/run_table.h>
 #include <mortise/problem/simulation.h>
 
 #include <cmath>
+#include <set>
 
 namespace mortise
 {
@@ -58,14 +60,34 @@ namespace mortise
   void
   Simulation::create_meshes()
   {
+    if (!may_act(context.parameters))
+      context.log.warning(
+        "nothing acts on the scene; all results are zero. What acts: Traction, Pressure, "
+        "Force, Moment or a Displacement other than zero on a boundary; Body force, Gravity "
+        "with a Density, Temperature with a Thermal expansion in a body; Offset or Preload of "
+        "an interface");
     // says what a named exact solution needs of the bodies
     const SceneData data(context.parameters, steps.next(), field_checks);
     bodies = mortise::create_meshes(context);
   }
 
   void
+  Simulation::validate()
+  {
+    check_output_directory(context.parameters, context.comm);
+    create_meshes();
+    std::set<unsigned int> of_points;
+    for (const PointQuantity &point : context.parameters.output.points)
+      of_points.insert(point.body);
+    for (const unsigned int b : of_points)
+      create_space(context, *bodies[b]);
+    check_points(context, bodies);
+  }
+
+  void
   Simulation::discretise()
   {
+    const bool first = discretisation == nullptr;
     if (bodies.empty())
       create_meshes();
     if (adaptivity && !summary.steps.empty())
@@ -95,6 +117,8 @@ namespace mortise
                                        bodies,
                                        adaptivity ? adaptivity->degrees() :
                                                     CellDegrees());
+    if (first)
+      check_points(context, bodies);
     summary.balance = discretisation->interfaces().balance();
 
     const SolverParameters &given = context.parameters.solver;

@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/output/extremes.h>
 #include <mortise/output/functionals.h>
 #include <mortise/problem/contact_results.h>
 #include <mortise/problem/interface_law.h>
@@ -138,6 +139,12 @@ namespace mortise
   {
     const Bodies &bodies     = discretisation.bodies();
     const auto   &interfaces = discretisation.interfaces().all();
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const Extremes largest = extremes(*bodies[b], fields.solutions[b]);
+        summary.bodies[b].displacement_max = largest.displacement;
+        summary.bodies[b].von_mises_max    = largest.von_mises;
+      }
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       {
         const ResultantErrors errors =
@@ -155,10 +162,6 @@ namespace mortise
           point_value(*bodies[quantity.body],
                       fields.solutions[quantity.body].displacement,
                       quantity.point);
-        if (!value)
-          run.log.warning("Output/Points: " + quantity.name +
-                          " lies outside of body " +
-                          bodies[quantity.body]->name);
         summary.quantities.emplace_back(quantity.name,
                                         value ? components(*value) :
                                                 std::vector<double>{});

@@ -149,6 +149,7 @@ namespace mortise
     BlockSystem               system;
     SparseMatrix              prescribed_columns; ///< of B, if there are any
     std::vector<FreePressure> free_pressures;
+    std::vector<double>                        volumes; ///< by body
     std::vector<InterfaceSummary>              interface_summaries;
     std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;
   };

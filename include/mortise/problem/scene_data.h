@@ -19,6 +19,11 @@ namespace mortise
   std::vector<Material>
   materials(const Parameters &parameters);
 
+  /// May any displacement of the scene be other than zero, at any time? Contact across the gap that
+  /// meshes leave or close may press.
+  bool
+  may_act(const Parameters &parameters);
+
   /// What acts on a scene at one time. Both arguments of the constructor must
   /// live on; @p checks is told of values that no run can use.
   class SceneData
