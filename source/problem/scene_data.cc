@@ -123,7 +123,7 @@ namespace mortise
   } // namespace
 
   bool
-  may_act(const Parameters &parameters)
+  anything_acts(const Parameters &parameters)
   {
     const double time      = parameters.steps.first_time();
     const auto   is_vector = [&](const std::optional<Components> &given) {
@@ -146,9 +146,8 @@ namespace mortise
                                   is_vector(given.displacement);
                          });
     };
-    const auto has_gap = [&](const InterfaceParameters &interface) {
-      return is_number(interface.offset) || is_number(interface.preload) ||
-             (interface.law == "contact" && interface.mesh_gap == "real");
+    const auto moves = [&](const InterfaceParameters &interface) {
+      return is_number(interface.offset) || is_number(interface.preload);
     };
     return parameters.exact_solution.kind == ExactKind::expressions ||
            std::any_of(parameters.bodies.begin(),
@@ -156,7 +155,18 @@ namespace mortise
                        has_loads) ||
            std::any_of(parameters.interfaces.begin(),
                        parameters.interfaces.end(),
-                       has_gap);
+                       moves);
+  }
+
+  bool
+  have_real_gaps(const Parameters &parameters)
+  {
+    return std::any_of(parameters.interfaces.begin(),
+                       parameters.interfaces.end(),
+                       [](const InterfaceParameters &interface) {
+                         return interface.law == "contact" &&
+                                interface.mesh_gap == "real";
+                       });
   }
 
   Loads

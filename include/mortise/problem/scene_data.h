@@ -19,10 +19,14 @@ namespace mortise
   std::vector<Material>
   materials(const Parameters &parameters);
 
-  /// May any displacement of the scene be other than zero, at any time? Contact across the gap that
-  /// meshes leave or close may press.
+  /// Is there a load or anything else that moves bodies, at any time? The meshes of contact are no
+  /// part of it, which may overlap.
   bool
-  may_act(const Parameters &parameters);
+  anything_acts(const Parameters &parameters);
+
+  /// May meshes that overlap press?
+  bool
+  have_real_gaps(const Parameters &parameters);
 
   /// What acts on a scene at one time. Both arguments of the constructor must
   /// live on; @p checks is told of values that no run can use.
