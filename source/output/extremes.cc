@@ -210,7 +210,9 @@ namespace mortise
                          const Visit      &visit) const
       {
         for_each_cell([&](const auto &cell) {
-          if ((cell->center() - place).norm() <= 1.5 * cell->diameter() + radius)
+          // a corner of a tetrahedron is at most 3/4 of its longest edge from
+          // its centre, the sides of a quarter of a circle bulge by 1/5
+          if (cell->center().distance(place) <= cell->diameter() + radius)
             visit(cell);
         });
       }
