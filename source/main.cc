@@ -57,8 +57,7 @@ namespace
       simulation.resume(*checkpoint, command.restart);
     if (command.action == Action::validate)
       {
-        mortise::check_output_directory(parameters, comm);
-        simulation.create_meshes();
+        simulation.validate();
         log.line("The scene is valid.");
       }
     else

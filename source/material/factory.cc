@@ -32,7 +32,11 @@ namespace mortise
                         const bool                mixed,
                         const Where              &where)
     {
-      const double E = given.young_modulus, nu = given.poisson_ratio;
+      if (!given.young_modulus)
+        fail(where("Young modulus"),
+             "nothing with Law = linear elastic",
+             "a positive number (force per area) " + allowed_moduli());
+      const double E = *given.young_modulus, nu = given.poisson_ratio;
       if (!(E >= smallest_modulus && E <= largest_modulus))
         fail(where("Young modulus"),
              text(E),
@@ -66,7 +70,7 @@ namespace mortise
     linear_elastic_constants(const MaterialParameters &given)
     {
       const MaterialParameters none;
-      return {{"Young modulus", given.young_modulus != none.young_modulus},
+      return {{"Young modulus", given.young_modulus.has_value()},
               {"Poisson ratio", given.poisson_ratio != none.poisson_ratio}};
     }
 

@@ -57,6 +57,14 @@ namespace mortise
     }
   } // namespace
 
+  bool
+  contains(const Body &body, const Point<dim> &point)
+  {
+    const MPI_Comm comm = body.triangulation().get_communicator();
+    return rank_with(find_point(body, point).has_value(), comm) <
+           Utilities::MPI::n_mpi_processes(comm);
+  }
+
   std::optional<Tensor<1, dim>>
   point_value(const Body       &body,
               const BodyVector &displacement,

@@ -41,6 +41,23 @@ namespace mortise
 
     template <typename Visit>
     void
+    visit_members(PeakSummary &peak, const Visit &visit)
+    {
+      visit("value", peak.value);
+      visit("at", peak.at);
+    }
+
+    template <typename Visit>
+    void
+    visit_members(StressPeakSummary &peak, const Visit &visit)
+    {
+      visit_members(static_cast<PeakSummary &>(peak), visit);
+      visit("averaged", peak.averaged);
+      visit("jump", peak.jump);
+    }
+
+    template <typename Visit>
+    void
     visit_members(BodySummary &body, const Visit &visit)
     {
       visit("name", body.name);
@@ -49,6 +66,11 @@ namespace mortise
       visit("degree_min", body.degree_min);
       visit("degree_max", body.degree_max);
       visit("dofs", body.dofs);
+      visit("material", body.material);
+      visit("volume", body.volume);
+      visit("mass", body.mass);
+      visit("displacement_max", body.displacement_max);
+      visit("von_mises_max", body.von_mises_max);
     }
 
     template <typename Visit>

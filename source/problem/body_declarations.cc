@@ -85,7 +85,7 @@ namespace mortise
                   Allowed::one_of(law_names()));
       section.add("Young modulus",
                   material.young_modulus,
-                  "Young's modulus of Law = linear elastic [force per area].",
+                  "Young's modulus of Law = linear elastic [force per area], which needs one.",
                   {"a positive number"});
       section.add("Poisson ratio",
                   material.poisson_ratio,

@@ -24,8 +24,16 @@ namespace mortise
     /// Beside how far sides move: a user should know.
     constexpr double large_penetration = 0.1;
 
-    /// Of the size of a body.
+    /// Beside coordinates, by which meshes that touch may overlap.
     constexpr double rounding_of_places = 1e-14;
+
+    /// The largest coordinate of @p body, about. Collective.
+    double
+    largest_coordinate(const Body &body)
+    {
+      const Extent where = extent(body);
+      return where.centre.norm() + where.size;
+    }
 
     /// Of all interfaces, by owned multiplier.
     struct ContactState
@@ -226,7 +234,8 @@ namespace mortise
             if (contact.penetration_max > large_penetration * moved &&
                 contact.penetration_max >
                   rounding_of_places *
-                    extent(*discretisation.bodies()[given.slave.body]).size)
+                    largest_coordinate(
+                      *discretisation.bodies()[given.slave.body]))
               run.log.warning(
                 "interface " + given.name + ": the bodies overlap by up to " +
                 RunLog::number(contact.penetration_max) +

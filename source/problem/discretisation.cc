@@ -1,5 +1,6 @@
 #include <mortise/base/error.h>
 #include <mortise/mortar/slave_normals.h>
+#include <mortise/operators/body_volume.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/rigid_motions.h>
 #include <mortise/solvers/interface/dependent_multipliers.h>
@@ -22,6 +23,8 @@ namespace mortise
     , couplings(run, spaces)
   {
     create_spaces(run, data, degrees, spaces);
+    for (const auto &body : bodies)
+      volumes.push_back(body_volume(*body));
     system.communicator       = run.comm;
     system.owned_displacement = spaces.owned_displacement();
     if (spaces.fields.pressure.numbering.size() > 0)
@@ -309,14 +312,24 @@ namespace mortise
     StepSummary step;
     for (const auto &body : spaces.bodies)
       {
-        const auto statistics = body->statistics();
+        const auto                statistics = body->statistics();
+        const MaterialParameters &material =
+          run.parameters.bodies[body->index].material;
+        const double volume = volumes[body->index];
         step.bodies.push_back(
           {body->name,
            body->mesh.tetrahedra ? "tetrahedra" : "hexahedra",
            statistics.cells,
            statistics.degree_min,
            statistics.degree_max,
-           body->dof_handler.n_dofs()});
+           body->dof_handler.n_dofs(),
+           material.law,
+           volume,
+           material.density > 0. ?
+             std::optional<double>(material.density * volume) :
+             std::nullopt,
+           {},
+           {}});
       }
     const auto n_pressures = spaces.fields.pressure.numbering.size();
     step.dofs.displacement = spaces.fields.displacement.numbering.size();

@@ -61,6 +61,17 @@ namespace mortise
     Finder finder;
     if (step.solver)
       finder.look("relative residual", step.solver->relative_residual);
+    for (const BodySummary &body : step.bodies)
+      {
+        const std::string name = "body " + body.name + ", ";
+        finder.look(name + "volume", body.volume);
+        if (body.displacement_max)
+          finder.look(name + "largest displacement",
+                      body.displacement_max->value);
+        if (body.von_mises_max)
+          finder.look(name + "largest von Mises stress",
+                      body.von_mises_max->value);
+      }
     for (const InterfaceSummary &interface : step.interfaces)
       {
         const std::string name = "interface " + interface.name + ", ";

@@ -1,5 +1,8 @@
 #include <mortise/problem/run_table.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace mortise
 {
   namespace
@@ -19,6 +22,64 @@ namespace mortise
                           std::to_string(body.degree_min) + ".." +
                             std::to_string(body.degree_max),
                         std::to_string(body.dofs)});
+      log.table(rows);
+    }
+
+    std::string
+    text_of(const std::vector<double> &x)
+    {
+      std::string text = "(";
+      for (unsigned int c = 0; c < x.size(); ++c)
+        text += (c > 0 ? ", " : "") + RunLog::number(x[c]);
+      return text + ")";
+    }
+
+    void
+    print_materials(RunLog &log, const StepSummary &step)
+    {
+      log.line();
+      const bool has_mass =
+        std::any_of(step.bodies.begin(), step.bodies.end(), [](const auto &b) {
+          return b.mass.has_value();
+        });
+      Rows rows = {{"body", "material", "volume"}};
+      if (has_mass)
+        rows[0].push_back("mass");
+      for (const BodySummary &body : step.bodies)
+        {
+          rows.push_back(
+            {body.name, body.material, RunLog::number(body.volume)});
+          if (has_mass)
+            rows.back().push_back(body.mass ? RunLog::number(*body.mass) : "-");
+        }
+      log.table(rows);
+    }
+
+    void
+    print_displacements(RunLog &log, const StepSummary &step)
+    {
+      log.line();
+      Rows rows = {{"body", "displacement, largest", "at"}};
+      for (const BodySummary &body : step.bodies)
+        if (const auto &peak = body.displacement_max)
+          rows.push_back(
+            {body.name, RunLog::number(peak->value), text_of(peak->at)});
+      log.table(rows);
+    }
+
+    void
+    print_stresses(RunLog &log, const StepSummary &step)
+    {
+      log.line();
+      Rows rows = {
+        {"body", "von Mises, largest", "averaged", "jump between cells", "at"}};
+      for (const BodySummary &body : step.bodies)
+        if (const auto &peak = body.von_mises_max)
+          rows.push_back({body.name,
+                          RunLog::number(peak->value),
+                          RunLog::number(peak->averaged),
+                          peak->jump ? RunLog::number(*peak->jump) : "-",
+                          text_of(peak->at)});
       log.table(rows);
     }
 
@@ -47,25 +108,53 @@ namespace mortise
       log.table(rows);
     }
 
-    std::string
-    vector_text(const std::vector<double> &values)
-    {
-      std::string text;
-      for (const double value : values)
-        text += (text.empty() ? "" : ", ") + RunLog::number(value);
-      return text;
-    }
-
     void
     print_forces(RunLog &log, const StepSummary &step)
     {
       log.line();
-      Rows rows = {{"interface", "area", "force from slave to master", "moment"}};
+      Rows rows = {
+        {"interface", "area", "force from slave to master", "moment"}};
       for (const InterfaceSummary &interface : step.interfaces)
         rows.push_back({interface.name,
                         RunLog::number(interface.covered_area),
-                        vector_text(interface.force),
-                        vector_text(interface.moment)});
+                        text_of(interface.force),
+                        text_of(interface.moment)});
+      log.table(rows);
+    }
+
+    /// What lies between the meshes of the sides, where they do not coincide.
+    void
+    print_distances(RunLog &log, const StepSummary &step)
+    {
+      constexpr double rounding = 1e-10; // beside the size of the interface
+      Rows rows = {{"interface", "distance, mean", "largest", "gap, mean"}};
+      for (const InterfaceSummary &interface : step.interfaces)
+        if (interface.distance_max > rounding * std::sqrt(interface.slave_area))
+          rows.push_back({interface.name,
+                          RunLog::number(interface.distance_mean),
+                          RunLog::number(interface.distance_max),
+                          RunLog::number(interface.gap_mean)});
+      if (rows.size() == 1)
+        return;
+      log.line();
+      log.table(rows);
+    }
+
+    void
+    print_contact(RunLog &log, const StepSummary &step)
+    {
+      Rows rows = {
+        {"contact", "pressing area", "pressure, mean", "largest", "penetration"}};
+      for (const InterfaceSummary &interface : step.interfaces)
+        if (const auto &contact = interface.contact)
+          rows.push_back({interface.name,
+                          RunLog::number(contact->area),
+                          RunLog::number(contact->pressure_mean),
+                          RunLog::number(contact->pressure_max),
+                          RunLog::number(contact->penetration_max)});
+      if (rows.size() == 1)
+        return;
+      log.line();
       log.table(rows);
     }
 
@@ -73,9 +162,9 @@ namespace mortise
     print_equilibrium(RunLog &log, const EquilibriumSummary &equilibrium)
     {
       log.line();
-      log.line("  equilibrium: applied " + vector_text(equilibrium.applied) +
-               "; reactions " + vector_text(equilibrium.reactions) +
-               "; sum " + vector_text(equilibrium.sum));
+      log.line("  equilibrium: applied " + text_of(equilibrium.applied) +
+               "; reactions " + text_of(equilibrium.reactions) + "; sum " +
+               text_of(equilibrium.sum));
     }
 
     void
@@ -130,10 +219,15 @@ namespace mortise
   print_table(RunLog &log, const StepSummary &step)
   {
     print_bodies(log, step);
+    print_materials(log, step);
+    print_displacements(log, step);
+    print_stresses(log, step);
     if (!step.interfaces.empty())
       {
         print_interfaces(log, step);
         print_forces(log, step);
+        print_distances(log, step);
+        print_contact(log, step);
       }
     if (step.equilibrium)
       print_equilibrium(log, *step.equilibrium);

@@ -122,6 +122,53 @@ namespace mortise
     }
   } // namespace
 
+  bool
+  anything_acts(const Parameters &parameters)
+  {
+    const double time      = parameters.steps.first_time();
+    const auto   is_vector = [&](const std::optional<Components> &given) {
+      return given && !all_zero(components(*given, "", time));
+    };
+    const auto is_number = [&](const std::optional<std::string> &given) {
+      return given && !all_zero({Component(*given, "", time)});
+    };
+    const auto has_loads = [&](const BodyParameters &body) {
+      return is_vector(body.body_force) || is_number(body.temperature) ||
+             (body.material.density > 0. && is_vector(parameters.gravity)) ||
+             std::any_of(body.boundaries.begin(),
+                         body.boundaries.end(),
+                         [&](const auto &entry) {
+                           const BoundaryParameters &given = entry.second;
+                           return is_number(given.pressure) ||
+                                  is_vector(given.traction) ||
+                                  is_vector(given.force) ||
+                                  is_vector(given.moment) ||
+                                  is_vector(given.displacement);
+                         });
+    };
+    const auto moves = [&](const InterfaceParameters &interface) {
+      return is_number(interface.offset) || is_number(interface.preload);
+    };
+    return parameters.exact_solution.kind == ExactKind::expressions ||
+           std::any_of(parameters.bodies.begin(),
+                       parameters.bodies.end(),
+                       has_loads) ||
+           std::any_of(parameters.interfaces.begin(),
+                       parameters.interfaces.end(),
+                       moves);
+  }
+
+  bool
+  have_real_gaps(const Parameters &parameters)
+  {
+    return std::any_of(parameters.interfaces.begin(),
+                       parameters.interfaces.end(),
+                       [](const InterfaceParameters &interface) {
+                         return interface.law == "contact" &&
+                                interface.mesh_gap == "real";
+                       });
+  }
+
   Loads
   SceneData::loads(const Body &body) const
   {

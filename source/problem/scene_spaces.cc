@@ -174,6 +174,17 @@ namespace mortise
   } // namespace
 
   void
+  create_space(const RunContext &run, Body &body)
+  {
+    const BodyParameters &given = run.parameters.bodies[body.index];
+    body.create_space(given.degree,
+                      given.degree_by_region,
+                      "Body " + body.name,
+                      given.degree_near,
+                      given.least_mapping_degree);
+  }
+
+  void
   create_spaces(const RunContext  &run,
                 const SceneData   &data,
                 const CellDegrees &degrees,
@@ -187,11 +198,7 @@ namespace mortise
       {
         const BodyParameters &given = run.parameters.bodies[body->index];
         if (degrees.empty())
-          body->create_space(given.degree,
-                             given.degree_by_region,
-                             "Body " + body->name,
-                             given.degree_near,
-                             given.least_mapping_degree);
+          create_space(run, *body);
         else
           body->create_space(degrees[body->index]);
         handlers.push_back(&body->dof_handler);

@@ -5,15 +5,40 @@
 #include <mortise/output/checkpoint.h>
 #include <mortise/problem/contact_start.h>
 #include <mortise/problem/guard.h>
+#include <mortise/problem/points_outside.h>
 #include <mortise/problem/result_checks.h>
 #include <mortise/problem/run_table.h>
 #include <mortise/problem/simulation.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace mortise
 {
   using namespace dealii;
+
+  namespace
+  {
+    const char *const nothing_acts =
+      "nothing acts on the scene; all results are zero. What acts: Traction, Pressure, "
+      "Force, Moment or a Displacement other than zero on a boundary; Body force, Gravity "
+      "with a Density, Temperature with a Thermal expansion in a body; Offset or Preload of "
+      "an interface";
+
+    /// Are all displacements of @p step rounding beside the bodies?
+    bool
+    is_zero(const StepSummary &step)
+    {
+      constexpr double rounding = 1e-10;
+      return std::all_of(
+        step.bodies.begin(), step.bodies.end(), [&](const BodySummary &body) {
+          return body.displacement_max &&
+                 body.displacement_max->value <=
+                   rounding * std::cbrt(body.volume);
+        });
+    }
+  } // namespace
 
   Simulation::Simulation(const Parameters &given,
                          RunLog           &log,
@@ -58,14 +83,31 @@ namespace mortise
   void
   Simulation::create_meshes()
   {
+    if (!anything_acts(context.parameters) &&
+        !have_real_gaps(context.parameters))
+      context.log.warning(nothing_acts);
     // says what a named exact solution needs of the bodies
     const SceneData data(context.parameters, steps.next(), field_checks);
     bodies = mortise::create_meshes(context);
   }
 
   void
+  Simulation::validate()
+  {
+    check_output_directory(context.parameters, context.comm);
+    create_meshes();
+    std::set<unsigned int> of_points;
+    for (const PointQuantity &point : context.parameters.output.points)
+      of_points.insert(point.body);
+    for (const unsigned int b : of_points)
+      create_space(context, *bodies[b]);
+    check_points(context, bodies);
+  }
+
+  void
   Simulation::discretise()
   {
+    const bool first = discretisation == nullptr;
     if (bodies.empty())
       create_meshes();
     if (adaptivity && !summary.steps.empty())
@@ -95,6 +137,8 @@ namespace mortise
                                        bodies,
                                        adaptivity ? adaptivity->degrees() :
                                                     CellDegrees());
+    if (first)
+      check_points(context, bodies);
     summary.balance = discretisation->interfaces().balance();
 
     const SolverParameters &given = context.parameters.solver;
@@ -298,6 +342,8 @@ namespace mortise
     while (!steps.finished() && report.converged)
       step(writes);
     summary.status = report.converged ? "done" : "not converged";
+    if (!anything_acts(context.parameters) && is_zero(summary.steps.back()))
+      context.log.warning(nothing_acts);
   }
 
   void

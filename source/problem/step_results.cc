@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/output/extremes.h>
 #include <mortise/output/functionals.h>
 #include <mortise/problem/boundary_forces.h>
 #include <mortise/problem/contact_results.h>
@@ -141,6 +142,12 @@ namespace mortise
     const auto   &interfaces = discretisation.interfaces().all();
     const auto   &point      = run.parameters.output.moments_about;
     const Point<dim> about(point[0], point[1], point[2]);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const Extremes largest = extremes(*bodies[b], fields.solutions[b]);
+        summary.bodies[b].displacement_max = largest.displacement;
+        summary.bodies[b].von_mises_max    = largest.von_mises;
+      }
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       {
         const Resultants carried =
@@ -162,10 +169,6 @@ namespace mortise
           point_value(*bodies[quantity.body],
                       fields.solutions[quantity.body].displacement,
                       quantity.point);
-        if (!value)
-          run.log.warning("Output/Points: " + quantity.name +
-                          " lies outside of body " +
-                          bodies[quantity.body]->name);
         summary.quantities.emplace_back(quantity.name,
                                         value ? components(*value) :
                                                 std::vector<double>{});

@@ -104,8 +104,12 @@ namespace mortise
     scale(scaled, factor);
     system.clear_inactive(scaled.multiplier.begin());
     scale(x, factor);
+    // nothing is left of it, beside which any start is infinitely wrong
+    const bool nothing = largest_entry(scaled) == 0.;
+    if (nothing)
+      x = system.zero_vector();
     if (valid)
-      run(scaled, x, is_zero, report);
+      run(scaled, x, is_zero || nothing, report);
     else
       {
         report.prepared          = false;

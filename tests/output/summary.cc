@@ -55,7 +55,15 @@ namespace
     summary.timings = {{"total", 1.5}, {"mesh", 0.25}};
     summary.memory  = {200., 100.};
     StepSummary step;
-    step.bodies.push_back({"inner", "hexahedra", 96, 2, 3, 3000000000ull});
+    BodySummary body;
+    body.name             = "inner";
+    body.dofs             = 3000000000ull;
+    body.material         = "linear elastic";
+    body.volume           = 0.7;
+    body.mass             = 0.1 + 0.2;
+    body.displacement_max = PeakSummary{0.125, {1., 2., 3.}};
+    body.von_mises_max    = StressPeakSummary{{7., {4., 5., 6.}}, 6.5, 1. / 3.};
+    step.bodies           = {body, BodySummary()};
     step.dofs = {10, 11, 12, 33};
     InterfaceSummary interface;
     interface.name                      = "glue";
@@ -94,7 +102,17 @@ namespace
                "applied reactions sum");
     check_keys("a body",
                step["bodies"][0],
-               "name shape cells degree_min degree_max dofs");
+               "name shape cells degree_min degree_max dofs material volume mass "
+               "displacement_max von_mises_max");
+    check_keys("a body without mass that was not solved",
+               step["bodies"][1],
+               "name shape cells degree_min degree_max dofs material volume");
+    check_keys("a largest displacement",
+               step["bodies"][0]["displacement_max"],
+               "value at");
+    check_keys("a largest stress",
+               step["bodies"][0]["von_mises_max"],
+               "value at averaged jump");
     check_keys("dofs", step["dofs"], "displacement pressure multiplier total");
     check_keys(
       "an interface",
@@ -128,6 +146,14 @@ namespace
             "a number that is not finite is null");
     verdict(step["bodies"][0]["dofs"].get<std::uint64_t>() == 3000000000ull,
             "counts beyond 32 bits");
+    const StepSummary back =
+      steps_from_json(steps_to_json(full_summary().steps))[0];
+    verdict(back.bodies[0].mass == 0.1 + 0.2 &&
+              back.bodies[0].displacement_max->at ==
+                std::vector<double>{1., 2., 3.} &&
+              back.bodies[0].von_mises_max->jump == 1. / 3. &&
+              !back.bodies[1].von_mises_max,
+            "bodies of steps that are read again");
     verdict(json["title"].get<std::string>() == full_summary().title,
             "text with quotes and accents");
   }

@@ -106,6 +106,7 @@ main()
         {"Exact solution/Pressure (--set", "allowed: nothing"});
   const std::string outer       = "Body outer/Material/";
   const Settings    orthotropic = {outer + "Law=orthotropic",
+                                   outer + "Young modulus=",
                                    outer + "Young moduli=10, 1, 1",
                                    outer + "Poisson ratios=0.3, 0.4, 0.03",
                                    outer + "Shear moduli=1, 1, 1"};
@@ -121,7 +122,7 @@ main()
         {outer + "Law (--set", "orthotropc", "linear elastic, orthotropic"});
   check("orthotropic without constants",
         "0.3",
-        {outer + "Law=orthotropic"},
+        {outer + "Law=orthotropic", outer + "Young modulus="},
         {outer + "Young moduli", "got 0", "three positive numbers"});
   check("constants of another law",
         "0.3",

@@ -93,6 +93,9 @@ subsection Body outer
                        2
     set Subdivisions = 6, 3
   end
+  subsection Material
+    set Young modulus = 1
+  end
 end
 subsection Interface glue
   set Slave  = inner: outside

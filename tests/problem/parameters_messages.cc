@@ -129,7 +129,7 @@ namespace
     check_edit("a slave of no body",
                "inner: outside",
                "iner: outside",
-               {"Interface glue/Slave (line 38 of a.prm)",
+               {"Interface glue/Slave (line 41 of a.prm)",
                 "no body \"iner\"",
                 "did you mean \"inner\"",
                 "inner, outer"});
@@ -324,6 +324,11 @@ namespace
                "3: 4",
                "3: 9",
                {"Degree by region (line 7", "degree 9", "from 1 to 8"});
+    check_edit("no Young's modulus",
+               "set Young modulus = 10",
+               "",
+               {"Body inner/Material/Young modulus: got nothing with Law = linear elastic",
+                "allowed: a positive number (force per area)"});
     check_edit("a negative Young's modulus",
                "Young modulus = 10",
                "Young modulus = -10",
@@ -364,13 +369,13 @@ namespace
     check_edit("slave and master the same",
                "outer: inside",
                "inner: outside",
-               {"Interface glue/Master (line 39",
+               {"Interface glue/Master (line 42",
                 "inner: outside",
                 "which is on the slave's side"});
     check_edit("a slave with a displacement",
                "inner: outside",
                "inner: xmin",
-               {"Interface glue/Slave (line 38",
+               {"Interface glue/Slave (line 41",
                 "prescribed displacement",
                 "exchange slave and master"});
     check_setting("a law that does not exist",

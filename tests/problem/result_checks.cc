@@ -22,6 +22,10 @@ namespace
     StepSummary step;
     step.solver.emplace();
     step.errors = ErrorSummary{1., 1., 1., 1., 1.};
+    step.bodies.resize(1);
+    step.bodies[0].name             = "block";
+    step.bodies[0].displacement_max = PeakSummary{0., {0., 0., 0.}};
+    step.bodies[0].von_mises_max    = StressPeakSummary{{0., {0., 0., 0.}}, 0., {}};
     step.interfaces.resize(2);
     for (InterfaceSummary &interface : step.interfaces)
       {
@@ -48,6 +52,12 @@ namespace
       std::pair<std::string, std::function<void(StepSummary &)>>>
       places = {{"relative residual = nan",
                  [&](StepSummary &s) { s.solver->relative_residual = nan; }},
+                {"body block, volume = inf",
+                 [&](StepSummary &s) { s.bodies[0].volume = inf; }},
+                {"body block, largest displacement = nan",
+                 [&](StepSummary &s) { s.bodies[0].displacement_max->value = nan; }},
+                {"body block, largest von Mises stress = inf",
+                 [&](StepSummary &s) { s.bodies[0].von_mises_max->value = inf; }},
                 {"L2 error of the displacement = inf",
                  [&](StepSummary &s) { s.errors->displacement_l2 = inf; }},
                 {"H1 error of the displacement = inf",

@@ -180,7 +180,7 @@ namespace
                   scene,
                   shells + Settings{"Output/Points=rim: outer: 2.5, 0, 0"} +
                     target("rim, x", 1e-2),
-                  "whose point lies outside of body");
+                  "lies outside of body");
   }
 } // namespace
 

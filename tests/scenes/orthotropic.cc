@@ -37,7 +37,7 @@ namespace
   {
     const std::string section = "Body " + body + "/Material/";
     return {section + "Law=orthotropic",
-            section + "Young modulus=1",
+            section + "Young modulus=",
             section + "Poisson ratio=0.3",
             section + "Young moduli=" + numbers(law.young_moduli),
             section + "Poisson ratios=" + numbers(law.poisson_ratios),

@@ -42,6 +42,13 @@ expect 2 'not above 0.5' "$scene" --set 'Body lower/Material/Poisson ratio=0.51'
 expect 2 'Exact solution/Pressure' "$scene" --set 'Body lower/Material/Poisson ratio=0.5' --set 'Body lower/Degree=2'
 expect 2 'degree 1 in mixed form' "$scene" --set 'Body lower/Formulation=mixed' --set 'Body lower/Degree=1'
 expect 2 'Young' "$scene" --set 'Body lower/Material/Young modulus=-1'
+expect 2 'Young modulus.*got nothing with Law = linear elastic' "$scene" --set 'Body lower/Material/Young modulus='
+expect 2 'Young moduli.*got 0' "$scene" --set 'Body lower/Material/Young modulus=' --set 'Body lower/Material/Law=orthotropic' \
+  --set 'Body lower/Material/Poisson ratio=0.3'
+expect 2 'lies outside of body "upper", whose nearest vertex' --validate "$scene" --set 'Output/Points=tip: upper: 9, 0.5, 0' \
+  --set 'Adaptivity/Target error=0.1' --set 'Adaptivity/Quantity=tip, z'
+expect 2 'lies outside of body "upper", whose nearest vertex' "$scene" --set 'Output/Points=tip: upper: 9, 0.5, 0' \
+  --set 'Adaptivity/Target error=0.1' --set 'Adaptivity/Quantity=tip, z'
 expect 2 'missing.msh' "$scene" --set 'Body lower/Mesh/Source=file' --set 'Body lower/Mesh/File=missing.msh' \
   --set 'Body lower/Mesh/Extent=' --set 'Body lower/Mesh/Subdivisions='
 # broken and unsuitable mesh files; all kinds of damage are in tests/body/mesh_broken.cc

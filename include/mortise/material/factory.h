@@ -4,6 +4,7 @@
 #include <mortise/material/material.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace mortise
   struct MaterialParameters
   {
     std::string law           = "linear elastic";
-    double      young_modulus = 1.;  ///< force per area
+    std::optional<double> young_modulus; ///< force per area; none stands for it
     double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
     Orthotropic orthotropic;
     double      density = 0.; ///< of any law, mass per volume; 0: none

@@ -11,6 +11,10 @@
 
 namespace mortise
 {
+  /// Is @p point in @p body, to rounding? Collective.
+  bool
+  contains(const Body &body, const dealii::Point<dim> &point);
+
   /// Displacement at a point of a body; absent if the point lies outside
   /// (farther than rounding). Collective.
   std::optional<dealii::Tensor<1, dim>>

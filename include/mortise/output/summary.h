@@ -26,6 +26,23 @@ namespace mortise
   ProgramInfo
   program_info(unsigned int n_ranks);
 
+  /// The largest value of a field, and where a body has it.
+  struct PeakSummary
+  {
+    double              value = 0.;
+    std::vector<double> at; ///< x, y, z
+  };
+
+  /// Of the von Mises stress. Cells that meet do not agree on the stress: by how much tells how
+  /// good it is.
+  struct StressPeakSummary : PeakSummary
+  {
+    double averaged = 0.; ///< at that place, of the mean of its cells' stresses
+    /// The most by which two cells differ there or at a corner of the cells that have that place, as
+    /// a von Mises stress; absent where no cells meet.
+    std::optional<double> jump;
+  };
+
   struct BodySummary
   {
     std::string   name;
@@ -34,6 +51,11 @@ namespace mortise
     unsigned int  degree_min = 0;
     unsigned int  degree_max = 0;
     std::uint64_t dofs       = 0;
+    std::string   material;    ///< the name of its law
+    double        volume = 0.; ///< of its mesh
+    std::optional<double>            mass; ///< if it has a density
+    std::optional<PeakSummary>       displacement_max; ///< absent until solved
+    std::optional<StressPeakSummary> von_mises_max;    ///< likewise
   };
 
   struct DofSummary

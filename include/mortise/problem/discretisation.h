@@ -155,6 +155,7 @@ namespace mortise
     SceneCouplings            couplings;
     BlockSystem               system;
     std::vector<FreePressure> free_pressures;
+    std::vector<double>                        volumes; ///< by body
     std::vector<InterfaceSummary>              interface_summaries;
     std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;
   };

@@ -19,6 +19,15 @@ namespace mortise
   std::vector<Material>
   materials(const Parameters &parameters);
 
+  /// Is there a load or anything else that moves bodies, at any time? The meshes of contact are no
+  /// part of it, which may overlap.
+  bool
+  anything_acts(const Parameters &parameters);
+
+  /// May meshes that overlap press?
+  bool
+  have_real_gaps(const Parameters &parameters);
+
   /// What acts on a scene at one time. Both arguments of the constructor must
   /// live on; @p checks is told of values that no run can use.
   class SceneData

@@ -58,6 +58,11 @@ namespace mortise
              const SideParameters &side,
              const std::string    &where);
 
+  /// The space of @p body, which has its mesh, with the degrees of the parameters. Collective;
+  /// throws InputError.
+  void
+  create_space(const RunContext &run, Body &body);
+
   /// By body and active cell of its mesh; empty: those of the parameters.
   using CellDegrees = std::vector<std::vector<unsigned int>>;
 

@@ -31,6 +31,11 @@ namespace mortise
     void
     create_meshes();
 
+    /// All that can be known of a scene before it is solved, coupling apart: create_meshes(), where
+    /// results would go, and the points that are asked for. Collective; throws InputError.
+    void
+    validate();
+
     /// Go on from @p checkpoint, in @p directory: run() and compute() do the steps behind it.
     void
     resume(const RunCheckpoint &checkpoint, const std::string &directory);

@@ -39,7 +39,7 @@ namespace mortise
              const SolvedStep     &solved,
              const StepFields     &fields);
 
-  /// Add to @p summary the balance of interfaces, errors against the exact solution, and the
+  /// Add to @p summary the largest values in bodies, the balance of interfaces, errors against the exact solution, and the
   /// quantities that were asked for. Collective.
   void
   evaluate_step(const RunContext     &run,

@@ -117,7 +117,8 @@ namespace mortise
                   "has a second-order cell that its curved sides fold, near " +
                   place_name(geometry.point(c, unit)) +
                   "; allowed: a positive Jacobian (in gmsh: "
-                  "Mesh.HighOrderOptimize = 1, or a finer mesh)");
+                  "Mesh.HighOrderOptimize = 2 or a finer mesh; or first order, with "
+                  "Curved boundaries)");
             }
         }
     }
