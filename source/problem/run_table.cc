@@ -13,15 +13,27 @@ namespace mortise
     print_bodies(RunLog &log, const StepSummary &step)
     {
       log.line();
-      Rows rows = {{"body", "cells", "degree", "dofs"}};
+      const bool has_mass =
+        std::any_of(step.bodies.begin(), step.bodies.end(), [](const auto &b) {
+          return b.mass.has_value();
+        });
+      Rows rows = {{"body", "cells", "degree", "dofs", "material", "volume"}};
+      if (has_mass)
+        rows[0].push_back("mass");
       for (const BodySummary &body : step.bodies)
-        rows.push_back({body.name,
-                        std::to_string(body.cells),
-                        body.degree_min == body.degree_max ?
-                          std::to_string(body.degree_min) :
-                          std::to_string(body.degree_min) + ".." +
-                            std::to_string(body.degree_max),
-                        std::to_string(body.dofs)});
+        {
+          rows.push_back({body.name,
+                          std::to_string(body.cells),
+                          body.degree_min == body.degree_max ?
+                            std::to_string(body.degree_min) :
+                            std::to_string(body.degree_min) + ".." +
+                              std::to_string(body.degree_max),
+                          std::to_string(body.dofs),
+                          body.material,
+                          RunLog::number(body.volume)});
+          if (has_mass)
+            rows.back().push_back(body.mass ? RunLog::number(*body.mass) : "-");
+        }
       log.table(rows);
     }
 
@@ -32,27 +44,6 @@ namespace mortise
       for (unsigned int c = 0; c < x.size(); ++c)
         text += (c > 0 ? ", " : "") + RunLog::number(x[c]);
       return text + ")";
-    }
-
-    void
-    print_materials(RunLog &log, const StepSummary &step)
-    {
-      log.line();
-      const bool has_mass =
-        std::any_of(step.bodies.begin(), step.bodies.end(), [](const auto &b) {
-          return b.mass.has_value();
-        });
-      Rows rows = {{"body", "material", "volume"}};
-      if (has_mass)
-        rows[0].push_back("mass");
-      for (const BodySummary &body : step.bodies)
-        {
-          rows.push_back(
-            {body.name, body.material, RunLog::number(body.volume)});
-          if (has_mass)
-            rows.back().push_back(body.mass ? RunLog::number(*body.mass) : "-");
-        }
-      log.table(rows);
     }
 
     void
@@ -219,7 +210,6 @@ namespace mortise
   print_table(RunLog &log, const StepSummary &step)
   {
     print_bodies(log, step);
-    print_materials(log, step);
     print_displacements(log, step);
     print_stresses(log, step);
     if (!step.interfaces.empty())
