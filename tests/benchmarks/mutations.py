@@ -149,13 +149,13 @@ def parts_of(content):
         length = struct.unpack_from("<Q", header, at)[0]
         texts.append(header[at + 8:at + 8 + length])
         at += 8 + length
-    return content[:16], texts, records
+    return content[:16], struct.unpack_from("<Q", content, 24)[0], texts, records
 
 
-def with_checksums(magic, texts, records):
+def with_checksums(magic, form, texts, records):
     header = b"".join(struct.pack("<Q", len(text)) + text for text in texts)
     header += struct.pack("<QQQ", 1, len(records), zlib.crc32(records))
-    checked = struct.pack("<QQ", 3, len(header)) + header
+    checked = struct.pack("<QQ", form, len(header)) + header
     return magic + struct.pack("<Q", zlib.crc32(checked)) + checked + records
 
 
@@ -168,17 +168,11 @@ def leaves(tree, path=()):
 
 def changed_json(text, chance):
     tree = json.loads(text)
-    if chance.random() < 0.3 and tree.get("steps"):
-        tree["steps"] = changed_json(tree["steps"].encode(), chance).decode("latin-1")
+    if chance.random() < 0.5 and isinstance(tree, dict) and tree["adaptivity"]:
+        tree["adaptivity"] = base64.b64encode(changed_bytes(base64.b64decode(tree["adaptivity"]), chance)).decode()
         return json.dumps(tree).encode()
-    if chance.random() < 0.4 and tree.get("adaptivity"):
-        kept = base64.b64decode(tree["adaptivity"])
-        packed = zlib.decompress(kept, 31) if kept[:2] == b"\x1f\x8b" else kept
-        changed = changed_bytes(packed, chance)
-        if kept[:2] == b"\x1f\x8b":
-            pack = zlib.compressobj(9, zlib.DEFLATED, 31)
-            changed = pack.compress(changed) + pack.flush()
-        tree["adaptivity"] = base64.b64encode(changed).decode()
+    if chance.random() < 0.3 and isinstance(tree, dict):
+        tree["steps"] = changed_json(tree["steps"].encode(), chance).decode("latin-1")
         return json.dumps(tree).encode()
     path = chance.choice([path for path in leaves(tree) if path])
     parent = tree
@@ -194,7 +188,7 @@ def changed_json(text, chance):
 
 def checkpoint_case(directory, name, chance):
     with open(os.path.join(directory, name, "checkpoint.bin"), "rb") as file:
-        magic, texts, records = parts_of(file.read())
+        magic, form, texts, records = parts_of(file.read())
     way = chance.random()
     if way < 0.35:
         texts[1] = changed_json(texts[1], chance)
@@ -204,7 +198,7 @@ def checkpoint_case(directory, name, chance):
         texts[2] = changed_bytes(texts[2], chance)
     else:
         records = changed_bytes(records, chance)
-    return with_checksums(magic, texts, records), "checkpoint.bin", ["--restart", "."], (0, 2, 3)
+    return with_checksums(magic, form, texts, records), "checkpoint.bin", ["--restart", "."], (0, 2, 3)
 
 
 def write_checkpoints(program, directory):
