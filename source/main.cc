@@ -3,7 +3,6 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
-#include <mortise/output/checkpoint.h>
 #include <mortise/problem/command_line.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/parameter_schema.h>
@@ -39,8 +38,7 @@ namespace
       }
     std::optional<mortise::RunCheckpoint> checkpoint;
     if (!command.restart.empty())
-      checkpoint = mortise::run_checkpoint_from(
-        mortise::read_checkpoint_text(command.restart, comm));
+      checkpoint = mortise::read_run_checkpoint(command.restart, comm);
     const mortise::Parameters parameters =
       checkpoint ?
         mortise::restart_parameters(*checkpoint,

@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <climits>
@@ -12,6 +13,33 @@
 #include <cstdlib>
 #include <cstring>
 #include <new>
+#include <vector>
+
+namespace mortise::interruption
+{
+  /// Is it what catch_signals() has set?
+  bool
+  is_caught(const struct sigaction &action);
+} // namespace mortise::interruption
+
+/// By this name METIS, and no other library, asks for signal(). While it orders
+/// or partitions, also for MUMPS, it wants SIGTERM and SIGABRT for itself and
+/// makes an error code of them: a run that is to end would go on without an
+/// order. Defined in the program it comes before that of the C library. Who has
+/// called catch_signals() keeps those signals.
+extern "C" __sighandler_t
+__sysv_signal(const int number, const __sighandler_t handler) noexcept
+{
+  struct sigaction old;
+  if (sigaction(number, nullptr, &old) != 0)
+    return SIG_ERR;
+  if (mortise::interruption::is_caught(old))
+    return old.sa_handler;
+  struct sigaction action = {};
+  action.sa_handler       = handler;
+  action.sa_flags         = SA_RESETHAND | SA_NODEFER;
+  return sigaction(number, &action, &old) == 0 ? old.sa_handler : SIG_ERR;
+}
 
 namespace mortise::interruption
 {
@@ -55,7 +83,8 @@ namespace mortise::interruption
 
     ShownText<PATH_MAX> unfinished;
     ShownText<4000>     complete;
-    std::string         complete_files;
+    /// Names, each once, the one that was written last at the end.
+    std::vector<std::string> complete_files;
 
     std::atomic<bool>               speaks = true;
     std::atomic<int>                alone_spoken{0};
@@ -145,6 +174,12 @@ namespace mortise::interruption
     }
   } // namespace
 
+  bool
+  is_caught(const struct sigaction &action)
+  {
+    return action.sa_handler == end;
+  }
+
   void
   catch_signals()
   {
@@ -192,14 +227,25 @@ namespace mortise::interruption
   void
   add_complete(const std::string &file)
   {
-    complete_files += (complete_files.empty() ? "" : ", ") + file;
+    complete_files.erase(
+      std::remove(complete_files.begin(), complete_files.end(), file),
+      complete_files.end());
+    complete_files.push_back(file);
     complete.set(what_is_complete());
   }
 
   std::string
   what_is_complete()
   {
-    return complete_files.empty() ? "nothing was written" :
-                                    "complete are: " + complete_files;
+    constexpr std::size_t most = 6;
+    const std::size_t     n    = complete_files.size();
+    if (n == 0)
+      return "nothing was written";
+    std::string names;
+    for (std::size_t i = n <= most ? 0 : n - most; i < n; ++i)
+      names += (names.empty() ? "" : ", ") + complete_files[i];
+    return n <= most ? "complete are: " + names :
+                       "complete are " + std::to_string(n) +
+                         " files, the last of them: " + names;
   }
 } // namespace mortise::interruption

@@ -1,5 +1,7 @@
 #include <mortise/base/quotes.h>
 
+#include <cctype>
+
 namespace mortise
 {
   std::string
@@ -17,9 +19,14 @@ namespace mortise
   std::string
   in_quotes(const std::string &text, const char mark)
   {
-    const std::string shorter = shortened(text);
+    std::string shorter = shortened(text);
+    const bool  whole   = shorter == text;
+    // a message ends with its line, and at a zero
+    for (char &c : shorter)
+      if (std::iscntrl(static_cast<unsigned char>(c)))
+        c = '?';
     return mark + shorter + mark +
-           (shorter == text ?
+           (whole ?
               "" :
               " (" + std::to_string(text.size()) + " characters)");
   }

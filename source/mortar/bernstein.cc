@@ -74,8 +74,8 @@ namespace mortise
     for (unsigned int j = 0; j <= degree[1]; ++j)
       for (unsigned int i = 0; i + (is_triangle() ? j : 0) <= degree[0]; ++i)
         {
-          numbers[{i, j}] = places.size();
-          places.push_back({i, j, is_triangle() ? degree[0] - i - j : 0});
+          numbers[{{i, j}}] = places.size();
+          places.push_back({{i, j, is_triangle() ? degree[0] - i - j : 0}});
         }
   }
   unsigned int
@@ -86,7 +86,7 @@ namespace mortise
     if (!is_triangle())
       {
         const unsigned int side = (e % 2) * degree[1 - e / 2];
-        return e / 2 == 0 ? numbers.at({k, side}) : numbers.at({side, k});
+        return e / 2 == 0 ? numbers.at({{k, side}}) : numbers.at({{side, k}});
       }
     Place      barycentric{};
     const auto ends      = basis.edge_vertices(e);
@@ -113,14 +113,14 @@ namespace mortise
           low[a]         = 0;
           high[a]        = degree[a];
           const double t = double(place[a]) / degree[a];
-          add(result, (1. - t) / 2., all[numbers.at({low[0], low[1]})]);
-          add(result, t / 2., all[numbers.at({high[0], high[1]})]);
+          add(result, (1. - t) / 2., all[numbers.at({{low[0], low[1]}})]);
+          add(result, t / 2., all[numbers.at({{high[0], high[1]}})]);
         }
     else
       for (unsigned int v = 0; v < 3; ++v)
         {
           // barycentric, vertex 0 first
-          const Place        b{place[2], place[0], place[1]};
+          const Place        b{{place[2], place[0], place[1]}};
           const unsigned int u = (v + 1) % 3, w = (v + 2) % 3,
                              sum = b[u] + b[w];
           Place at_u{}, at_w{};
@@ -146,7 +146,7 @@ namespace mortise
   unsigned int
   BernsteinLattice::of_barycentric(const Place &barycentric) const
   {
-    return numbers.at({barycentric[1], barycentric[2]});
+    return numbers.at({{barycentric[1], barycentric[2]}});
   }
   FullMatrix<double>
   BernsteinLattice::at_nodes(const TraceBasis &basis) const

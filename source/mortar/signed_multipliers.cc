@@ -158,14 +158,12 @@ namespace mortise
               line_transform(n - 1).to_bernstein(j, m),
               hierarchical[m]);
         // a subdivision has no negative weights but by rounding
-        constexpr double rounding = 1e-11;
-        result[j].erase(std::remove_if(result[j].begin(),
-                                       result[j].end(),
-                                       [](const auto &entry) {
-                                         return std::fabs(entry.second) <
-                                                rounding;
-                                       }),
-                        result[j].end());
+        const auto is_rounding = [](const auto &entry) {
+          return std::fabs(entry.second) < 1e-11;
+        };
+        result[j].erase(
+          std::remove_if(result[j].begin(), result[j].end(), is_rounding),
+          result[j].end());
       }
     return result;
   }

@@ -7,6 +7,8 @@
 #include <mortise/output/checkpoint_records.h>
 #include <mortise/output/checkpoint_scene.h>
 
+#include <stdexcept>
+
 namespace mortise
 {
   std::string
@@ -57,8 +59,16 @@ namespace mortise
   {
     const std::string      name = checkpoint_file_name(directory);
     const CheckpointFile   file(name, comm);
-    const SceneDescription then = unpack_scene(file.header().scene);
-    std::string            difference;
+    SceneDescription       then;
+    try
+      {
+        then = unpack_scene(file.header().scene);
+      }
+    catch (const std::out_of_range &error)
+      {
+        throw damaged_checkpoint(name, error.what());
+      }
+    std::string difference;
     for (const std::string &one :
          differences(then, describe_scene(bodies, couplings, comm)))
       difference += (difference.empty() ? "" : "; ") + one;

@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 namespace mortise
@@ -47,7 +48,7 @@ namespace mortise
                                                          '\r',
                                                          '\n',
                                                          '\0'}};
-    constexpr std::uint64_t        checkpoint_format = 3;
+    constexpr std::uint64_t        checkpoint_format = 4;
     constexpr std::uint64_t        checkpoint_block  = 1 << 22;
 
     std::uint64_t
@@ -121,12 +122,19 @@ namespace mortise
       ::close(descriptor);
   }
 
+  InputError
+  damaged_checkpoint(const std::string &file, const std::string &how)
+  {
+    return InputError("The checkpoint " + file_in_quotes(file) +
+                      " is damaged: " + how +
+                      "; allowed: a checkpoint as Mortise has left it. Without "
+                      "one the run has to start anew");
+  }
+
   void
   CheckpointFile::fail_as_damaged(const std::string &how) const
   {
-    throw InputError("The checkpoint " + name + " is damaged: " + how +
-                     "; allowed: a checkpoint as Mortise has left it. Without "
-                     "one the run has to start anew");
+    throw damaged_checkpoint(file, how);
   }
 
   void
@@ -196,11 +204,20 @@ namespace mortise
                        "; allowed: a checkpoint of the same version");
     contents.text  = bytes.get_text();
     contents.scene = bytes.get_text();
-    std::vector<Part> parts(bytes.get<std::uint64_t>());
+    const auto n_parts = bytes.get<std::uint64_t>();
+    if (bytes.left() % sizeof(Part) != 0 ||
+        bytes.left() / sizeof(Part) != n_parts)
+      fail_as_damaged("its header has " + std::to_string(bytes.left()) +
+                      " bytes for the lengths of " + std::to_string(n_parts) +
+                      " parts");
+    std::vector<Part> parts(n_parts);
     records_end = records_start;
     for (Part &part : parts)
       {
         part = bytes.get<Part>();
+        if (part.size > std::numeric_limits<std::uint64_t>::max() - records_end)
+          fail_as_damaged("a part of it has " + std::to_string(part.size) +
+                          " bytes");
         records_end += part.size;
       }
     if (file_size != records_end)

@@ -126,7 +126,20 @@ namespace mortise
     std::size_t
     bytes_of_bits(const RecordStart &start)
     {
-      return start.kind == RecordKind::multiplier ? 0 : (start.n + 7) / 8;
+      return start.kind == RecordKind::multiplier ?
+               0 :
+               (static_cast<std::size_t>(start.n) + 7) / 8;
+    }
+
+    /// Of displacements of one cell.
+    std::size_t
+    most_dofs(const Bodies &bodies)
+    {
+      std::size_t most = 0;
+      for (const auto &body : bodies)
+        most = std::max<std::size_t>(
+          most, body->dof_handler.get_fe_collection().max_dofs_per_cell());
+      return most;
     }
   } // namespace
 
@@ -172,6 +185,7 @@ namespace mortise
                              const std::vector<Coupling> &couplings)
     : bodies(bodies)
     , couplings(couplings)
+    , largest_record(most_dofs(bodies))
   {
     checkpoint.solutions.resize(bodies.size());
     fields.resize(bodies.size());
@@ -224,6 +238,9 @@ namespace mortise
           break;
         Record record;
         record.start                = bytes.get<RecordStart>();
+        check(record);
+        if (!problem.empty())
+          break;
         const std::size_t bit_bytes = bytes_of_bits(record.start);
         if (bytes.left() < bit_bytes)
           break;
@@ -241,17 +258,26 @@ namespace mortise
   }
 
   void
+  RecordReader::check(const Record &record)
+  {
+    const auto &[kind, part, face, n, number] = record.start;
+    if (kind == RecordKind::multiplier ?
+          part >= faces.size() :
+          kind > RecordKind::multiplier || part >= bodies.size() ||
+            !fields[part][static_cast<unsigned int>(kind)].values)
+      note("it has a record of what the scene has not");
+    else if (n > largest_record)
+      note("it has a record of " + std::to_string(n) +
+           " values, more than a cell of the scene can have");
+  }
+
+  void
   RecordReader::put(const Record &record)
   {
-    const std::uint32_t part = record.start.part;
-    if (record.start.kind == RecordKind::multiplier && part < faces.size())
+    if (record.start.kind == RecordKind::multiplier)
       put_face(record);
-    else if (record.start.kind < RecordKind::multiplier &&
-             part < bodies.size() &&
-             fields[part][static_cast<unsigned int>(record.start.kind)].values)
-      put_cell(record);
     else
-      note("it has a record of what the scene has not");
+      put_cell(record);
   }
 
   void
@@ -281,8 +307,12 @@ namespace mortise
           const double value = values.get<double>();
           if (field.owned.is_element(dofs[i]))
             {
-              (*field.values)(dofs[i])                            = value;
-              field.filled[field.owned.index_within_set(dofs[i])] = true;
+              const auto k = field.owned.index_within_set(dofs[i]);
+              if (field.filled[k])
+                note("body " + in_quotes(body.name) +
+                     " has two values for the same dof");
+              (*field.values)(dofs[i]) = value;
+              field.filled[k]          = true;
             }
         }
   }
@@ -307,6 +337,9 @@ namespace mortise
     std::memcpy(coefficients.data(),
                 record.values,
                 sizeof(double) * record.start.n);
+    if (filled_faces[i][s])
+      note("interface " + in_quotes(couplings[i].interface->name()) +
+           " has two records of the same slave face");
     filled_faces[i][s] = true;
   }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <stdexcept>
 
 namespace mortise
 {
@@ -285,6 +286,13 @@ namespace mortise
         body.dofs       = reader.get<std::uint64_t>();
         body.pressures  = reader.get<std::uint64_t>();
         body.geometry   = reader.get<std::array<double, 9>>();
+        if (body.shape != "tetrahedra" && body.shape != "hexahedra")
+          throw std::out_of_range("body " + in_quotes(body.name) +
+                                  " consists of " + in_quotes(body.shape));
+        for (const double x : body.geometry)
+          if (!std::isfinite(x))
+            throw std::out_of_range("body " + in_quotes(body.name) +
+                                    " has no finite geometry");
       }
     for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
       {
@@ -293,6 +301,9 @@ namespace mortise
         interface.slave = reader.get_text();
         interface.faces = reader.get<std::uint64_t>();
       }
+    if (reader.left() > 0)
+      throw std::out_of_range("there are " + std::to_string(reader.left()) +
+                              " bytes behind the description of its scene");
     return scene;
   }
 

@@ -5,6 +5,7 @@
 #include <mortise/operators/cells/face_values.h>
 #include <mortise/output/functionals.h>
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
@@ -39,7 +40,12 @@ namespace mortise
             {
               continue;
             }
-          if (cell->reference_cell().contains_point(unit, 1e-8))
+          // far from the origin a point of a face may be rounded out of it
+          const double rounding = std::numeric_limits<double>::epsilon() *
+                                  point.norm() /
+                                  cell->minimum_vertex_distance();
+          if (cell->reference_cell().contains_point(unit,
+                                                    1e-8 + 4. * rounding))
             return PointInCell{cell, unit};
         }
       return {};

@@ -2,11 +2,12 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <mortise/output/json_value.h>
 #include <mortise/output/summary.h>
 #include <mortise/output/whole_file.h>
 #include <nlohmann/json.hpp>
 
-#include <limits>
+#include <stdexcept>
 #include <type_traits>
 
 #ifndef MORTISE_VERSION
@@ -268,6 +269,13 @@ namespace mortise
         json[key][name] = values;
     }
 
+    void
+    check_array(const Json &json)
+    {
+      if (!json.is_array())
+        throw std::out_of_range("there is no list where one is expected");
+    }
+
     template <typename T>
     void
     read_member(const Json &json, const char *key, T &member);
@@ -280,16 +288,12 @@ namespace mortise
     void
     read_member(const Json &json, const char *key, Quantities &quantities);
 
-    /// A number that is not finite was written as null.
     template <typename T>
     void
     read_part(const Json &json, T &part)
     {
-      if constexpr (std::is_floating_point_v<T>)
-        part =
-          json.is_null() ? std::numeric_limits<T>::quiet_NaN() : json.get<T>();
-      else if constexpr (is_value<T>)
-        part = json.get<T>();
+      if constexpr (is_value<T>)
+        part = json_value<T>(json);
       else
         visit_members(part, [&](const char *key, auto &member) {
           read_member(json, key, member);
@@ -315,6 +319,7 @@ namespace mortise
     void
     read_member(const Json &json, const char *key, std::vector<T> &members)
     {
+      check_array(json.at(key));
       for (const Json &member : json.at(key))
         read_part(member, members.emplace_back());
     }
@@ -323,8 +328,12 @@ namespace mortise
     read_member(const Json &json, const char *key, Quantities &quantities)
     {
       for (const auto &quantity : json.at(key).items())
-        quantities.emplace_back(quantity.key(),
-                                quantity.value().get<std::vector<double>>());
+        {
+          check_array(quantity.value());
+          quantities.emplace_back(quantity.key(), std::vector<double>());
+          for (const Json &value : quantity.value())
+            quantities.back().second.push_back(json_value<double>(value));
+        }
     }
 
     // A title in another encoding than UTF-8 must not end the run.
@@ -348,7 +357,9 @@ namespace mortise
   steps_from_json(const std::string &text)
   {
     std::vector<StepSummary> steps;
-    for (const Json &step : Json::parse(text))
+    const Json               json = Json::parse(text);
+    check_array(json);
+    for (const Json &step : json)
       read_part(step, steps.emplace_back());
     return steps;
   }

@@ -221,10 +221,17 @@ namespace mortise
         reasons.push_back(error.reason);
     for (const std::string &reason : reasons)
       {
-        std::string names;
+        constexpr std::size_t    most = 6;
+        std::vector<std::string> files;
         for (const OutputError &error : errors)
-          if (error.reason == reason)
-            names += (names.empty() ? "\"" : ", \"") + error.file + "\"";
+          if (error.reason == reason &&
+              std::find(files.begin(), files.end(), error.file) == files.end())
+            files.push_back(error.file);
+        std::string names;
+        for (std::size_t i = 0; i < std::min(files.size(), most); ++i)
+          names += (names.empty() ? "\"" : ", \"") + files[i] + "\"";
+        if (files.size() > most)
+          names += " and " + std::to_string(files.size() - most) + " more";
         text += (text.empty() ? "cannot write " : "\ncannot write ") + names +
                 ": " + reason;
       }

@@ -3,16 +3,21 @@
 #include <deal.II/base/mpi.h>
 
 #include <boost/serialization/array.hpp>
-#include <boost/serialization/map.hpp>
-#include <boost/serialization/string.hpp>
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
+#include <mortise/body/mesh/gmsh_model.h>
+#include <mortise/output/bytes.h>
 #include <mortise/problem/adaptivity.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
+#include <stdexcept>
 
 namespace mortise
 {
@@ -22,15 +27,31 @@ namespace mortise
   {
     using NumberedStates = std::vector<std::pair<CellNumber, CellState>>;
 
+    struct KeptCell
+    {
+      std::uint64_t coarse = 0;
+      std::string   children; ///< which child from level to level, as bytes
+      CellState     state;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &coarse &children &state;
+      }
+    };
+
+    /// Coordinates of the vertices of a cell of SizeField, then sizes there.
+    using SizesOfCell = std::array<double, 16>;
+
     /// As text of Adaptivity::checkpoint().
     struct Kept
     {
-      std::string                   quantity; ///< empty: the energy norm
-      unsigned int                  cycle = 0, n_meshes = 0;
-      std::map<std::string, double> numbers; ///< those that there are
-      std::vector<NumberedStates>   cells;   ///< by body
-      /// By body and cell of SizeField: coordinates of vertices, then sizes.
-      std::vector<std::vector<std::array<double, 16>>> sizes;
+      std::string                           quantity; ///< empty: the energy norm
+      unsigned int                          cycle = 0, n_meshes = 0;
+      std::map<std::string, double>         numbers; ///< those that there are
+      std::vector<std::vector<KeptCell>>    cells;   ///< by body
+      std::vector<std::vector<SizesOfCell>> sizes;   ///< likewise
 
       template <typename Archive>
       void
@@ -40,9 +61,145 @@ namespace mortise
       }
     };
 
+    std::string
+    to_text(Kept &kept)
+    {
+      ByteWriter writer;
+      writer &kept;
+      return Utilities::encode_base64(
+        {writer.bytes.begin(), writer.bytes.end()});
+    }
+
+    [[noreturn]] void
+    refuse(const std::string &what)
+    {
+      throw std::out_of_range("its cycles have " + what);
+    }
+
+    void
+    check(const double number)
+    {
+      if (!std::isfinite(number))
+        refuse("a number that is not finite");
+    }
+
+    void
+    check(const CellHistory &history)
+    {
+      for (const double number : {history.change,
+                                  history.error,
+                                  history.ratio,
+                                  history.own_error,
+                                  history.doubt,
+                                  history.violation,
+                                  history.share,
+                                  history.fall,
+                                  history.least_ratio})
+        check(number);
+      for (const unsigned int degree : {history.degree, history.n_rises})
+        if (degree > max_degree)
+          refuse("a cell of degree " + std::to_string(degree) +
+                 ", the largest is " + std::to_string(max_degree));
+    }
+
+    CellNumber
+    number_of(const KeptCell &cell)
+    {
+      constexpr unsigned int max_level = 18; // of p4est
+      if (cell.coarse > std::numeric_limits<unsigned int>::max() ||
+          cell.children.size() > max_level ||
+          std::any_of(cell.children.begin(), cell.children.end(), [](char c) {
+            return static_cast<unsigned char>(c) >= 8;
+          }))
+        refuse("a cell that no mesh can have");
+      return CellId(cell.coarse,
+                    std::vector<std::uint8_t>(cell.children.begin(),
+                                              cell.children.end()))
+        .to_binary<dim>();
+    }
+
+    /// Throws std::out_of_range if it is none of tetrahedra that gmsh can be
+    /// asked for.
+    SizeField::Cell
+    size_cell(const SizesOfCell &numbers)
+    {
+      // meshes halve theirs a few times
+      constexpr double largest_ratio = 1e6;
+      SizeField::Cell  cell;
+      for (unsigned int v = 0; v < 4; ++v)
+        {
+          std::copy_n(&numbers[3 * v], 3, cell.vertices[v].begin_raw());
+          cell.sizes[v] = numbers[12 + v];
+        }
+      for (const double number : numbers)
+        check(number);
+      Tensor<2, 3> edges;
+      double       longest = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          edges[d] = cell.vertices[d + 1] - cell.vertices[0];
+          longest  = std::max(longest, edges[d].norm());
+        }
+      if (!(determinant(edges) > 0.))
+        refuse("a tetrahedron without volume");
+      for (const double size : cell.sizes)
+        if (!(size > longest / largest_ratio && size < longest * largest_ratio))
+          refuse("edges of " + std::to_string(size) +
+                 " in place of a tetrahedron of " + std::to_string(longest));
+      return cell;
+    }
+
+    /// Throws std::out_of_range if @p text is not what to_text() gives, for
+    /// @p bodies.
+    Kept
+    kept_from(const std::string &text, const std::vector<BodyParameters> &bodies)
+    {
+      const std::size_t end = std::min(text.find('='), text.size());
+      if (text.size() % 4 != 0 || end + 2 < text.size() ||
+          text.find_first_not_of('=', end) != std::string::npos ||
+          text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrst"
+                                 "uvwxyz0123456789+/=") != std::string::npos)
+        refuse("characters that are none of base64");
+      const auto        decoded = Utilities::decode_base64(text);
+      const std::string bytes(decoded.begin(), decoded.end());
+      ByteArchive       archive(bytes);
+      Kept              kept;
+      archive          &kept;
+      if (archive.left() > 0)
+        refuse(std::to_string(archive.left()) + " bytes too many");
+      if (kept.cells.size() != bodies.size() ||
+          kept.sizes.size() != bodies.size())
+        refuse(std::to_string(kept.cells.size()) + " and " +
+               std::to_string(kept.sizes.size()) + " bodies, the scene has " +
+               std::to_string(bodies.size()));
+      for (const char *name :
+           {"all", "value", "change of rest", "error of rest", "allowed"})
+        if (kept.numbers.count(name) == 0)
+          refuse("no number for '" + std::string(name) + "'");
+      if (kept.numbers.count("estimate") != kept.numbers.count("at most"))
+        refuse("half of an estimate");
+      for (const auto &[name, number] : kept.numbers)
+        check(number);
+      for (const auto &of_body : kept.cells)
+        for (const KeptCell &cell : of_body)
+          {
+            check(cell.state.history);
+            for (const auto &component : cell.state.dual)
+              for (const double coefficient : component)
+                check(coefficient);
+          }
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        if (!kept.sizes[b].empty() &&
+            (bodies[b].mesh.source != "file" ||
+             !is_geometry_file(bodies[b].mesh.file)))
+          refuse("a new mesh of body " + in_quotes(bodies[b].name) +
+                 ", which is not made by gmsh");
+      return kept;
+    }
+
     /// Of all ranks, in an order that does not depend on them. Coefficients of
     /// the solution are in the checkpoint already. Collective.
-    NumberedStates
+    std::vector<KeptCell>
     gather(const Body &body, const std::vector<CellState> &states)
     {
       NumberedStates own;
@@ -61,7 +218,16 @@ namespace mortise
       std::sort(result.begin(), result.end(), [](const auto &a, const auto &b) {
         return a.first < b.first;
       });
-      return result;
+      std::vector<KeptCell> cells;
+      for (const auto &[number, state] : result)
+        {
+          const CellId id(number);
+          const auto   children = id.get_child_indices();
+          cells.push_back({id.get_coarse_cell_id(),
+                           std::string(children.begin(), children.end()),
+                           state});
+        }
+      return cells;
     }
 
     /// Cut the cells of @p body, hexahedra, until it has those of @p cells. Collective.
@@ -127,17 +293,13 @@ namespace mortise
               }
           }
       }
-    const auto bytes = Utilities::pack(result, true);
-    kept             = Utilities::encode_base64({bytes.begin(), bytes.end()});
+    kept = to_text(result);
   }
 
   void
   Adaptivity::resume(const std::string &text)
   {
-    const auto bytes = Utilities::decode_base64(text);
-    const Kept given =
-      Utilities::unpack<Kept>(std::vector<char>(bytes.begin(), bytes.end()),
-                              true);
+    const Kept given = kept_from(text, run.parameters.bodies);
     if (given.quantity != (goal ? goal->name() : ""))
       run.parameters.fail("Adaptivity/Quantity",
                           in_quotes(goal ? goal->name() : "") +
@@ -157,19 +319,17 @@ namespace mortise
         estimated = numbers.at("estimate");
         at_most   = numbers.at("at most");
       }
-    restored = given.cells;
+    for (const auto &of_body : given.cells)
+      {
+        restored.emplace_back();
+        for (const KeptCell &cell : of_body)
+          restored.back().emplace_back(number_of(cell), cell.state);
+      }
     for (const auto &of_body : given.sizes)
       {
         std::vector<SizeField::Cell> cells;
-        for (const auto &numbers : of_body)
-          {
-            auto &cell = cells.emplace_back();
-            for (unsigned int v = 0; v < 4; ++v)
-              {
-                std::copy_n(&numbers[3 * v], 3, cell.vertices[v].begin_raw());
-                cell.sizes[v] = numbers[12 + v];
-              }
-          }
+        for (const SizesOfCell &numbers : of_body)
+          cells.push_back(size_cell(numbers));
         sizes.push_back(cells.empty() ?
                           nullptr :
                           std::make_shared<const SizeField>(std::move(cells)));
@@ -218,6 +378,26 @@ namespace mortise
                       const std::vector<BodySolution> &solutions)
   {
     set_coefficients(bodies, solutions, states);
+    std::string other;
+    for_each_cell(
+      bodies, states, [&](const Body &body, const auto &, CellState &state) {
+        const auto same = [](const auto &a, const auto &b) {
+          return a.size() == b.size();
+        };
+        if (!state.dual.empty() && !std::equal(state.dual.begin(),
+                                               state.dual.end(),
+                                               state.coefficients.begin(),
+                                               state.coefficients.end(),
+                                               same))
+          other = body.name;
+      });
+    throw_if_any(other.empty() ? "" :
+                                 "The checkpoint is of another scene: body " +
+                                   in_quotes(other) +
+                                   " has a dual solution of other degrees; "
+                                   "allowed: the degrees with which it was "
+                                   "written",
+                 run.comm);
     choose(bodies);
   }
 } // namespace mortise

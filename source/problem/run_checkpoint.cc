@@ -1,7 +1,13 @@
+#include <mortise/output/checkpoint.h>
+#include <mortise/output/checkpoint_file.h>
+#include <mortise/output/json_value.h>
 #include <mortise/problem/run_checkpoint.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <limits>
+#include <sstream>
+#include <stdexcept>
 
 namespace mortise
 {
@@ -28,28 +34,85 @@ namespace mortise
       .dump(-1, ' ', false, Json::error_handler_t::replace);
   }
 
-  RunCheckpoint
-  run_checkpoint_from(const std::string &text)
+  namespace
   {
-    const Json    json = Json::parse(text);
-    RunCheckpoint checkpoint;
-    checkpoint.file = json.at("file").get<std::string>();
-    for (const Json &line : json.at("assignments"))
-      checkpoint.assignments.push_back(
-        {line.at(0).get<std::vector<std::string>>(),
-         line.at(1).get<std::string>(),
-         line.at(2).get<std::string>(),
-         line.at(3).get<std::string>()});
-    checkpoint.time         = json.at("time").get<double>();
-    checkpoint.longest_step = json.at("longest_step").is_null() ?
-                                std::numeric_limits<double>::infinity() :
-                                json.at("longest_step").get<double>();
-    checkpoint.n_steps      = json.at("n_steps").get<unsigned int>();
-    checkpoint.adaptivity   = json.at("adaptivity").get<std::string>();
-    checkpoint.steps = steps_from_json(json.at("steps").get<std::string>());
-    checkpoint.files =
-      json.at("files").get<std::vector<std::pair<unsigned int, double>>>();
-    return checkpoint;
+    const Json &
+    list_of(const Json &json, const char *key)
+    {
+      const Json &list = json.at(key);
+      if (!list.is_array())
+        throw std::out_of_range("there is no list of " + std::string(key));
+      return list;
+    }
+
+    Assignment
+    assignment_from(const Json &line)
+    {
+      Assignment assignment;
+      for (const Json &section : line.at(0))
+        assignment.sections.push_back(json_value<std::string>(section));
+      assignment.name   = json_value<std::string>(line.at(1));
+      assignment.value  = json_value<std::string>(line.at(2));
+      assignment.origin = json_value<std::string>(line.at(3));
+      return assignment;
+    }
+
+    RunCheckpoint
+    run_checkpoint_from(const std::string &text)
+    {
+      const Json    json = Json::parse(text);
+      RunCheckpoint checkpoint;
+      checkpoint.file = json_value<std::string>(json.at("file"));
+      for (const Json &line : list_of(json, "assignments"))
+        checkpoint.assignments.push_back(assignment_from(line));
+      checkpoint.time         = json_value<double>(json.at("time"));
+      checkpoint.longest_step = json.at("longest_step").is_null() ?
+                                  std::numeric_limits<double>::infinity() :
+                                  json_value<double>(json.at("longest_step"));
+      checkpoint.n_steps    = json_value<unsigned int>(json.at("n_steps"));
+      checkpoint.adaptivity = json_value<std::string>(json.at("adaptivity"));
+      checkpoint.steps =
+        steps_from_json(json_value<std::string>(json.at("steps")));
+      for (const Json &file : list_of(json, "files"))
+        checkpoint.files.emplace_back(json_value<unsigned int>(file.at(0)),
+                                      json_value<double>(file.at(1)));
+      const auto refuse = [](const std::string &what, const double value) {
+        std::ostringstream message;
+        message << what << value;
+        throw std::out_of_range(message.str());
+      };
+      if (!std::isfinite(checkpoint.time) || checkpoint.time < 0.)
+        refuse("it has reached the time ", checkpoint.time);
+      if (!(checkpoint.longest_step > 0.))
+        refuse("it has steps of length ", checkpoint.longest_step);
+      for (const auto &[step, time] : checkpoint.files)
+        if (!std::isfinite(time))
+          refuse("it has a file of the time ", time);
+      if (checkpoint.steps.empty())
+        throw std::out_of_range("it has not a single step");
+      return checkpoint;
+    }
+  } // namespace
+
+  RunCheckpoint
+  read_run_checkpoint(const std::string &directory, const MPI_Comm comm)
+  {
+    const std::string text = read_checkpoint_text(directory, comm);
+    try
+      {
+        return run_checkpoint_from(text);
+      }
+    catch (const std::out_of_range &error)
+      {
+        throw damaged_checkpoint(checkpoint_file_name(directory), error.what());
+      }
+    catch (const Json::exception &error)
+      {
+        throw damaged_checkpoint(checkpoint_file_name(directory),
+                                 "its text cannot be read (" +
+                                   std::string(error.what()).substr(0, 200) +
+                                   ")");
+      }
   }
 
   Parameters

@@ -57,6 +57,63 @@ namespace mortise
                      tied_boundaries);
   }
 
+  namespace
+  {
+    /// Doubles are the farther apart the larger they are: warn where far from
+    /// the origin that is in the results, and refuse cells that have hardly a
+    /// shape. Collective.
+    void
+    check_resolution(const RunContext &run, const Body &body)
+    {
+      // of the least extent of a body; of the shortest edge
+      constexpr double told = 1e-10, refused = 1e-4;
+      // coordinates, the same with the sign changed, minus the shortest edge
+      double largest[2 * dim + 1];
+      std::fill(std::begin(largest),
+                std::end(largest),
+                -std::numeric_limits<double>::max());
+      for (const auto &cell : body.triangulation().active_cell_iterators())
+        if (cell->is_locally_owned())
+          {
+            for (const unsigned int v : cell->vertex_indices())
+              for (unsigned int d = 0; d < dim; ++d)
+                {
+                  const double x   = cell->vertex(v)[d];
+                  largest[d]       = std::max(largest[d], x);
+                  largest[dim + d] = std::max(largest[dim + d], -x);
+                }
+            largest[2 * dim] =
+              std::max(largest[2 * dim], -cell->minimum_vertex_distance());
+          }
+      Utilities::MPI::max(largest, run.comm, largest);
+      double far = 0., extent = std::numeric_limits<double>::max();
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          far    = std::max({far, largest[d], largest[dim + d]});
+          extent = std::min(extent, largest[d] + largest[dim + d]);
+        }
+      const double spacing = std::numeric_limits<double>::epsilon() * far;
+      const double edge    = -largest[2 * dim];
+      const std::string what = "its coordinates are up to " +
+                               RunLog::number(far) + ", where numbers are " +
+                               RunLog::number(spacing) + " apart";
+      const std::string remedy =
+        "Mesh/Translate, or a file whose origin is near the body";
+      if (spacing > refused * edge)
+        throw InputError("Body " + body.name + ", Mesh: " + what +
+                         ", and its shortest edge has " +
+                         RunLog::number(edge) + "; allowed: edges of at least " +
+                         RunLog::number(spacing / refused) + " there (" +
+                         remedy + ")");
+      if (spacing > told * extent)
+        run.log.warning("body " + body.name + " is far from the origin: " +
+                        what + ", " + RunLog::number(spacing / extent) +
+                        " of its least extent; results have no more digits "
+                        "than that. Remedy: " +
+                        remedy);
+    }
+  } // namespace
+
   std::vector<BoundaryFace>
   side_faces(const Bodies         &bodies,
              const SideParameters &side,
@@ -83,6 +140,7 @@ namespace mortise
         bodies.push_back(
           std::make_unique<Body>(body.name, b, materials(parameters)[b]));
         create_mesh(run, nullptr, *bodies[b]);
+        check_resolution(run, *bodies[b]);
         n_cells += bodies[b]->triangulation().n_global_active_cells();
         boundary_names.emplace_back();
         for (const auto &name : bodies[b]->mesh.names.boundaries)

@@ -3,6 +3,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
 #include <mortise/output/checkpoint.h>
+#include <mortise/output/checkpoint_file.h>
 #include <mortise/problem/contact_start.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/points_outside.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 namespace mortise
 {
@@ -37,6 +39,22 @@ namespace mortise
                  body.displacement_max->value <=
                    rounding * std::cbrt(body.volume);
         });
+    }
+
+    bool
+    all_finite(const Checkpoint &checkpoint)
+    {
+      const auto finite = [](const double x) { return std::isfinite(x); };
+      for (const BodySolution &solution : checkpoint.solutions)
+        for (const BodyVector *values :
+             {&solution.displacement, &solution.pressure})
+          if (!std::all_of(values->begin(), values->end(), finite))
+            return false;
+      for (const auto &of_interface : checkpoint.multipliers)
+        for (const auto &coefficients : of_interface)
+          if (!std::all_of(coefficients.begin(), coefficients.end(), finite))
+            return false;
+      return true;
     }
   } // namespace
 
@@ -63,7 +81,15 @@ namespace mortise
     if (!checkpoint.adaptivity.empty() && parameters.adaptivity.target_error)
       {
         adaptivity.emplace(context);
-        adaptivity->resume(checkpoint.adaptivity);
+        try
+          {
+            adaptivity->resume(checkpoint.adaptivity);
+          }
+        catch (const std::out_of_range &error)
+          {
+            throw damaged_checkpoint(checkpoint_file_name(directory),
+                                     error.what());
+          }
       }
     else if (parameters.adaptivity.target_error && !parameters.steps.given())
       parameters.fail("Adaptivity/Target error",
@@ -75,7 +101,7 @@ namespace mortise
       steps.resume(checkpoint.time,
                    checkpoint.n_steps,
                    checkpoint.longest_step);
-    if (adaptivity)
+    if (adaptivity && !steps.finished())
       state.time = steps.next();
     clock.share = steps.share();
   }
@@ -178,6 +204,12 @@ namespace mortise
   {
     const Checkpoint checkpoint = read_checkpoint(
       directory, bodies, discretisation->interfaces().all(), context.comm);
+    throw_if_any(all_finite(checkpoint) ?
+                   "" :
+                   damaged_checkpoint(checkpoint_file_name(directory),
+                                      "it has values that are not finite")
+                     .what(),
+                 context.comm);
     const SceneData data(context.parameters, state.time, field_checks);
     SceneLoad       load = discretisation->load(data);
     state.solution       = discretisation->system_vector(checkpoint, load);
@@ -339,9 +371,11 @@ namespace mortise
       discretise();
     if (!steps.finished() && !restart.empty())
       restore(restart);
-    while (!steps.finished() && report.converged)
+    while (!steps.finished() && report.converged && unwritten.empty())
       step(writes);
-    summary.status = report.converged ? "done" : "not converged";
+    summary.status = !report.converged   ? "not converged" :
+                     !steps.finished() ? "stopped" :
+                                         "done";
     if (!anything_acts(context.parameters) && is_zero(summary.steps.back()))
       context.log.warning(nothing_acts);
   }
@@ -376,8 +410,14 @@ namespace mortise
     write_summary();
     print_table(context.log, summary.steps.back());
     if (!unwritten.empty())
-      throw InputError(describe(unwritten) + "\n" +
-                       interruption::what_is_complete());
+      throw InputError(
+        describe(unwritten) + "\n" +
+        (summary.status != "stopped" ? "" :
+         adaptivity ? "The run was stopped after cycle " +
+                        std::to_string(summary.steps.back().cycle) + "; " :
+                      "The run was stopped at t = " +
+                        RunLog::number(steps.time()) + "; ") +
+        interruption::what_is_complete());
     if (!report.converged)
       throw ConvergenceError(
         not_converged(report,

@@ -51,7 +51,7 @@ namespace mortise
   Simulation::cycle(const bool writes)
   {
     announce_step();
-    while (!is_last_cycle())
+    while (!is_last_cycle() && unwritten.empty())
       {
         context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
         discretise();
@@ -79,12 +79,13 @@ namespace mortise
       }
     cycle(writes);
     while (parameters.steps.given() && report.converged &&
-           adaptivity->reached() && !steps.finished())
+           adaptivity->reached() && !steps.finished() && unwritten.empty())
       {
         adaptivity.emplace(context);
         cycle(writes);
       }
     summary.status = !report.converged     ? "not converged" :
+                     !unwritten.empty() && !steps.finished() ? "stopped" :
                      adaptivity->reached() ? "done" :
                                              "target not reached";
   }

@@ -19,7 +19,7 @@ namespace mortise
     const unsigned int every = context.parameters.output.checkpoint_every;
     if (every > 0 && report.converged &&
         ((adaptivity ? adaptivity->n_cycles() : steps.n_done()) % every == 0 ||
-         steps.finished()))
+         steps.finished() || !unwritten.empty())) // it goes no further
       write_checkpoint(fields);
   }
 

@@ -87,6 +87,129 @@ Physical Surface("low") = {5};
     refused(report, "garbage with the right words", broken(noise), "mesh file");
   }
 
+  /// @p text with a number, a line or the end changed.
+  std::string
+  with_lies(const std::string &text, std::mt19937 &random)
+  {
+    std::vector<std::string> lines;
+    std::vector<std::size_t> heads; // the two lines after a section's name
+    std::istringstream       in(text);
+    for (std::string line; std::getline(in, line);)
+      {
+        if (line[0] == '$')
+          heads.insert(heads.end(), {lines.size() + 1, lines.size() + 2});
+        lines.push_back(line);
+      }
+    heads.resize(heads.size() - 2);
+    std::size_t at = random() % 2 == 0 ? heads[random() % heads.size()] :
+                                         random() % lines.size();
+    std::string &line = lines[at];
+    switch (random() % 6)
+      {
+        case 0:
+          lines.erase(lines.begin() + at);
+          break;
+        case 1:
+          lines.insert(lines.begin() + at, std::string(line));
+          break;
+        case 2:
+          lines.resize(at);
+          break;
+        default:
+          {
+            std::vector<std::string> words;
+            std::istringstream       of_line(line);
+            for (std::string word; of_line >> word;)
+              words.push_back(word);
+            static const std::vector<std::string> numbers = {
+              "0", "1", "-1", "3", "7", "1000003", "2147483648", "4294967297",
+              "18446744073709551615", "x", "", "1e999"};
+            if (!words.empty())
+              words[random() % words.size()] =
+                numbers[random() % numbers.size()];
+            line.clear();
+            for (const std::string &word : words)
+              line += word + " ";
+          }
+      }
+    std::string result;
+    for (const std::string &one : lines)
+      result += one + "\n";
+    return result;
+  }
+
+  /// Counts that do not agree with what follows are an error: none is taken on
+  /// trust.
+  void
+  check_lies(Report &report)
+  {
+    const std::string whole = read_file(
+      write_mesh("broken_lies", cube, {4.1, false, 1, false, false}));
+    const std::string whole_2 = read_file(
+      write_mesh("broken_lies_2", cube, {2.2, false, 1, false, false}));
+    const auto changed = [](const std::string  &text,
+                            const std::string  &section,
+                            const unsigned int  n,
+                            const std::string  &number) {
+      std::size_t at = text.find("$" + section) + section.size() + 2;
+      for (unsigned int i = 0; i < n; ++i)
+        at = text.find_first_of(" \n", at) + 1;
+      return broken(text.substr(0, at) + number +
+                    text.substr(text.find_first_of(" \n", at)));
+    };
+    refused(report,
+            "fewer nodes in all than in the blocks",
+            changed(whole, "Nodes", 1, "1"),
+            "nodes, the header of the section says 1");
+    refused(report,
+            "fewer elements in all than in the blocks",
+            changed(whole, "Elements", 1, "1"),
+            "elements, the header of the section says 1");
+    refused(report,
+            "a largest tag that is none",
+            changed(whole, "Nodes", 3, "2"),
+            "the tag 3 is none of those that the header of the section tells; "
+            "allowed: 1 to 2");
+    refused(report,
+            "a negative number of blocks",
+            changed(whole, "Elements", 0, "-1"),
+            "there is the number -1 where things are counted");
+    refused(report,
+            "nodes beyond the end",
+            changed(whole_2, "Nodes", 0, "100000"),
+            "in $Nodes, line ");
+    refused(report,
+            "an element more than there are",
+            changed(whole_2, "Elements", 0, "1000"),
+            "in $Elements, line ");
+    std::string text = whole;
+    text.replace(text.find("$EndNodes"), 0, "$EndNodes\n");
+    refused(report,
+            "the end of a section twice",
+            broken(text),
+            "in $EndNodes, line ");
+    text = whole;
+    text += whole.substr(whole.find("$Nodes"));
+    refused(report, "nodes twice", broken(text), "comes a second time");
+    text = whole;
+    text.replace(text.find("\n2 5 ", text.find("$Elements")), 4, "\n2 9");
+    refused(report,
+            "elements of an unknown surface",
+            broken(text),
+            "elements of the surface 9");
+
+    std::mt19937 random(11);
+    for (unsigned int i = 0; i < 150; ++i)
+      for (const std::string &one : {whole, whole_2})
+        {
+          const std::string message = message_of(broken(with_lies(one, random)));
+          if (message != "(no error)" &&
+              message.find("Mesh: the mesh file '") != 0)
+            report(false, "one message", message);
+        }
+    report(true, "300 files with one lie each");
+  }
+
   void
   check_cells(Report &report)
   {
@@ -361,6 +484,7 @@ main(int argc, char **argv)
           "a file whose name is too long",
           file_parameters(std::string(100000, 'q') + ".msh"),
           "qqq.msh' cannot be read");
+  check_lies(report);
   check_cells(report);
   check_surface_elements(report);
   check_coordinates(report);

@@ -97,6 +97,23 @@ for ranks in 1 2 3; do
       '[ ! -e "$out/upper.vtu" ]'
   fi
 done
+# many steps: the first that cannot be written is the last, and goes on from its checkpoint
+steps=("$mortise" --output "$out" "$scene" --set 'Steps/Step=1' --set 'Steps/End time=50' --set 'Output/Checkpoint every=20'
+  --set 'Output/Fields=displacement')
+for ranks in 1 2; do
+  fresh
+  mkdir -p "$out/upper_0003.vtu"
+  on $ranks "${steps[@]}"
+  verdict "a step that cannot be written, $ranks ranks" '[ $code -eq 2 ]' 'says 1 "cannot write"' \
+    'says 1 "upper_0003.vtu.*a directory has this name"' 'says 1 "stopped at t = 3; complete are"' \
+    '[ ${#message} -lt 1000 ]' '[ $(grep -c "^step" "$work/log") -eq 3 ]' '[ ! -e "$out/lower_0004.vtu" ]' \
+    '[ $(grep -c "\"time\"" "$out/summary.json") -eq 3 ]' 'grep -q "\"status\": \"stopped\"" "$out/summary.json"'
+  rmdir "$out/upper_0003.vtu"
+  on $ranks "$mortise" --restart "$out" --set 'Steps/End time=5'
+  verdict "on from there, $ranks ranks" '[ $code -eq 0 ]' '[ $(grep -c "^step" "$work/log") -eq 2 ]' \
+    '[ $(grep -c "\"time\"" "$out/summary.json") -eq 5 ]'
+done
+fresh
 on 1 bash -c '"$@" >/dev/full' - "${run[@]}"
 verdict "a full disk for what is printed" '[ $code -eq 2 ]' 'says 1 "standard output"' complete
 

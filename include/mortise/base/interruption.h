@@ -37,7 +37,7 @@ namespace mortise::interruption
   void
   add_complete(const std::string &file);
 
-  /// "complete are: A, B", or that nothing was written.
+  /// "complete are: A, B", of many only the last, or that nothing was written.
   std::string
   what_is_complete();
 } // namespace mortise::interruption

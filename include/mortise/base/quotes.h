@@ -9,8 +9,8 @@ namespace mortise
   std::string
   shortened(const std::string &text, std::size_t most = 80);
 
-  /// @p text between quotation @p marks, shortened; a shortened one tells how
-  /// many characters it has.
+  /// @p text between quotation @p marks, shortened, with a question mark for
+  /// what cannot be printed; a shortened one tells how many characters it has.
   std::string
   in_quotes(const std::string &text, char mark = '"');
 

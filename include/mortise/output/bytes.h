@@ -1,11 +1,15 @@
 // Plain values as bytes, bit for bit, in the order of this machine.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace mortise
 {
@@ -78,5 +82,160 @@ namespace mortise
 
   private:
     const char *next, *const end;
+  };
+
+  /// An archive as those of Boost that appends what serialize() names: numbers,
+  /// texts, arrays, pairs, vectors, maps, and classes that have serialize().
+  class ByteWriter
+  {
+  public:
+    template <typename T>
+    ByteWriter &
+    operator&(T &value)
+    {
+      put(value);
+      return *this;
+    }
+
+    std::string bytes;
+
+  private:
+    template <typename T>
+    void
+    put(T &value)
+    {
+      if constexpr (std::is_arithmetic_v<T>)
+        append_bytes(bytes, value);
+      else
+        value.serialize(*this, 0);
+    }
+
+    void
+    put(std::string &text)
+    {
+      append_text(bytes, text);
+    }
+
+    template <typename T, std::size_t n>
+    void
+    put(std::array<T, n> &values)
+    {
+      for (T &value : values)
+        put(value);
+    }
+
+    template <typename A, typename B>
+    void
+    put(std::pair<A, B> &values)
+    {
+      put(values.first);
+      put(values.second);
+    }
+
+    template <typename T>
+    void
+    put(std::vector<T> &values)
+    {
+      append_bytes<std::uint64_t>(bytes, values.size());
+      for (T &value : values)
+        put(value);
+    }
+
+    template <typename Key, typename T>
+    void
+    put(std::map<Key, T> &values)
+    {
+      append_bytes<std::uint64_t>(bytes, values.size());
+      for (auto &[key, value] : values)
+        {
+          Key copy = key;
+          put(copy);
+          put(value);
+        }
+    }
+  };
+
+  /// The archive that reads them again; throws std::out_of_range where there
+  /// are fewer bytes than they need, before it takes memory for them.
+  class ByteArchive
+  {
+  public:
+    /// @p bytes are not copied.
+    explicit ByteArchive(const std::string &bytes)
+      : reader(bytes)
+    {}
+
+    template <typename T>
+    ByteArchive &
+    operator&(T &value)
+    {
+      get(value);
+      return *this;
+    }
+
+    std::size_t
+    left() const
+    {
+      return reader.left();
+    }
+
+  private:
+    template <typename T>
+    void
+    get(T &value)
+    {
+      if constexpr (std::is_same_v<T, bool>)
+        value = reader.get<char>() != 0; // other bytes are no bool
+      else if constexpr (std::is_arithmetic_v<T>)
+        value = reader.get<T>();
+      else
+        value.serialize(*this, 0);
+    }
+
+    void
+    get(std::string &text)
+    {
+      text = reader.get_text();
+    }
+
+    template <typename T, std::size_t n>
+    void
+    get(std::array<T, n> &values)
+    {
+      for (T &value : values)
+        get(value);
+    }
+
+    template <typename A, typename B>
+    void
+    get(std::pair<A, B> &values)
+    {
+      get(values.first);
+      get(values.second);
+    }
+
+    template <typename T>
+    void
+    get(std::vector<T> &values)
+    {
+      values.clear();
+      for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
+        get(values.emplace_back());
+    }
+
+    template <typename Key, typename T>
+    void
+    get(std::map<Key, T> &values)
+    {
+      values.clear();
+      for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
+        {
+          Key key;
+          get(key);
+          get(values[key]);
+        }
+    }
+
+    ByteReader reader;
   };
 } // namespace mortise

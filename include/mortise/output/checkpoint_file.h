@@ -3,6 +3,7 @@
 // Release.)
 #pragma once
 
+#include <mortise/base/error.h>
 #include <mpi.h>
 
 #include <cstdint>
@@ -25,6 +26,10 @@ namespace mortise
                         const CheckpointHeader &header,
                         const std::string      &records,
                         MPI_Comm                comm);
+
+  /// That @p file is not as it was written: @p how.
+  InputError
+  damaged_checkpoint(const std::string &file, const std::string &how);
 
   /// A checkpoint that is open: the first rank reads.
   class CheckpointFile

@@ -52,6 +52,9 @@ namespace mortise
 
     struct Record;
 
+    /// Its start, before there are the bytes that it tells.
+    void
+    check(const Record &record);
     void
     put(const Record &record);
     void
@@ -64,6 +67,7 @@ namespace mortise
 
     const Bodies                &bodies;
     const std::vector<Coupling> &couplings;
+    const std::size_t            largest_record; ///< values
     Checkpoint                   checkpoint;
     std::string                  rest; ///< an incomplete record
     std::string                  problem;

@@ -204,7 +204,8 @@ namespace mortise
   std::string
   steps_to_json(const std::vector<StepSummary> &steps);
 
-  /// What steps_to_json() wrote.
+  /// What steps_to_json() wrote. Throws std::out_of_range or an exception of
+  /// nlohmann::json if it is something else.
   std::vector<StepSummary>
   steps_from_json(const std::string &text);
 

@@ -31,7 +31,8 @@ namespace mortise
                    const std::string &piece,
                    MPI_Comm           comm);
 
-  /// One message for all @p errors: files with the same reason on one line.
+  /// One message for all @p errors: files with the same reason on one line, of
+  /// many only the first.
   std::string
   describe(const std::vector<OutputError> &errors);
 } // namespace mortise

@@ -109,7 +109,8 @@ namespace mortise
       return kept;
     }
 
-    /// Go on after the cycle of which checkpoint() is @p text. Throws InputError if it is of another quantity().
+    /// Go on after the cycle of which checkpoint() is @p text. Throws InputError if it is of another quantity(),
+    /// std::out_of_range if it is no such text.
     void
     resume(const std::string &text);
 

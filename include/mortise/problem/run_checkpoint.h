@@ -26,9 +26,10 @@ namespace mortise
   std::string
   to_text(const RunCheckpoint &checkpoint);
 
-  /// Throws std::runtime_error if @p text is not what to_text() gives.
+  /// Of the checkpoint in @p directory. Collective; throws InputError if there is
+  /// none or its text is not what to_text() gives.
   RunCheckpoint
-  run_checkpoint_from(const std::string &text);
+  read_run_checkpoint(const std::string &directory, MPI_Comm comm);
 
   /// The parameters of the run that wrote @p checkpoint, with @p settings after them; results go to
   /// @p directory unless these say otherwise. Throws InputError.

@@ -37,6 +37,7 @@ namespace mortise
     validate();
 
     /// Go on from @p checkpoint, in @p directory: run() and compute() do the steps behind it.
+    /// Throws InputError if it is of another run, or damaged.
     void
     resume(const RunCheckpoint &checkpoint, const std::string &directory);
 
@@ -46,8 +47,8 @@ namespace mortise
     compute();
 
     /// The whole run. Collective; throws InputError before anything is written,
-    /// or after all that can be written has been if something could not be, and
-    /// ConvergenceError after what was reached has been written.
+    /// or after the first step of which something could not be written, when all
+    /// that can be has been, and ConvergenceError after what was reached has been written.
     void
     run();
 

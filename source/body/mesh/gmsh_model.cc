@@ -82,6 +82,27 @@ namespace mortise
       }
     };
 
+    GmshElements
+    describe(const int type)
+    {
+      GmshElements        block;
+      int                 d = 0, order = 0, n_nodes = 0, n_vertices = 0;
+      std::vector<double> places;
+      gmsh::model::mesh::getElementProperties(
+        type, block.type, d, order, n_nodes, places, n_vertices);
+      block.dimension  = d;
+      block.order      = order;
+      block.n_vertices = n_vertices;
+      for (int i = 0; i < n_nodes; ++i)
+        {
+          Point<3> x;
+          for (int c = 0; c < d; ++c)
+            x[c] = places[d * i + c];
+          block.reference.push_back(x);
+        }
+      return block;
+    }
+
     /// Groups named by their tags where they have no name.
     std::map<int, std::string>
     names(const int dimension)
@@ -142,32 +163,6 @@ namespace mortise
       return place;
     }
 
-    GmshElements
-    describe(const int dimension, const int entity, const int type)
-    {
-      GmshElements block;
-      block.dimension = dimension;
-      block.entity    = entity;
-      gmsh::model::getPhysicalGroupsForEntity(dimension, entity, block.groups);
-      for (int &group : block.groups)
-        group = std::abs(group); // a sign is an orientation
-      std::sort(block.groups.begin(), block.groups.end());
-      int                 d = 0, order = 0, n_nodes = 0, n_vertices = 0;
-      std::vector<double> places;
-      gmsh::model::mesh::getElementProperties(
-        type, block.type, d, order, n_nodes, places, n_vertices);
-      block.order      = order;
-      block.n_vertices = n_vertices;
-      for (int i = 0; i < n_nodes; ++i)
-        {
-          Point<3> x;
-          for (int c = 0; c < d; ++c)
-            x[c] = places[d * i + c];
-          block.reference.push_back(x);
-        }
-      return block;
-    }
-
     void
     read_elements(const int                        dimension,
                   const std::vector<unsigned int> &place,
@@ -183,8 +178,14 @@ namespace mortise
             types, tags, nodes, dimension, entity.second);
           for (unsigned int t = 0; t < types.size(); ++t)
             {
-              GmshElements block = describe(dimension, entity.second, types[t]);
+              GmshElements block = describe(types[t]);
               block.tags         = tags[t];
+              gmsh::model::getPhysicalGroupsForEntity(dimension,
+                                                      entity.second,
+                                                      block.groups);
+              for (int &group : block.groups)
+                group = std::abs(group); // a sign is an orientation
+              std::sort(block.groups.begin(), block.groups.end());
               for (const std::size_t tag : nodes[t])
                 {
                   if (tag >= place.size() ||
@@ -200,34 +201,31 @@ namespace mortise
     }
 
     GmshModel
-    read(const std::string &file_name,
+    mesh(const std::string &file_name,
          const double       mesh_size,
          const SizeField   *sizes)
     {
       gmsh::open(file_name);
       if (is_cad_file(file_name))
         group_entities();
-      if (is_geometry_file(file_name))
+      if (mesh_size > 0.)
+        gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
+      if (sizes != nullptr)
         {
-          if (mesh_size > 0.)
-            gmsh::option::setNumber("Mesh.MeshSizeMax", mesh_size);
-          if (sizes != nullptr)
-            {
-              // gmsh takes the least size itself, from 4.9 on it passes the
-              // one that it would take
-              const auto least =
-                [sizes](int, int, double x, double y, double z, auto... other) {
-                  return std::min({(*sizes)(Point<3>(x, y, z)), other...});
-                };
-              using Least = decltype(least);
-              static_assert(
-                std::is_invocable_r_v<double, Least, int, int, double, double, double> &&
-                  std::is_invocable_r_v<double, Least, int, int, double, double, double, double>,
-                "callbacks of both versions of gmsh");
-              gmsh::model::mesh::setSizeCallback(least);
-            }
-          gmsh::model::mesh::generate(3);
+          // gmsh takes the least size itself, from 4.9 on it passes the
+          // one that it would take
+          const auto least =
+            [sizes](int, int, double x, double y, double z, auto... other) {
+              return std::min({(*sizes)(Point<3>(x, y, z)), other...});
+            };
+          using Least = decltype(least);
+          static_assert(
+            std::is_invocable_r_v<double, Least, int, int, double, double, double> &&
+              std::is_invocable_r_v<double, Least, int, int, double, double, double, double>,
+            "callbacks of both versions of gmsh");
+          gmsh::model::mesh::setSizeCallback(least);
         }
+      gmsh::model::mesh::generate(3);
       GmshModel model;
       model.surface_names                   = names(2);
       model.volume_names                    = names(3);
@@ -244,8 +242,15 @@ namespace mortise
     return extension(file_name) == "geo" || is_cad_file(file_name);
   }
 
+  GmshElements
+  describe_gmsh_elements(const int type)
+  {
+    const Session session(0.);
+    return describe(type);
+  }
+
   GmshModel
-  read_gmsh_model(const std::string &file_name,
+  mesh_geometry(const std::string &file_name,
                   const double       mesh_size,
                   const SizeField   *sizes)
   {
@@ -254,7 +259,7 @@ namespace mortise
     GmshModel     model;
     try
       {
-        model = read(file_name, mesh_size, sizes);
+        model = mesh(file_name, mesh_size, sizes);
       }
     catch (const std::exception &error)
       {

@@ -73,20 +73,17 @@ namespace mortise
       if (content.empty())
         fail("is empty");
       if (is_mesh_file(file))
-        check_msh_content(content, fail);
-      else
-        check_cad_content(file, content, fail);
+        return read_msh(content, fail);
+      check_cad_content(file, content, fail);
       try
         {
-          return read_gmsh_model(file,
-                                 parameters.mesh_size,
-                                 parameters.sizes.get());
+          return mesh_geometry(file,
+                               parameters.mesh_size,
+                               parameters.sizes.get());
         }
       catch (const std::runtime_error &error)
         {
-          fail((is_mesh_file(file) ? "is not a complete mesh; gmsh says: " :
-                                     "cannot be meshed; gmsh says: ") +
-               std::string(error.what()));
+          fail("cannot be meshed; gmsh says: " + std::string(error.what()));
         }
       return {};
     }

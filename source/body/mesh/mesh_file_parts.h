@@ -13,12 +13,13 @@ namespace mortise
   /// Throws InputError with the file's name before @p what.
   using FileError = std::function<void(const std::string &what)>;
 
-  /// Walk through the @p content of a .msh file: is it of a known version and
-  /// complete, do all counts fit and do all elements have nodes that are there?
-  /// The library takes much of this on trust and crashes, or takes all memory,
-  /// on damaged binary files.
-  void
-  check_msh_content(const std::string &content, const FileError &fail);
+  /// The mesh in the @p content of a .msh file of version 2.2 or 4.1, as text or
+  /// bytes: without gmsh's library, which takes counts on trust and crashes,
+  /// hangs or takes all memory where they are wrong. Every count must agree with
+  /// what there is, and elements have nodes and entities that are there; else
+  /// @p fail is told the line.
+  GmshModel
+  read_msh(const std::string &content, const FileError &fail);
 
   /// "(x, y, z)".
   std::string

@@ -2,14 +2,19 @@
 // what a section holds.
 #pragma once
 
+#include <deal.II/base/point.h>
+
 #include <mortise/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "mesh_file_parts.h"
 
@@ -28,33 +33,86 @@ namespace mortise
     [[noreturn]] void
     fail(const std::string &what) const
     {
-      file_error("is not a complete mesh: in $" + section + ", byte " +
-                 std::to_string(at) + ", " + what);
+      const auto lines =
+        1 + std::count(content.begin(), content.begin() + at, '\n');
+      file_error("is not a complete mesh: in $" + section + ", " +
+                 (binary ? "byte " + std::to_string(at) :
+                           "line " + std::to_string(lines)) +
+                 ", " + what);
+      std::abort(); // file_error throws
+    }
+
+    [[noreturn]] void
+    fail_at_end(const std::string &missing) const
+    {
+      file_error("ends before $End" + missing + "; allowed: a complete file");
       std::abort(); // file_error throws
     }
 
     int
     integer()
     {
-      return binary ? bytes<int>() : static_cast<int>(text_integer());
+      if (binary)
+        return bytes<int>();
+      const long long number = text_integer();
+      if (number < std::numeric_limits<int>::min() ||
+          number > std::numeric_limits<int>::max())
+        fail("there is the number " + std::to_string(number) +
+             "; allowed: at most 2147483647 in magnitude");
+      return static_cast<int>(number);
     }
 
     /// A number of things or a tag: size_t in version 4.1.
     std::uint64_t
     count()
     {
-      return binary ? bytes<std::uint64_t>() :
-                      static_cast<std::uint64_t>(text_integer());
+      return binary ? bytes<std::uint64_t>() : text_count();
+    }
+
+    /// The tag of a node in version 2.2, where it is an int.
+    std::uint64_t
+    tag()
+    {
+      const int number = integer();
+      if (number < 1)
+        fail("a node has the tag " + std::to_string(number) +
+             "; allowed: 1 and more");
+      return number;
     }
 
     /// A count in plain text, whatever the format.
     std::uint64_t
     line_count()
     {
-      const std::uint64_t n = text_integer();
+      const std::uint64_t n = text_count();
       if (binary && at < content.size() && content[at] == '\n')
         ++at;
       return n;
+    }
+
+    /// A text in double quotes, whatever the format.
+    std::string
+    quoted()
+    {
+      const std::size_t begin = content.find_first_not_of(" \t", at);
+      if (begin == std::string::npos || content[begin] != '"')
+        fail("there is no name in double quotes");
+      const std::size_t end = content.find_first_of("\"\r\n", begin + 1);
+      if (end == std::string::npos || content[end] != '"')
+        fail("the double quotes around a name do not end");
+      at = end + 1;
+      return content.substr(begin + 1, end - begin - 1);
+    }
+
+    /// A number in plain text, whatever the format.
+    int
+    line_integer()
+    {
+      const bool bytes = binary;
+      binary           = false;
+      const int number = integer();
+      binary           = bytes;
+      return number;
     }
 
     void
@@ -68,12 +126,14 @@ namespace mortise
     }
 
     /// The coordinates of the node @p tag.
-    void
+    dealii::Point<3>
     coordinates(const std::int64_t tag)
     {
+      dealii::Point<3> place;
       for (unsigned int d = 0; d < 3; ++d)
         {
           const double x = binary ? bytes<double>() : text_real();
+          place[d]       = x;
           if (std::fabs(x) <= largest_length)
             continue;
           std::ostringstream what;
@@ -84,14 +144,17 @@ namespace mortise
                << " in magnitude";
           file_error(what.str());
         }
+      return place;
     }
 
-    void
-    skip_integers(const std::uint64_t n)
+    std::vector<int>
+    integers(const std::uint64_t n)
     {
       fits(n, 4, "integers");
+      std::vector<int> result;
       for (std::uint64_t i = 0; i < n; ++i)
-        integer();
+        result.push_back(integer());
+      return result;
     }
 
     /// @p n things of so many bytes each, or (as text) of two at least.
@@ -109,7 +172,7 @@ namespace mortise
     {
       const std::size_t end = content.find("$End" + section, at);
       if (end == std::string::npos)
-        file_error("ends before $End" + section + "; allowed: a complete file");
+        fail_at_end(section);
       if (here && content.find_first_not_of(" \t\r\n", at) != end)
         fail("there is something else before $End" + section);
       at = end + 4 + section.size();
@@ -158,6 +221,16 @@ namespace mortise
       const long long number = std::strtoll(&content[at], &end, 10);
       finish_text(end);
       return number;
+    }
+
+    std::uint64_t
+    text_count()
+    {
+      const long long number = text_integer();
+      if (number < 0)
+        fail("there is the number " + std::to_string(number) +
+             " where things are counted; allowed: 0 and more");
+      return static_cast<std::uint64_t>(number);
     }
 
     double

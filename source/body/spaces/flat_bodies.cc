@@ -281,7 +281,7 @@ namespace mortise
     const auto [a, b]       = std::minmax({ranks[tetrahedron_lines[number][0]],
                                            ranks[tetrahedron_lines[number][1]]});
     static std::map<std::array<unsigned int, 3>, NodesAcross> tables;
-    NodesAcross &ascending = tables[{degree, a, b}];
+    NodesAcross &ascending = tables[{{degree, a, b}}];
     if (ascending.lines.empty())
       ascending = tetrahedral_lines(degree, a, b);
     const auto  index  = ascending_dof_indices(degree, vertex_order(cell));

@@ -1,6 +1,6 @@
-// What the gmsh library knows of a file, as plain data: nodes, elements, names
-// of physical groups. The only room of the gmsh library, which prints nothing
-// and stays open only while a file is read. It never judges a mesh.
+// Meshes as gmsh knows them, as plain data: nodes, elements, names of physical
+// groups. The only room of the gmsh library, which prints nothing and stays open
+// only while a geometry is meshed. It never reads a mesh and never judges one.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -16,8 +16,7 @@ namespace mortise
   /// Elements of one type in one surface or volume of the model.
   struct GmshElements
   {
-    int              entity = 0; ///< tag of the surface or volume
-    std::vector<int> groups;     ///< tags of its physical groups
+    std::vector<int> groups; ///< tags of its physical groups
 
     unsigned int dimension  = 0; ///< 2 or 3
     unsigned int n_vertices = 0;
@@ -54,13 +53,18 @@ namespace mortise
   bool
   is_geometry_file(const std::string &file_name);
 
-  /// Read the mesh of @p file_name, or make one if it is a geometry: with
-  /// edges of at most @p mesh_size if that is positive, and that number for the
-  /// constant mesh_size of a .geo file, and of at most @p sizes if it is not null. Surfaces and volumes of a .step or
-  /// .brep file are physical groups of their own. Throws std::runtime_error
+  /// What the elements of gmsh's number @p type are: type, dimension, order and
+  /// reference. Only for numbers that gmsh has.
+  GmshElements
+  describe_gmsh_elements(int type);
+
+  /// Mesh the geometry @p file_name with edges of at most @p mesh_size if that
+  /// is positive, and that number for the constant mesh_size of a .geo file,
+  /// and of at most @p sizes if it is not null. Surfaces and volumes of a .step
+  /// or .brep file are physical groups of their own. Throws std::runtime_error
   /// with what gmsh says.
   GmshModel
-  read_gmsh_model(const std::string &file_name,
-                  double             mesh_size,
-                  const SizeField   *sizes = nullptr);
+  mesh_geometry(const std::string &file_name,
+                double             mesh_size,
+                const SizeField   *sizes = nullptr);
 } // namespace mortise

@@ -1,0 +1,105 @@
+// Proves that a signal ends the program, as it should, also while METIS orders,
+// which wants SIGTERM for itself.
+#include <metis.h>
+#include <mortise/base/interruption.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <iostream>
+#include <string>
+#include <vector>
+
+namespace
+{
+  void
+  verdict(const bool good, const std::string &what)
+  {
+    std::cout << (good ? "OK  " : "FAILED  ") << what << std::endl;
+  }
+
+  /// Order n x n x n points, each beside six others: seconds.
+  int
+  order_grid(const idx_t n)
+  {
+    std::vector<idx_t> begin = {0}, neighbours;
+    for (idx_t i = 0; i < n * n * n; ++i)
+      {
+        for (const idx_t step : {idx_t(1), n, n * n})
+          {
+            const idx_t place = i / step % n;
+            if (place > 0)
+              neighbours.push_back(i - step);
+            if (place < n - 1)
+              neighbours.push_back(i + step);
+          }
+        begin.push_back(neighbours.size());
+      }
+    idx_t              size = n * n * n;
+    std::vector<idx_t> order(size), place(size);
+    return METIS_NodeND(&size,
+                        begin.data(),
+                        neighbours.data(),
+                        nullptr,
+                        nullptr,
+                        order.data(),
+                        place.data());
+  }
+
+  struct Ended
+  {
+    int         code;
+    std::string printed;
+  };
+
+  /// A process that orders and gets @p signal meanwhile.
+  Ended
+  interrupt(const int signal)
+  {
+    int errors[2];
+    if (pipe(errors) != 0)
+      return {-1, "no pipe"};
+    const pid_t child = fork();
+    if (child == 0)
+      {
+        dup2(errors[1], STDERR_FILENO);
+        mortise::interruption::catch_signals();
+        if (write(STDERR_FILENO, "!", 1) != 1)
+          _exit(1);
+        _exit(order_grid(100) == METIS_OK ? 0 : 1);
+      }
+    close(errors[1]);
+    std::string printed;
+    char        c;
+    if (read(errors[0], &c, 1) == 1)
+      {
+        usleep(500000);
+        kill(child, signal);
+      }
+    while (read(errors[0], &c, 1) == 1)
+      printed += c;
+    close(errors[0]);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status),
+            printed};
+  }
+} // namespace
+
+int
+main()
+{
+  verdict(order_grid(10) == METIS_OK, "METIS orders without anyone who catches");
+  mortise::interruption::catch_signals();
+  verdict(order_grid(10) == METIS_OK, "METIS orders with signals caught");
+  for (const auto &[signal, name] :
+       {std::make_pair(SIGTERM, "SIGTERM"), std::make_pair(SIGINT, "SIGINT")})
+    {
+      const Ended ended = interrupt(signal);
+      verdict(ended.code == 128 + signal,
+              std::string(name) + " while METIS orders: the exit code");
+      verdict(ended.printed == std::string("interrupted by ") + name +
+                                 ": nothing was written\n",
+              std::string(name) + " while METIS orders: one message");
+    }
+}

@@ -1,0 +1,261 @@
+// Proves that what the driver keeps in a checkpoint comes back as it was, and
+// that a text with a right checksum and wrong contents is refused with a message
+// on the checkpoint or on a parameter: it never crashes and never takes memory
+// for what it only claims to hold.
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/utilities.h>
+
+#include <mortise/output/checkpoint.h>
+#include <mortise/output/checkpoint_file.h>
+#include <mortise/problem/run_checkpoint.h>
+
+#include <cstring>
+#include <filesystem>
+#include <random>
+
+#include "../scenes/scene.h"
+
+using namespace dealii;
+using namespace mortise;
+using namespace mortise::testing;
+
+namespace
+{
+  const std::string directory = "run_checkpoint";
+
+  const std::string scene = R"(
+set Bodies     = low, high
+set Interfaces = glue
+subsection Body low
+  set Degree = 1
+  subsection Mesh
+    set Source       = box
+    set Extent       = 0, 0, 0, 1, 1, 1
+    set Subdivisions = 2, 2, 1
+  end
+  subsection Material
+    set Young modulus = 1
+  end
+  subsection Boundary zmin
+    set Displacement = 0, 0, 0
+  end
+end
+subsection Body high
+  set Degree = 1
+  subsection Mesh
+    set Source       = box
+    set Extent       = 0, 0, 1, 1, 1, 2
+    set Subdivisions = 1, 1, 1
+  end
+  subsection Material
+    set Young modulus = 2
+  end
+  subsection Boundary zmax
+    set Traction = 0.1; 0; 0
+  end
+end
+subsection Interface glue
+  set Slave  = low: zmax
+  set Master = high: zmin
+end
+subsection Adaptivity
+  set Target error = 0.2
+end
+subsection Output
+  set Directory        = run_checkpoint
+  set Fields           =
+  set Checkpoint every = 1
+end
+)";
+
+  /// What --restart does before it makes a mesh; the message of an error, or
+  /// nothing.
+  std::string
+  message_of_restart()
+  {
+    try
+      {
+        const RunCheckpoint checkpoint =
+          read_run_checkpoint(directory, MPI_COMM_WORLD);
+        const Parameters parameters =
+          restart_parameters(checkpoint, {}, directory);
+        validate(parameters);
+        std::ostringstream silence;
+        RunLog             log(silence, MPI_COMM_WORLD);
+        Simulation         simulation(parameters, log, MPI_COMM_WORLD);
+        simulation.resume(checkpoint, directory);
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    catch (const std::exception &error)
+      {
+        return std::string("not foreseen: ") + error.what();
+      }
+    return {};
+  }
+
+  /// The checkpoint with another text, and the right checksums.
+  void
+  replace(const std::string &text)
+  {
+    write_checkpoint_file(checkpoint_file_name(directory),
+                          {text, ""},
+                          "",
+                          MPI_COMM_WORLD);
+  }
+
+  std::string
+  with_changed_bytes(std::string bytes, std::mt19937 &random)
+  {
+    const std::size_t at = random() % bytes.size();
+    switch (random() % 5)
+      {
+        case 0:
+          bytes[at] = static_cast<char>(random() % 256);
+          break;
+        case 1:
+          bytes.resize(at);
+          break;
+        case 2:
+          bytes.erase(at, 1 + random() % 8);
+          break;
+        default:
+          {
+            const std::uint64_t number =
+              random() % 2 == 0 ? std::uint64_t(1) << (random() % 64) :
+                                  -1 - std::uint64_t(random() % 3);
+            std::memcpy(&bytes[at],
+                        &number,
+                        std::min<std::size_t>(bytes.size() - at,
+                                              1 << (random() % 4)));
+          }
+      }
+    return bytes;
+  }
+
+  /// One value of JSON in place of another.
+  std::string
+  with_changed_value(std::string text, std::mt19937 &random)
+  {
+    static const std::vector<std::string> values = {
+      "null", "true", "-1", "0", "7", "1e300", "4294967296", "0.5", "\"\"",
+      "\"x\"", "[]", "{}", "[[1]]", "18446744073709551615"};
+    const std::size_t begin =
+      text.find_first_of(":,[", random() % (text.size() - 2)) + 1;
+    const std::size_t end =
+      begin == 0 ? 0 : text.find_first_of(",]}:", begin);
+    if (begin > 0 && end != std::string::npos)
+      text.replace(begin, end - begin, values[random() % values.size()]);
+    return text;
+  }
+
+  struct Place
+  {
+    std::size_t begin, size;
+  };
+
+  /// Of the state of the cycles within the text.
+  Place
+  cycles(const std::string &text)
+  {
+    const std::string key   = "\"adaptivity\":\"";
+    const std::size_t begin = text.find(key) + key.size();
+    return {begin, text.find('"', begin) - begin};
+  }
+
+  std::string
+  with_changed_cycles(std::string text, std::mt19937 &random)
+  {
+    const Place place   = cycles(text);
+    const auto  decoded = Utilities::decode_base64(
+      text.substr(place.begin, place.size));
+    const std::string bytes =
+      with_changed_bytes(std::string(decoded.begin(), decoded.end()), random);
+    return text.replace(place.begin,
+                        place.size,
+                        Utilities::encode_base64({bytes.begin(), bytes.end()}));
+  }
+
+  void
+  test_lies(const std::string &what,
+            const std::string &good,
+            std::string (*change)(std::string, std::mt19937 &))
+  {
+    std::mt19937 random(5);
+    unsigned int n_refused = 0, n_not_foreseen = 0;
+    for (unsigned int i = 0; i < 300; ++i)
+      {
+        replace(change(good, random));
+        const std::string message = message_of_restart();
+        n_refused += !message.empty();
+        if (message.find("not foreseen") == 0)
+          {
+            ++n_not_foreseen;
+            std::cout << message << std::endl;
+          }
+      }
+    verdict(what + ": some of 300 are refused", n_refused < 50, 0);
+    verdict(what + ": nothing but messages", n_not_foreseen, 0);
+  }
+
+  void
+  refused(const std::string &what,
+          const std::string &text,
+          const std::string &fragment)
+  {
+    replace(text);
+    const std::string message = message_of_restart();
+    verdict("refused: " + what + " (" + fragment + ")",
+            message.find("The checkpoint \"") != 0 ||
+              message.find(fragment) == std::string::npos,
+            0);
+  }
+} // namespace
+
+int
+main(int argc, char **argv)
+{
+  Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  {
+    const Parameters   parameters = parse_parameters(scene, "test", {});
+    std::ostringstream silence;
+    RunLog             log(silence, MPI_COMM_WORLD);
+    Simulation(parameters, log, MPI_COMM_WORLD).run();
+  }
+  const std::string good = read_checkpoint_text(directory, MPI_COMM_WORLD);
+  verdict("a run of cycles left its state", cycles(good).size < 100, 0);
+  verdict("its text comes back as it was",
+          to_text(read_run_checkpoint(directory, MPI_COMM_WORLD)) != good,
+          0);
+  replace(good);
+  verdict("it is taken", !message_of_restart().empty(), 0);
+
+  const auto changed = [&](const std::string &from, const std::string &to) {
+    std::string text = good;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  refused("no JSON", "{", "its text cannot be read");
+  refused("a number of steps that is negative",
+          changed("\"n_steps\":", "\"n_steps\":-"),
+          "there is -");
+  refused("a number of steps that is none",
+          changed("\"n_steps\":", "\"n_steps\":\"x\",\"n\":"),
+          "there is \"x\" where another kind of value is expected");
+  refused("a time that is not finite",
+          changed("\"time\":", "\"time\":null,\"t\":"),
+          "it has reached the time");
+  std::string text = good;
+  text[cycles(good).begin] = '*';
+  refused("cycles that are no base64", text, "characters that are none");
+  const Place place = cycles(good);
+  text              = good;
+  text.erase(place.begin + place.size / 8 * 4, place.size - place.size / 8 * 4);
+  refused("half of the cycles", text, "bytes where");
+
+  test_lies("bytes of the text", good, with_changed_bytes);
+  test_lies("values of the text", good, with_changed_value);
+  test_lies("bytes of the cycles", good, with_changed_cycles);
+  std::filesystem::remove_all(directory);
+}
