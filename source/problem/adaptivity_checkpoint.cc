@@ -16,6 +16,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -124,7 +125,7 @@ namespace mortise
     size_cell(const SizesOfCell &numbers)
     {
       // meshes halve theirs a few times
-      constexpr double largest_ratio = 1e6;
+      constexpr double largest_ratio = 1e3;
       SizeField::Cell  cell;
       for (unsigned int v = 0; v < 4; ++v)
         {
@@ -147,6 +148,31 @@ namespace mortise
           refuse("edges of " + std::to_string(size) +
                  " in place of a tetrahedron of " + std::to_string(longest));
       return cell;
+    }
+
+    /// Throws std::out_of_range if @p sizes ask for far more tetrahedra than
+    /// the @p n_cells of the mesh that was made by them.
+    void
+    check_number(const std::vector<SizeField::Cell> &sizes,
+                 const std::size_t                   n_cells)
+    {
+      double wanted = 0.;
+      for (const SizeField::Cell &cell : sizes)
+        {
+          Tensor<2, 3> edges;
+          for (unsigned int d = 0; d < 3; ++d)
+            edges[d] = cell.vertices[d + 1] - cell.vertices[0];
+          // a regular one has six times its volume of edge^3 / sqrt(2)
+          wanted += determinant(edges) * std::sqrt(2.) /
+                    std::pow(std::accumulate(cell.sizes.begin(),
+                                             cell.sizes.end(),
+                                             0.) /
+                               4.,
+                             3);
+        }
+      if (wanted > 100. * n_cells + 1e4)
+        refuse("sizes for " + std::to_string(std::lround(wanted)) +
+               " tetrahedra in place of " + std::to_string(n_cells));
     }
 
     /// Throws std::out_of_range if @p text is not what to_text() gives, for
@@ -330,6 +356,7 @@ namespace mortise
         std::vector<SizeField::Cell> cells;
         for (const SizesOfCell &numbers : of_body)
           cells.push_back(size_cell(numbers));
+        check_number(cells, given.cells[sizes.size()].size());
         sizes.push_back(cells.empty() ?
                           nullptr :
                           std::make_shared<const SizeField>(std::move(cells)));
