@@ -9,6 +9,7 @@
 #include <mortise/body/mesh/gmsh_model.h>
 #include <mortise/output/bytes.h>
 #include <mortise/problem/adaptivity.h>
+#include <mortise/problem/formulation.h>
 
 #include <algorithm>
 #include <array>
@@ -85,7 +86,7 @@ namespace mortise
     }
 
     void
-    check(const CellHistory &history)
+    check(const CellHistory &history, const unsigned int least_degree)
     {
       for (const double number : {history.change,
                                   history.error,
@@ -97,10 +98,14 @@ namespace mortise
                                   history.fall,
                                   history.least_ratio})
         check(number);
-      for (const unsigned int degree : {history.degree, history.n_rises})
-        if (degree > max_degree)
-          refuse("a cell of degree " + std::to_string(degree) +
-                 ", the largest is " + std::to_string(max_degree));
+      if (history.degree < least_degree || history.degree > max_degree)
+        refuse("a cell of degree " + std::to_string(history.degree) +
+               ", degrees are " + std::to_string(least_degree) + " to " +
+               std::to_string(max_degree));
+      if (history.n_rises > max_degree)
+        refuse("a cell whose degree has risen " +
+               std::to_string(history.n_rises) + " times, the largest is " +
+               std::to_string(max_degree));
     }
 
     CellNumber
@@ -206,10 +211,11 @@ namespace mortise
         refuse("half of an estimate");
       for (const auto &[name, number] : kept.numbers)
         check(number);
-      for (const auto &of_body : kept.cells)
-        for (const KeptCell &cell : of_body)
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        for (const KeptCell &cell : kept.cells[b])
           {
-            check(cell.state.history);
+            check(cell.state.history,
+                  is_mixed(bodies[b]) ? least_mixed_degree : 1);
             for (const auto &component : cell.state.dual)
               for (const double coefficient : component)
                 check(coefficient);
