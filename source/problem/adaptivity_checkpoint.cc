@@ -9,6 +9,7 @@
 #include <mortise/body/mesh/gmsh_model.h>
 #include <mortise/output/bytes.h>
 #include <mortise/problem/adaptivity.h>
+#include <mortise/problem/formulation.h>
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
@@ -84,7 +86,7 @@ namespace mortise
     }
 
     void
-    check(const CellHistory &history)
+    check(const CellHistory &history, const unsigned int least_degree)
     {
       for (const double number : {history.change,
                                   history.error,
@@ -96,10 +98,14 @@ namespace mortise
                                   history.fall,
                                   history.least_ratio})
         check(number);
-      for (const unsigned int degree : {history.degree, history.n_rises})
-        if (degree > max_degree)
-          refuse("a cell of degree " + std::to_string(degree) +
-                 ", the largest is " + std::to_string(max_degree));
+      if (history.degree < least_degree || history.degree > max_degree)
+        refuse("a cell of degree " + std::to_string(history.degree) +
+               ", degrees are " + std::to_string(least_degree) + " to " +
+               std::to_string(max_degree));
+      if (history.n_rises > max_degree)
+        refuse("a cell whose degree has risen " +
+               std::to_string(history.n_rises) + " times, the largest is " +
+               std::to_string(max_degree));
     }
 
     CellNumber
@@ -124,7 +130,7 @@ namespace mortise
     size_cell(const SizesOfCell &numbers)
     {
       // meshes halve theirs a few times
-      constexpr double largest_ratio = 1e6;
+      constexpr double largest_ratio = 1e3;
       SizeField::Cell  cell;
       for (unsigned int v = 0; v < 4; ++v)
         {
@@ -147,6 +153,31 @@ namespace mortise
           refuse("edges of " + std::to_string(size) +
                  " in place of a tetrahedron of " + std::to_string(longest));
       return cell;
+    }
+
+    /// Throws std::out_of_range if @p sizes ask for far more tetrahedra than
+    /// the @p n_cells of the mesh that was made by them.
+    void
+    check_number(const std::vector<SizeField::Cell> &sizes,
+                 const std::size_t                   n_cells)
+    {
+      double wanted = 0.;
+      for (const SizeField::Cell &cell : sizes)
+        {
+          Tensor<2, 3> edges;
+          for (unsigned int d = 0; d < 3; ++d)
+            edges[d] = cell.vertices[d + 1] - cell.vertices[0];
+          // a regular one has six times its volume of edge^3 / sqrt(2)
+          wanted += determinant(edges) * std::sqrt(2.) /
+                    std::pow(std::accumulate(cell.sizes.begin(),
+                                             cell.sizes.end(),
+                                             0.) /
+                               4.,
+                             3);
+        }
+      if (wanted > 100. * n_cells + 1e4)
+        refuse("sizes for " + std::to_string(std::lround(wanted)) +
+               " tetrahedra in place of " + std::to_string(n_cells));
     }
 
     /// Throws std::out_of_range if @p text is not what to_text() gives, for
@@ -180,10 +211,11 @@ namespace mortise
         refuse("half of an estimate");
       for (const auto &[name, number] : kept.numbers)
         check(number);
-      for (const auto &of_body : kept.cells)
-        for (const KeptCell &cell : of_body)
+      for (unsigned int b = 0; b < bodies.size(); ++b)
+        for (const KeptCell &cell : kept.cells[b])
           {
-            check(cell.state.history);
+            check(cell.state.history,
+                  is_mixed(bodies[b]) ? least_mixed_degree : 1);
             for (const auto &component : cell.state.dual)
               for (const double coefficient : component)
                 check(coefficient);
@@ -330,6 +362,7 @@ namespace mortise
         std::vector<SizeField::Cell> cells;
         for (const SizesOfCell &numbers : of_body)
           cells.push_back(size_cell(numbers));
+        check_number(cells, given.cells[sizes.size()].size());
         sizes.push_back(cells.empty() ?
                           nullptr :
                           std::make_shared<const SizeField>(std::move(cells)));

