@@ -14,16 +14,10 @@ namespace mortise
     unsigned int degree = 0;
     /// Squares of the energy norm, or for the error of a quantity products of
     /// that of the solution and that of its dual problem: by how much its last
-    /// refinement changed the solution, first that of the solution itself; what
-    /// is estimated to be left of the error, and by which factor another such
+    /// refinement changed the solution, first that of the solution itself; the
+    /// error that is left, as it is estimated, and by which factor another such
     /// refinement makes it smaller.
     double change = 0., error = 0., ratio = 1.;
-    /// What of that error refining the cell itself makes smaller; the rest
-    /// comes from others.
-    double own_error = 0.;
-    /// By which the error may be larger, since nothing is known of how changes
-    /// fall.
-    double doubt = 0.;
     /// What is broken of the laws of interfaces of which it is the slave.
     double violation = 0.;
     /// Part of a face of it presses, part is open: the solution has an edge
@@ -50,8 +44,8 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &own_error &doubt &violation
-        &at_contact_edge &share &fall &least_ratio &n_rises &is_refined
+      archive &degree &change &error &ratio &violation &at_contact_edge
+        &share &fall &least_ratio &n_rises &is_refined
           &is_split &is_new;
     }
   };
