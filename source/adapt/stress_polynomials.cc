@@ -1,3 +1,5 @@
+#include <deal.II/fe/fe_poly.h>
+
 #include <mortise/adapt/stress_polynomials.h>
 #include <mortise/base/lagrange.h>
 #include <mortise/body/elements/simplex_quadrature.h>
@@ -19,6 +21,25 @@ namespace mortise
             result[i] *= (x - nodes[j][0]) / (nodes[i][0] - nodes[j][0]);
       return result;
     }
+
+    /// The functions of a tetrahedron at one point.
+    struct Functions
+    {
+      Functions(const FiniteElement<dim> &element, const Point<dim> &x)
+        : values(element.n_dofs_per_cell())
+        , slopes(values.size())
+      {
+        // all at once: one by one each takes as long
+        std::vector<Tensor<2, dim>> no_2;
+        std::vector<Tensor<3, dim>> no_3;
+        std::vector<Tensor<4, dim>> no_4;
+        dynamic_cast<const FE_Poly<dim> &>(element).get_poly_space().evaluate(
+          x, values, slopes, no_2, no_3, no_4);
+      }
+
+      std::vector<double>         values;
+      std::vector<Tensor<1, dim>> slopes;
+    };
   } // namespace
 
   StressPolynomials::StressPolynomials(const Body             &body,
@@ -63,23 +84,31 @@ namespace mortise
     const unsigned int    n = element.n_dofs_per_cell(), m = from.size();
     FullMatrix<double>    mass(n, n), moments(n, m), inverse(n, n);
     for (unsigned int q = 0; q < m; ++q)
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          moments(i, q) = from.weight(q) * element.shape_value(i, from.point(q));
-          for (unsigned int j = 0; j < n; ++j)
-            mass(i, j) += moments(i, q) * element.shape_value(j, from.point(q));
-        }
+      {
+        const auto values = Functions(element, from.point(q)).values;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            moments(i, q) = from.weight(q) * values[i];
+            for (unsigned int j = 0; j < n; ++j)
+              mass(i, j) += moments(i, q) * values[j];
+          }
+      }
     inverse.invert(mass);
     projection.reinit(n, m);
     inverse.mmult(projection, moments);
+    std::array<FullMatrix<double>, dim> slopes;
+    slopes.fill(FullMatrix<double>(to.size(), n));
+    for (unsigned int q = 0; q < to.size(); ++q)
+      {
+        const Functions at(element, to.point(q));
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            slopes[d](q, i) = at.slopes[i][d];
+      }
     for (unsigned int d = 0; d < dim; ++d)
       {
-        FullMatrix<double> slopes(to.size(), n);
-        for (unsigned int q = 0; q < to.size(); ++q)
-          for (unsigned int i = 0; i < n; ++i)
-            slopes(q, i) = element.shape_grad(i, to.point(q))[d];
         derivatives[d].reinit(to.size(), m);
-        slopes.mmult(derivatives[d], projection);
+        slopes[d].mmult(derivatives[d], projection);
       }
   }
 
@@ -162,14 +191,10 @@ namespace mortise
   StressPolynomials::factors_on_face(const unsigned int f,
                                      const Point<dim>  &x) const
   {
-    std::vector<double> result;
     if (simplex)
-      {
-        for (unsigned int i = 0; i < projection.m(); ++i)
-          result.push_back(element.shape_value(i, x));
-        return result;
-      }
-    const unsigned int d     = f / 2;
+      return Functions(element, x).values;
+    std::vector<double> result;
+    const unsigned int  d     = f / 2;
     const auto         first = lagrange_at(line, x[d == 0 ? 1 : 0]),
                second        = lagrange_at(line, x[d == 2 ? 1 : 2]);
     for (const double b : second)

@@ -237,20 +237,19 @@ namespace mortise
         return;
       }
     const double now  = sum(residuals.equations, run.comm),
-                 seen = square_by_residual(change, residual, now);
-    set_errors(bodies, residuals, seen, states);
+                 seen = square_by_residual(change, residual, now),
+                 // what one cycle has shown may be chance
+                 most = std::max(seen, by_residual);
+    set_errors(bodies, residuals, most, states);
     sums                     = error_sums(bodies, states);
     const double by_jumps    = std::pow(unit * interface_error(), 2);
-    const auto   relative_to = [&](const double square) {
+    const auto   relative = [&](const double square) {
       return std::sqrt(square + by_jumps) / unit;
     };
-    estimated = relative_to(sums.all);
-    // what one cycle has shown may be chance
-    at_most = relative_to(sums.all +
-                          (std::pow(doubt_of_residuals, 2) *
-                             std::max(seen, by_residual) -
-                           seen) *
-                            now);
+    estimated = relative(sums.all);
+    at_most =
+      relative(sums.all +
+                  (std::pow(doubt_of_residuals, 2) - 1.) * most * now);
     by_residual = seen;
   }
 

@@ -231,7 +231,7 @@ def start(seed, number):
         settings.append("Exact solution/Displacement=" + "; ".join(f"{amount(scale)}*({c})" for c in components))
     strategy = lot.choice(["hp", "hp", "hp", "h", "p"])
     settings += [f"Adaptivity/Strategy={strategy}", "Output/Fields="]
-    return f"{seed}.{number}: {name}, {field}, {strategy}", settings, 10. ** lot.uniform(-1.3, -0.05)
+    return f"{seed}.{number}: {name}, {field}, {strategy}", settings, 10. ** lot.uniform(-1.1, -0.05)
 
 
 def run(binary, settings, work, seconds=SECONDS):

@@ -6,10 +6,9 @@ namespace mortise
 {
   /// What is taken of the square of the error by that of the residual before
   /// anything is seen, of squares of norms.
-  constexpr double square_by_residual_at_first = 0.3 * 0.3;
+  constexpr double square_by_residual_at_first = 0.4 * 0.4;
 
-  /// By which the root may be too small: it is not the same everywhere, and not
-  /// from cycle to cycle.
+  /// By which the root may be too small, since it is not the same everywhere.
   constexpr double doubt_of_residuals = 1.25;
 
   /// The square of the error in the energy norm by that of the residual: a refinement made the latter @p now
