@@ -239,7 +239,7 @@ namespace mortise
     const double now  = sum(residuals.equations, run.comm),
                  seen = square_by_residual(change, residual, now),
                  // what one cycle has shown may be chance
-                 most = std::max(seen, by_residual);
+                 most = std::max(seen, kept_of_earlier_cycles * by_residual);
     set_errors(bodies, residuals, most, states);
     sums                     = error_sums(bodies, states);
     const double by_jumps    = std::pow(unit * interface_error(), 2);
@@ -250,7 +250,7 @@ namespace mortise
     at_most =
       relative(sums.all +
                   (std::pow(doubt_of_residuals, 2) - 1.) * most * now);
-    by_residual = seen;
+    by_residual = most;
   }
 
   double

@@ -6,7 +6,10 @@ namespace mortise
 {
   /// What is taken of the square of the error by that of the residual before
   /// anything is seen, of squares of norms.
-  constexpr double square_by_residual_at_first = 0.4 * 0.4;
+  constexpr double square_by_residual_at_first = 0.5 * 0.5;
+
+  /// Of that, or of what earlier cycles have shown, in the next one.
+  constexpr double kept_of_earlier_cycles = 0.8 * 0.8;
 
   /// By which the root may be too small, since it is not the same everywhere.
   constexpr double doubt_of_residuals = 1.25;
