@@ -232,15 +232,21 @@ namespace mortise
   void
   set_errors(const Bodies    &bodies,
              const Residuals &residuals,
-             const double     square_by_residual,
+             const double     seen,
              CellStates      &states)
   {
     for_each_cell(bodies,
                   states,
                   [&](const Body &body, const auto &cell, CellState &state) {
                     const unsigned int k = cell->active_cell_index();
-                    state.history.error =
-                      square_by_residual * residuals.equations[body.index][k] +
+                    CellHistory       &history = state.history;
+                    // what one cycle has shown may be chance
+                    if (history.is_refined)
+                      history.by_residual =
+                        std::max(seen,
+                                 kept_of_earlier_cycles * history.by_residual);
+                    history.error =
+                      history.by_residual * residuals.equations[body.index][k] +
                       residuals.conditions[body.index][k];
                   });
   }

@@ -236,21 +236,21 @@ namespace mortise
         signed_error        = sums.with_sign + rest.error;
         return;
       }
-    const double now  = sum(residuals.equations, run.comm),
-                 seen = square_by_residual(change, residual, now),
-                 // what one cycle has shown may be chance
-                 most = std::max(seen, kept_of_earlier_cycles * by_residual);
-    set_errors(bodies, residuals, most, states);
-    sums                     = error_sums(bodies, states);
-    const double by_jumps    = std::pow(unit * interface_error(), 2);
-    const auto   relative = [&](const double square) {
-      return std::sqrt(square + by_jumps) / unit;
-    };
-    estimated = relative(sums.all);
-    at_most =
-      relative(sums.all +
-                  (std::pow(doubt_of_residuals, 2) - 1.) * most * now);
-    by_residual = most;
+    set_errors(bodies,
+               residuals,
+               square_by_residual(change,
+                                  residual,
+                                  sum(residuals.equations, run.comm)),
+               states);
+    sums                  = error_sums(bodies, states);
+    const double for_sure = sum(residuals.conditions, run.comm) +
+                            std::pow(unit * interface_error(), 2),
+                 by_equations =
+                   sums.all - sum(residuals.conditions, run.comm);
+    estimated = std::sqrt(for_sure + by_equations) / unit;
+    at_most   = std::sqrt(for_sure +
+                        std::pow(doubt_of_residuals, 2) * by_equations) /
+              unit;
   }
 
   double

@@ -108,8 +108,7 @@ namespace mortise
                        {"change of rest", rest.change},
                        {"error of rest", rest.error},
                        {"allowed", allowed},
-                       {"residual", residual},
-                       {"by residual", by_residual}};
+                       {"residual", residual}};
     if (estimated)
       result.numbers.insert({{"estimate", *estimated}, {"at most", *at_most}});
     result.sizes.resize(bodies.size());
@@ -153,7 +152,6 @@ namespace mortise
     rest.error          = numbers.at("error of rest");
     allowed             = numbers.at("allowed");
     residual            = numbers.at("residual");
-    by_residual         = numbers.at("by residual");
     if (numbers.count("estimate") > 0)
       {
         estimated = numbers.at("estimate");

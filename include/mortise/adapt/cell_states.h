@@ -3,6 +3,7 @@
 // that contain the old ones keep to the last digit.
 #pragma once
 
+#include <mortise/adapt/error_by_residual.h>
 #include <mortise/operators/cells/cell_fields.h>
 
 #include <vector>
@@ -18,6 +19,9 @@ namespace mortise
     /// error that is left, as it is estimated, and by which factor another such
     /// refinement makes it smaller.
     double change = 0., error = 0., ratio = 1.;
+    /// The square of the error by that of the residual, as it was seen when the
+    /// cell was refined, and before.
+    double by_residual = square_by_residual_at_first;
     /// What is broken of the laws of interfaces of which it is the slave.
     double violation = 0.;
     /// Part of a face of it presses, part is open: the solution has an edge
@@ -44,8 +48,8 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &violation &at_contact_edge
-        &share &fall &least_ratio &n_rises &is_refined
+      archive &degree &change &error &ratio &by_residual &violation
+        &at_contact_edge &share &fall &least_ratio &n_rises &is_refined
           &is_split &is_new;
     }
   };

@@ -8,7 +8,7 @@ namespace mortise
   /// anything is seen, of squares of norms.
   constexpr double square_by_residual_at_first = 0.5 * 0.5;
 
-  /// Of that, or of what earlier cycles have shown, in the next one.
+  /// Of that, or of what earlier refinements have shown, after the next one.
   constexpr double kept_of_earlier_cycles = 0.8 * 0.8;
 
   /// By which the root may be too small, since it is not the same everywhere.

@@ -28,11 +28,12 @@ namespace mortise
                   const NumbersByCell &own_parts,
                   CellStates          &states);
 
-  /// Errors in @p states from @p residuals, which are taken @p square_by_residual times.
+  /// Errors in @p states from @p residuals; the last refinement has shown what square_by_residual() is: @p seen. Other
+  /// cells keep what was seen of them.
   void
   set_errors(const Bodies    &bodies,
              const Residuals &residuals,
-             double           square_by_residual,
+             double           seen,
              CellStates      &states);
 
   /// Shares in @p states of the cells that were refined from the @p products (products_by_cell()) of

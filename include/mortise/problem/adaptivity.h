@@ -216,9 +216,7 @@ namespace mortise
     unsigned int              n_meshes = 0; ///< how often there were new ones
     std::vector<BodySolution> earlier, earlier_dual;
     ErrorSums                 sums;
-    /// Squares of the last cycle: what was missing of the equations, and the
-    /// error by that as this and earlier cycles have shown it.
-    double residual = 0., by_residual = square_by_residual_at_first;
+    double residual = 0.; ///< square, of the equations in the last cycle
     std::vector<Violation>    interfaces;      ///< relative
     double                    last_value = 0.; ///< of the quantity
     /// How much the last refinement changed the quantity beyond what cells have
