@@ -6,8 +6,6 @@
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/operators/cells/face_values.h>
 
-#include <array>
-#include <cmath>
 #include <map>
 #include <memory>
 #include <set>
@@ -91,7 +89,6 @@ namespace mortise
         return polynomials(cell).on_face(f,
                                          stresses[cell->active_cell_index()]);
       }
-      /// At its points.
       FaceGeometry &
       face_geometry(const Body::CellIterator &cell,
                     unsigned int              f,
@@ -210,7 +207,7 @@ namespace mortise
     {
       StressPolynomials    &of     = polynomials(cell);
       const Quadrature<dim> rule   = StressPolynomials::rule(cell->get_fe());
-      auto                  forces = of.divergence(cell, stresses[cell->active_cell_index()]);
+      auto forces = of.divergence(cell, stresses[cell->active_cell_index()]);
       if (data.loads.body_force)
         {
           const auto &points = of.geometry.points(cell);
@@ -267,7 +264,7 @@ namespace mortise
         {
           const auto factors = polynomials(cell).factors_on_face(
             f, coordinates.unit_point(point.xi[0], point.xi[1]));
-          const Tensor<1, dim> missing =
+          const auto missing =
             given_traction(cell, f, point.x, point.normal) + point.traction -
             traction(factors.data(), stress, point.normal);
           for (unsigned int c = 0; c < dim; ++c)
@@ -371,9 +368,8 @@ namespace mortise
                       [&] {
                         return points_beyond(cell->get_fe(), f, n, beyond);
                       });
-      const auto stress        = on_face(cell, f),
-                 stress_beyond = on_face(neighbour, beyond.number);
-      double sum               = 0.;
+      const auto stress = on_face(cell, f), stress_beyond = on_face(neighbour, beyond.number);
+      double     sum    = 0.;
       for (unsigned int q = 0; q < face.points.size(); ++q)
         sum += face.weights[q] *
                (traction(&factors[q * stress.size()], stress, face.normals[q]) -
