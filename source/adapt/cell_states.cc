@@ -225,10 +225,7 @@ namespace mortise
       result.history.is_split   = true;
       result.history.n_rises    = 0;
       result.history.fall       = 1.;
-      for (double *error : {&result.history.error,
-                            &result.history.own_error,
-                            &result.history.doubt})
-        *error /= GeometryInfo<dim>::max_children_per_cell;
+      result.history.error /= GeometryInfo<dim>::max_children_per_cell;
       for (const OfState part : {&CellState::coefficients, &CellState::dual})
         for (unsigned int c = 0; c < (result.*part).size(); ++c)
           {

@@ -74,11 +74,10 @@ namespace mortise
     void
     learn(const double change, const ErrorTail &left, CellHistory &history)
     {
-      history.own_error = change * left.left;
-      history.doubt     = 0.;
-      history.ratio     = left.ratio;
-      history.change    = change;
-      history.is_new    = false;
+      history.error  = change * left.left;
+      history.ratio  = left.ratio;
+      history.change = change;
+      history.is_new = false;
     }
 
     /// Of a cell that was cut.
@@ -161,16 +160,6 @@ namespace mortise
                                             history.least_ratio);
       history.fall         = left.ratio;
       learn(change, left, history);
-      // a state of constant strain may have most of the solution of degree one,
-      // and hide how slowly changes of another fall: one change is known, and
-      // what coefficients say
-      const auto   falls = decay(body, cell, state);
-      const double before =
-        falls && mortise::is_smooth(*falls) ? change / (*falls * *falls) : 0.;
-      history.doubt =
-        std::max(0.,
-                 change * geometric_tail(change, before, 1, 0.).left -
-                   history.own_error);
     }
 
     /// Likewise, after it was cut.
@@ -217,7 +206,6 @@ namespace mortise
                   const NumbersByCell &own_parts,
                   CellStates          &states)
   {
-    double own[2] = {0., 0.}; // changes and errors of refined cells
     for_each_cell(
       bodies,
       states,
@@ -238,28 +226,28 @@ namespace mortise
                      (own_parts.empty() ? 1. : own_parts[body.index][k]) *
                        of_body[k],
                      state);
-        history.error = history.own_error;
-        if (own_parts.empty())
-          history.doubt = 0.;
-        own[0] += history.change;
-        own[1] += history.own_error;
       });
-    if (own_parts.empty())
-      return;
-    Utilities::MPI::sum(own,
-                        bodies.front()->triangulation().get_communicator(),
-                        own);
-    const double left = own[0] > 0. ? own[1] / own[0] : 0.;
+  }
+
+  void
+  set_errors(const Bodies    &bodies,
+             const Residuals &residuals,
+             const double     seen,
+             CellStates      &states)
+  {
     for_each_cell(bodies,
                   states,
                   [&](const Body &body, const auto &cell, CellState &state) {
+                    const unsigned int k = cell->active_cell_index();
                     CellHistory       &history = state.history;
-                    const unsigned int k       = cell->active_cell_index();
-                    const double       by_others =
-                      std::max(0.,
-                               changes[body.index][k] -
-                                 (history.is_refined ? history.change : 0.));
-                    history.error = history.own_error + left * by_others;
+                    // what one cycle has shown may be chance
+                    if (history.is_refined)
+                      history.by_residual =
+                        std::max(seen,
+                                 kept_of_earlier_cycles * history.by_residual);
+                    history.error =
+                      history.by_residual * residuals.equations[body.index][k] +
+                      residuals.conditions[body.index][k];
                   });
   }
 
@@ -295,12 +283,10 @@ namespace mortise
                     sums.with_sign += history.n_rises == 0 ? part : 0.;
                     sums.by_lot += part * part;
                     sums.largest += largest_error(history);
-                    sums.doubt += history.doubt;
                   });
     const MPI_Comm comm = bodies.front()->triangulation().get_communicator();
     Utilities::MPI::sum(sums.by_body, comm, sums.by_body);
-    for (double *number :
-         {&sums.with_sign, &sums.by_lot, &sums.largest, &sums.doubt})
+    for (double *number : {&sums.with_sign, &sums.by_lot, &sums.largest})
       *number = Utilities::MPI::sum(*number, comm);
     sums.all    = std::accumulate(sums.by_body.begin(), sums.by_body.end(), 0.);
     sums.by_lot = std::sqrt(sums.by_lot);

@@ -164,6 +164,35 @@ namespace mortise
           traction[d] += values[k] * coefficients[d * n + k];
       return traction;
     }
+
+    /// What this rank has found for masters goes to those who own them.
+    TractionsOnFaces
+    tractions_on_master(
+      const InterfaceHandler                          &interface,
+      const std::vector<std::vector<TractionAtPoint>> &found,
+      const MPI_Comm                                   comm)
+    {
+      using Found = std::pair<std::uint64_t, std::vector<TractionAtPoint>>;
+      std::map<unsigned int, std::vector<Found>> for_owners;
+      for (unsigned int m = 0; m < found.size(); ++m)
+        if (!found[m].empty())
+          for_owners[interface.master_faces()[m].owner].emplace_back(
+            interface.master_faces()[m].id, found[m]);
+      std::map<std::uint64_t, std::vector<TractionAtPoint>> of_faces;
+      for (const auto &from : Utilities::MPI::some_to_some(comm, for_owners))
+        for (const auto &[face, points] : from.second)
+          of_faces[face].insert(of_faces[face].end(),
+                                points.begin(),
+                                points.end());
+      TractionsOnFaces   result;
+      const BodySurface &master = interface.master();
+      for (unsigned int k = 0; k < master.faces.size(); ++k)
+        if (const auto points = of_faces.find(master.faces[k].id);
+            points != of_faces.end())
+          result.push_back(
+            {master.cells[k], master.face_numbers[k], points->second});
+      return result;
+    }
   } // namespace
 
   Violations
@@ -179,6 +208,8 @@ namespace mortise
     result.energies.resize(interface.slave().faces.size(), 0.);
     std::vector<Pressing> of_slaves(interface.slave().faces.size()),
       of_masters(interface.master_faces().size());
+    std::vector<std::vector<TractionAtPoint>> on_slaves(of_slaves.size()),
+      on_masters(of_masters.size());
     for (unsigned int m = 0; m < of_masters.size(); ++m)
       of_masters[m].face = interface.master_faces()[m].id;
     interface.visit_pairs([&](const unsigned int       s,
@@ -217,8 +248,24 @@ namespace mortise
                 violation_of_spring(open, jump, traction, normal, spring, c);
             }
           result.energies[s] += points.weight[q] * of_point;
+          const auto     &rows = coupling.multipliers->rows()[s];
+          TractionAtPoint at{xi, slave_point(points, q), normal, -traction, points.weight[q], {}};
+          for (unsigned int c = 0; c < dim; ++c)
+            at.is_known[c] = rows.hold_constants[rows.normals.empty() ? c : 0];
+          on_slaves[s].push_back(at);
+          at.xi = Point<2>(points.master_eta[0][q], points.master_eta[1][q]);
+          at.x  = {points.master_x[0][q], points.master_x[1][q], points.master_x[2][q]};
+          at.normal   = face_normal(interface.master_faces()[m], at.xi);
+          at.traction = traction;
+          on_masters[m].push_back(at);
         }
     });
+    for (unsigned int s = 0; s < on_slaves.size(); ++s)
+      if (!on_slaves[s].empty())
+        result.on_slave.push_back({interface.slave().cells[s],
+                                   interface.slave().face_numbers[s],
+                                   on_slaves[s]});
+    result.on_master = tractions_on_master(interface, on_masters, comm);
     for (const Pressing &face : of_slaves)
       result.slave_at_edge.push_back(face.at_edge());
     result.master_at_edge = masters_at_edge(interface, of_masters, comm);

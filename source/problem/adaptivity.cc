@@ -14,19 +14,6 @@ namespace mortise
 
   namespace
   {
-    /// A calibration makes estimates smaller by less than larger.
-    constexpr double least_calibration = 0.77, most_calibration = 1.5;
-
-    /// By which an estimate is multiplied if the square of the one before was too small by @p ratio, as
-    /// the change that followed has shown, to which the error that is left is
-    /// orthogonal: half the way, since estimates go up and down.
-    double
-    calibration_by(const double ratio)
-    {
-      return std::min(most_calibration,
-                      std::max(least_calibration, std::pow(ratio, 0.25)));
-    }
-
     /// The least part that a refinement leaves of what does not come from
     /// cells.
     constexpr double least_ratio_of_rest = 0.1;
@@ -160,7 +147,8 @@ namespace mortise
   Adaptivity::add(const Bodies                      &bodies,
                   const std::vector<BodySolution>   &solutions,
                   const std::optional<DualSolution> &dual,
-                  const std::vector<Violation>      &violations)
+                  const std::vector<Violation>      &violations,
+                  const Residuals                   &residuals)
   {
     NumbersByCell size = energy_by_cell(bodies, solutions);
     set_coefficients(bodies, solutions, states);
@@ -178,7 +166,7 @@ namespace mortise
                     CellHistory &history = state.history;
                     history.degree       = state.degree;
                     if (history.is_new && !history.is_refined)
-                      history.change = history.error = history.own_error =
+                      history.change = history.error =
                         size[body.index][cell->active_cell_index()];
                   });
     set_violations(violations, norm);
@@ -196,7 +184,8 @@ namespace mortise
         signed_error.reset();
       }
     else
-      estimate(bodies, solutions, dual, norm);
+      estimate(bodies, solutions, dual, residuals, norm);
+    residual = sum(residuals.equations, run.comm);
     if (dual)
       last_value = dual->value;
     ++cycle;
@@ -235,22 +224,33 @@ namespace mortise
   Adaptivity::estimate(const Bodies                      &bodies,
                        const std::vector<BodySolution>   &solutions,
                        const std::optional<DualSolution> &dual,
+                       const Residuals                   &residuals,
                        const double                       norm)
   {
-    const double before = sums.all, change = learn(bodies, solutions, dual);
-    sums         = error_sums(bodies, states);
-    double error = std::sqrt(sums.all), most = std::sqrt(sums.all + sums.doubt);
+    const double change = learn(bodies, solutions, dual),
+                 unit   = norm > 0. ? norm : 1.;
     if (dual)
       {
-        error = most = std::hypot(sums.of_quantity(), rest.error);
-        signed_error = sums.with_sign + rest.error;
+        sums      = error_sums(bodies, states);
+        estimated = at_most = std::hypot(sums.of_quantity(), rest.error) / unit;
+        signed_error        = sums.with_sign + rest.error;
+        return;
       }
-    else if (before > 0.)
-      for (double *size : {&error, &most})
-        *size *= calibration_by((change + sums.all) / before);
-    const double unit = norm > 0. ? norm : 1.;
-    estimated         = std::max(error / unit, interface_error());
-    at_most           = std::max(*estimated, most / unit);
+    set_errors(bodies,
+               residuals,
+               square_by_residual(change,
+                                  residual,
+                                  sum(residuals.equations, run.comm)),
+               states);
+    sums                  = error_sums(bodies, states);
+    const double for_sure = sum(residuals.conditions, run.comm) +
+                            std::pow(unit * interface_error(), 2),
+                 by_equations =
+                   sums.all - sum(residuals.conditions, run.comm);
+    estimated = std::sqrt(for_sure + by_equations) / unit;
+    at_most   = std::sqrt(for_sure +
+                        std::pow(doubt_of_residuals, 2) * by_equations) /
+              unit;
   }
 
   double

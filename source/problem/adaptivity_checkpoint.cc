@@ -302,11 +302,11 @@ namespace mortise
     result.quantity = goal ? goal->name() : "";
     result.cycle    = cycle;
     result.n_meshes = n_meshes;
-    result.numbers  = {{"all", sums.all},
-                       {"value", last_value},
+    result.numbers  = {{"value", last_value},
                        {"change of rest", rest.change},
                        {"error of rest", rest.error},
-                       {"allowed", allowed}};
+                       {"allowed", allowed},
+                       {"residual", residual}};
     if (estimated)
       result.numbers.insert({{"estimate", *estimated}, {"at most", *at_most}});
     result.sizes.resize(bodies.size());
@@ -341,11 +341,11 @@ namespace mortise
     const auto &numbers = given.numbers;
     cycle               = given.cycle;
     n_meshes            = given.n_meshes;
-    sums.all            = numbers.at("all");
     last_value          = numbers.at("value");
     rest.change         = numbers.at("change of rest");
     rest.error          = numbers.at("error of rest");
     allowed             = numbers.at("allowed");
+    residual            = numbers.at("residual");
     if (numbers.count("estimate") > 0)
       {
         estimated = numbers.at("estimate");

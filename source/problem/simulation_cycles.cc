@@ -16,12 +16,14 @@ namespace mortise
                         solved,
                         fields.solutions,
                         adaptivity->dual_start(bodies));
-    adaptivity->add(bodies,
-                    fields.solutions,
-                    dual,
-                    dual ?
-                      std::vector<Violation>() :
-                      violations(context, *discretisation, solved, fields));
+    std::vector<Violation> broken;
+    Residuals              missing;
+    if (!dual)
+      {
+        broken  = violations(context, *discretisation, solved, fields);
+        missing = residuals(*discretisation, solved, fields, broken);
+      }
+    adaptivity->add(bodies, fields.solutions, dual, broken, missing);
     if (dual && !dual->report.converged)
       {
         report = dual->report;

@@ -1,5 +1,6 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/adapt/residuals.h>
 #include <mortise/output/extremes.h>
 #include <mortise/output/functionals.h>
 #include <mortise/problem/boundary_forces.h>
@@ -77,7 +78,7 @@ namespace mortise
                              run.comm);
         const InterfaceHandler &interface = *interfaces.all()[i].interface;
         const auto             &cells     = interface.slave().cells;
-        Violation               of{given.name, 0., given.slave.body, {}, {}};
+        Violation               of{given.name, 0., given.slave.body, {}, {}, {}};
         of.of_cells.resize(
           discretisation.bodies()[of.body]->triangulation().n_active_cells(),
           0.);
@@ -96,9 +97,27 @@ namespace mortise
         };
         add_edge(given.slave.body, interface.slave(), broken.slave_at_edge);
         add_edge(given.master.body, interface.master(), broken.master_at_edge);
+        of.tractions.emplace_back(given.slave.body, broken.on_slave);
+        if (!given.is_support)
+          of.tractions.emplace_back(given.master.body, broken.on_master);
         result.push_back(std::move(of));
       }
     return result;
+  }
+
+  Residuals
+  residuals(const Discretisation         &discretisation,
+            const SolvedStep             &solved,
+            const StepFields             &fields,
+            const std::vector<Violation> &interfaces)
+  {
+    std::vector<BodyData> data;
+    for (const auto &body : discretisation.bodies())
+      data.push_back({solved.data.loads(*body), solved.data.dirichlet(*body), {}});
+    for (const Violation &of : interfaces)
+      for (const auto &[body, tractions] : of.tractions)
+        data[body].interfaces.push_back(&tractions);
+    return residuals(discretisation.bodies(), fields.solutions, data);
   }
 
   namespace

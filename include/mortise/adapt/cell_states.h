@@ -3,6 +3,7 @@
 // that contain the old ones keep to the last digit.
 #pragma once
 
+#include <mortise/adapt/error_by_residual.h>
 #include <mortise/operators/cells/cell_fields.h>
 
 #include <vector>
@@ -14,16 +15,13 @@ namespace mortise
     unsigned int degree = 0;
     /// Squares of the energy norm, or for the error of a quantity products of
     /// that of the solution and that of its dual problem: by how much its last
-    /// refinement changed the solution, first that of the solution itself; what
-    /// is estimated to be left of the error, and by which factor another such
+    /// refinement changed the solution, first that of the solution itself; the
+    /// error that is left, as it is estimated, and by which factor another such
     /// refinement makes it smaller.
     double change = 0., error = 0., ratio = 1.;
-    /// What of that error refining the cell itself makes smaller; the rest
-    /// comes from others.
-    double own_error = 0.;
-    /// By which the error may be larger, since nothing is known of how changes
-    /// fall.
-    double doubt = 0.;
+    /// The square of the error by that of the residual, as it was seen when the
+    /// cell was refined, and before.
+    double by_residual = square_by_residual_at_first;
     /// What is broken of the laws of interfaces of which it is the slave.
     double violation = 0.;
     /// Part of a face of it presses, part is open: the solution has an edge
@@ -50,7 +48,7 @@ namespace mortise
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &degree &change &error &ratio &own_error &doubt &violation
+      archive &degree &change &error &ratio &by_residual &violation
         &at_contact_edge &share &fall &least_ratio &n_rises &is_refined
           &is_split &is_new;
     }

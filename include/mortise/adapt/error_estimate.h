@@ -1,8 +1,8 @@
-// What is estimated to be left of the error on each cell, from how its solution
-// changed when it was refined.
+// What is estimated to be left of the error on each cell: by residuals, or of a
+// quantity from how its solution changed when it was refined.
 #pragma once
 
-#include <mortise/adapt/cell_states.h>
+#include <mortise/adapt/residuals.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,13 +21,20 @@ namespace mortise
             const CellStates    &states);
 
   /// Histories in @p states, which have the coefficients of the new solution, from these @p changes and own_parts();
-  /// empty: no cell has changed by others. What is left of what they have
-  /// changed falls as their errors do. Collective.
+  /// empty: no cell has changed by others.
   void
   estimate_errors(const Bodies        &bodies,
                   const NumbersByCell &changes,
                   const NumbersByCell &own_parts,
                   CellStates          &states);
+
+  /// Errors in @p states from @p residuals; the last refinement has shown what square_by_residual() is: @p seen. Other
+  /// cells keep what was seen of them.
+  void
+  set_errors(const Bodies    &bodies,
+             const Residuals &residuals,
+             double           seen,
+             CellStates      &states);
 
   /// Shares in @p states of the cells that were refined from the @p products (products_by_cell()) of
   /// the changes of a solution and of its dual problem's.
@@ -46,7 +53,6 @@ namespace mortise
     double              with_sign = 0.; ///< of cells that were cut
     double              by_lot = 0.; ///< of all, the root of the sum of squares
     double              largest = 0.; ///< largest_error(), as all
-    double              doubt   = 0.; ///< CellHistory::doubt, as all
     std::vector<double> by_body;      ///< as all
 
     /// Of a quantity, two standard deviations of what goes by lot.
@@ -57,11 +63,11 @@ namespace mortise
     }
   };
 
-  /// What refining the cell can make smaller of the square of the error.
+  /// What the cell has of the square of the error, ties and contact included.
   inline double
   largest_error(const CellHistory &history)
   {
-    return std::max(history.own_error + history.doubt, history.violation);
+    return history.error + history.violation;
   }
 
   /// Collective.

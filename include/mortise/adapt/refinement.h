@@ -25,7 +25,7 @@ namespace mortise
   inline double
   certain_error(const CellHistory &history)
   {
-    return std::min(history.change, history.own_error);
+    return std::min(history.change, history.error);
   }
 
   /// By body and active cell, of owned ones.

@@ -31,9 +31,39 @@ namespace mortise
     std::function<Stiffness(const dealii::Point<dim> &)> stiffness;
   };
 
+  /// What multipliers put on one face, at a point of both sides.
+  struct TractionAtPoint
+  {
+    dealii::Point<2>       xi; ///< as CellFace has it
+    dealii::Point<dim>     x;
+    dealii::Tensor<1, dim> normal;   ///< outward, of unit length
+    dealii::Tensor<1, dim> traction; ///< on this side, force per area
+    double                 weight = 0.; ///< an area
+    /// Components that have a multiplier; without it nothing moves there, and
+    /// any traction is right.
+    std::array<bool, dim> is_known{};
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &xi &x &normal &traction &weight &is_known;
+    }
+  };
+
+  /// By owned face of a surface that has partners.
+  struct TractionsOnFace
+  {
+    Body::CellIterator           cell;
+    unsigned int                 number = 0; ///< of the face
+    std::vector<TractionAtPoint> points;
+  };
+  using TractionsOnFaces = std::vector<TractionsOnFace>;
+
   struct Violations
   {
     std::vector<double> energies; ///< by slave face
+    TractionsOnFaces    on_slave, on_master;
     /// By owned face of the slave and of the master: part of it presses, part
     /// is open.
     std::vector<bool> slave_at_edge, master_at_edge;

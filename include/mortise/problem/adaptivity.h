@@ -2,6 +2,7 @@
 // how much it has changed, cell by cell, when they were refined.
 #pragma once
 
+#include <mortise/adapt/error_by_residual.h>
 #include <mortise/adapt/error_estimate.h>
 #include <mortise/adapt/remeshing.h>
 #include <mortise/output/checkpoint_scene.h>
@@ -34,6 +35,8 @@ namespace mortise
     /// Body and active cell: of both sides, where part of a face presses and
     /// part is open.
     std::vector<std::pair<unsigned int, unsigned int>> at_contact_edge;
+    /// By side: the body, and what acts on its faces.
+    std::vector<std::pair<unsigned int, TractionsOnFaces>> tractions;
   };
 
   class Adaptivity
@@ -75,12 +78,13 @@ namespace mortise
     }
 
     /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: with a
-    /// quantity(), @p violations: without. Collective.
+    /// quantity(), @p violations and @p residuals: without. Collective.
     void
     add(const Bodies                      &bodies,
         const std::vector<BodySolution>   &solutions,
         const std::optional<DualSolution> &dual,
-        const std::vector<Violation>      &violations);
+        const std::vector<Violation>      &violations,
+        const Residuals                   &residuals);
 
     /// Error of the quantity beside its value, or in the energy norm beside
     /// that of the solution; nothing in the first cycle and on a new mesh.
@@ -162,11 +166,12 @@ namespace mortise
     /// Relative, and in cells that have slave faces.
     void
     set_violations(const std::vector<Violation> &violations, double norm);
-    /// The error from what the last refinement changed, beside @p norm. Collective.
+    /// The error from @p residuals, or of a quantity from what the last refinement changed, beside @p norm. Collective.
     void
     estimate(const Bodies                      &bodies,
              const std::vector<BodySolution>   &solutions,
              const std::optional<DualSolution> &dual,
+             const Residuals                   &residuals,
              double                             norm);
     /// Of all interfaces. A solution is at least as far from the exact one as
     /// from those whose sides are not apart; under contact it is an estimate.
@@ -212,6 +217,7 @@ namespace mortise
     unsigned int              n_meshes = 0; ///< how often there were new ones
     std::vector<BodySolution> earlier, earlier_dual;
     ErrorSums                 sums;
+    double residual = 0.; ///< square, of the equations in the last cycle
     std::vector<Violation>    interfaces;      ///< relative
     double                    last_value = 0.; ///< of the quantity
     /// How much the last refinement changed the quantity beyond what cells have
@@ -225,7 +231,7 @@ namespace mortise
     /// What the errors of cells may be together for each unit of the target:
     /// the square of an energy norm, or of a quantity itself.
     double allowed = 0.;
-    /// What it may be where cells have risen but once, from degree one.
+    /// What it may be, since errors by residuals differ from cell to cell.
     std::optional<double> at_most;
     std::optional<double> signed_error; ///< AdaptivitySummary::correction
     std::string           stopped_by;

@@ -39,6 +39,13 @@ namespace mortise
              const SolvedStep     &solved,
              const StepFields     &fields);
 
+  /// Of the bodies, with what acts on them at @p interfaces. Collective.
+  Residuals
+  residuals(const Discretisation         &discretisation,
+            const SolvedStep             &solved,
+            const StepFields             &fields,
+            const std::vector<Violation> &interfaces);
+
   /// Add to @p summary the largest values in bodies, the balance of interfaces, errors against the exact solution, and the
   /// quantities that were asked for. Collective.
   void

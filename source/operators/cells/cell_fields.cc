@@ -1,3 +1,5 @@
+#include <deal.II/fe/fe_poly.h>
+
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/operators/cells/lobatto_table.h>
@@ -62,14 +64,26 @@ namespace mortise
         : n_points(points.size())
         , n_rows(n_points * (with_derivatives ? dim + 1 : 1))
       {
-        entries.reserve(element.n_dofs_per_cell() * n_rows);
-        for (unsigned int i = 0; i < element.n_dofs_per_cell(); ++i)
+        entries.resize(element.n_dofs_per_cell() * n_rows);
+        std::vector<double>         values(element.n_dofs_per_cell());
+        std::vector<Tensor<1, dim>> slopes(values.size());
+        std::vector<Tensor<2, dim>> no_2;
+        std::vector<Tensor<3, dim>> no_3;
+        std::vector<Tensor<4, dim>> no_4;
+        // all functions at once: one by one each takes as long
+        const auto &polynomials =
+          dynamic_cast<const FE_Poly<dim> &>(element).get_poly_space();
+        for (unsigned int q = 0; q < n_points; ++q)
           {
-            for (const Point<dim> &x : points.get_points())
-              entries.push_back(element.shape_value(i, x));
-            for (unsigned int d = 0; d < dim && with_derivatives; ++d)
-              for (const Point<dim> &x : points.get_points())
-                entries.push_back(element.shape_grad(i, x)[d]);
+            polynomials.evaluate(
+              points.point(q), values, slopes, no_2, no_3, no_4);
+            for (unsigned int i = 0; i < values.size(); ++i)
+              {
+                double *row = &entries[i * n_rows + q];
+                row[0]      = values[i];
+                for (unsigned int d = 0; d < dim && with_derivatives; ++d)
+                  row[(d + 1) * n_points] = slopes[i][d];
+              }
           }
       }
 

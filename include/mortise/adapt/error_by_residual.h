@@ -1,0 +1,22 @@
+// The error that belongs to a residual, from how much solutions changed while
+// residuals fell. Pure functions of numbers.
+#pragma once
+
+namespace mortise
+{
+  /// What is taken of the square of the error by that of the residual before
+  /// anything is seen, of squares of norms.
+  constexpr double square_by_residual_at_first = 0.5 * 0.5;
+
+  /// Of that, or of what earlier refinements have shown, after the next one.
+  constexpr double kept_of_earlier_cycles = 0.8 * 0.8;
+
+  /// By which the root may be too small, since it is not the same everywhere.
+  constexpr double doubt_of_residuals = 1.25;
+
+  /// The square of the error in the energy norm by that of the residual: a refinement made the latter @p now
+  /// out of @p before, and changed the solution by the square @p change, by which that of the error became
+  /// smaller, since what is left of it is orthogonal to the change.
+  double
+  square_by_residual(double change, double before, double now);
+} // namespace mortise

@@ -1,0 +1,35 @@
+// The points of a face of a cell in the unit cell of its neighbour. It looks at
+// vertices alone: no flags of orientation.
+#pragma once
+
+#include <mortise/body/body.h>
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace mortise
+{
+  struct FaceBeyond
+  {
+    unsigned int                number = 0; ///< of the face in the neighbour
+    std::array<unsigned int, 3> corners{};  ///< its vertices there
+    /// Which child of a cell with these corners the cell is; nothing: it has
+    /// them itself.
+    std::optional<unsigned int> child;
+  };
+
+  /// Of @p neighbour beyond face @p f of @p cell, which is as large or one halving smaller.
+  FaceBeyond
+  face_beyond(const Body::CellIterator &cell,
+              unsigned int              f,
+              const Body::CellIterator &neighbour);
+
+  /// The points of face_rule() with @p n points per direction on face @p f of the cells of
+  /// @p element, in the unit cell @p beyond.
+  std::vector<dealii::Point<dim>>
+  points_beyond(const dealii::FiniteElement<dim> &element,
+                unsigned int                      f,
+                unsigned int                      n,
+                const FaceBeyond                 &beyond);
+} // namespace mortise

@@ -1,0 +1,41 @@
+// What a solution leaves of its equations: forces inside of cells, tractions on
+// the faces between them, on boundaries and interfaces, and displacements that
+// are prescribed. It looks at no other solution. Source: Melenk and Wohlmuth,
+// On residual-based a posteriori error estimation in hp-FEM, Adv. Comput.
+// Math. 15 (2001), for the weights.
+#pragma once
+
+#include <mortise/adapt/cell_states.h>
+#include <mortise/mortar/violation.h>
+
+#include <vector>
+
+namespace mortise
+{
+  /// What holds and loads a body.
+  struct BodyData
+  {
+    Loads                           loads;
+    std::vector<DirichletCondition> held;
+    /// On its faces that have partners.
+    std::vector<const TractionsOnFaces *> interfaces;
+  };
+
+  struct Residuals
+  {
+    /// That go as the squares of errors in the energy norm: with the modulus E, the size h and the degree p of
+    /// a cell (h / (pi p))^2 f^2 / E of the force f that is missing per volume, and h / p t^2 / E of the traction t that is
+    /// missing on faces, of which each of two cells has half; E times the square of what is missing of the dilatation
+    /// in mixed form.
+    NumbersByCell equations;
+    /// The energy it takes to close what is missing of prescribed displacements: that of a half-space with the
+    /// wave number pi p / h, twice.
+    NumbersByCell conditions;
+  };
+
+  /// Collective.
+  Residuals
+  residuals(const Bodies                    &bodies,
+            const std::vector<BodySolution> &solutions,
+            const std::vector<BodyData>     &data);
+} // namespace mortise

@@ -1,0 +1,64 @@
+// Stresses on the cells of one element as polynomials through their values at
+// the points of a rule, to be differentiated, and taken to faces.
+#pragma once
+
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <mortise/operators/cells/cell_geometry.h>
+
+#include <array>
+#include <vector>
+
+namespace mortise
+{
+  using Stress = dealii::SymmetricTensor<2, dim>;
+
+  class StressPolynomials
+  {
+  public:
+    /// Both are kept by reference.
+    StressPolynomials(const Body                       &body,
+                      const dealii::FiniteElement<dim> &element);
+
+    /// At whose points stresses are given.
+    static dealii::Quadrature<dim>
+    nodes(const dealii::FiniteElement<dim> &element);
+
+    /// A finer one for integrals over cells.
+    static dealii::Quadrature<dim>
+    rule(const dealii::FiniteElement<dim> &element);
+
+    /// At points of rule() on @p cell, a force per volume; @p stresses at nodes().
+    std::vector<dealii::Tensor<1, dim>>
+    divergence(const Body::CellIterator  &cell,
+               const std::vector<Stress> &stresses);
+
+    /// Coefficients on face @p f of what has @p stresses at nodes().
+    std::vector<Stress>
+    on_face(unsigned int f, const std::vector<Stress> &stresses) const;
+
+    /// By which those of face @p f are to be multiplied at point @p x of the unit cell, which is on it.
+    std::vector<double>
+    factors_on_face(unsigned int f, const dealii::Point<dim> &x) const;
+
+    /// Points and Jacobians at rule().
+    CellGeometry geometry;
+
+  private:
+    void
+    prepare_hexahedra();
+    void
+    prepare_tetrahedra();
+    /// Along axis @p d of the unit cell, from nodes() to rule().
+    std::vector<double>
+    derivative(unsigned int d, const std::vector<double> &values) const;
+
+    const dealii::FiniteElement<dim>   &element;
+    const bool                          simplex;
+    std::vector<dealii::Point<1>>       line; ///< of hexahedra, nodes()
+    std::array<LineTable, dim>          to_rule;
+    std::vector<std::vector<double>>    ends; ///< values at 0 and 1
+    dealii::FullMatrix<double>          projection; ///< of tetrahedra
+    std::array<dealii::FullMatrix<double>, dim> derivatives;
+  };
+} // namespace mortise

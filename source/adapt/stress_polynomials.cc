@@ -1,0 +1,205 @@
+#include <deal.II/fe/fe_poly.h>
+
+#include <mortise/adapt/stress_polynomials.h>
+#include <mortise/base/lagrange.h>
+#include <mortise/body/elements/simplex_quadrature.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// At @p x, of the polynomials that are one at one of @p nodes and zero at the others.
+    std::vector<double>
+    lagrange_at(const std::vector<Point<1>> &nodes, const double x)
+    {
+      std::vector<double> result(nodes.size(), 1.);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        for (unsigned int j = 0; j < nodes.size(); ++j)
+          if (i != j)
+            result[i] *= (x - nodes[j][0]) / (nodes[i][0] - nodes[j][0]);
+      return result;
+    }
+
+    /// The functions of a tetrahedron at one point.
+    struct Functions
+    {
+      Functions(const FiniteElement<dim> &element, const Point<dim> &x)
+        : values(element.n_dofs_per_cell())
+        , slopes(values.size())
+      {
+        // all at once: one by one each takes as long
+        std::vector<Tensor<2, dim>> no_2;
+        std::vector<Tensor<3, dim>> no_3;
+        std::vector<Tensor<4, dim>> no_4;
+        dynamic_cast<const FE_Poly<dim> &>(element).get_poly_space().evaluate(
+          x, values, slopes, no_2, no_3, no_4);
+      }
+
+      std::vector<double>         values;
+      std::vector<Tensor<1, dim>> slopes;
+    };
+  } // namespace
+
+  StressPolynomials::StressPolynomials(const Body             &body,
+                                       const FiniteElement<dim> &element)
+    : geometry(body, element.reference_cell(), rule(element))
+    , element(element.base_element(0))
+    , simplex(body.mesh.tetrahedra)
+  {
+    if (simplex)
+      prepare_tetrahedra();
+    else
+      prepare_hexahedra();
+  }
+
+  Quadrature<dim>
+  StressPolynomials::nodes(const FiniteElement<dim> &element)
+  {
+    return gauss_quadrature<dim>(element, element.degree + 1);
+  }
+
+  Quadrature<dim>
+  StressPolynomials::rule(const FiniteElement<dim> &element)
+  {
+    return gauss_quadrature<dim>(element, element.degree + 2);
+  }
+
+  void
+  StressPolynomials::prepare_hexahedra()
+  {
+    const Quadrature<1> from = nodes(element).get_tensor_basis()[0],
+                        to   = rule(element).get_tensor_basis()[0];
+    line                     = from.get_points();
+    to_rule.fill({lagrange_values(from, to), lagrange_derivatives(from, to)});
+    for (const double side : {0., 1.})
+      ends.push_back(lagrange_at(line, side));
+  }
+
+  void
+  StressPolynomials::prepare_tetrahedra()
+  {
+    const Quadrature<dim> from = nodes(element), to = rule(element);
+    const unsigned int    n = element.n_dofs_per_cell(), m = from.size();
+    FullMatrix<double>    mass(n, n), moments(n, m), inverse(n, n);
+    for (unsigned int q = 0; q < m; ++q)
+      {
+        const auto values = Functions(element, from.point(q)).values;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            moments(i, q) = from.weight(q) * values[i];
+            for (unsigned int j = 0; j < n; ++j)
+              mass(i, j) += moments(i, q) * values[j];
+          }
+      }
+    inverse.invert(mass);
+    projection.reinit(n, m);
+    inverse.mmult(projection, moments);
+    std::array<FullMatrix<double>, dim> slopes;
+    slopes.fill(FullMatrix<double>(to.size(), n));
+    for (unsigned int q = 0; q < to.size(); ++q)
+      {
+        const Functions at(element, to.point(q));
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            slopes[d](q, i) = at.slopes[i][d];
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        derivatives[d].reinit(to.size(), m);
+        slopes[d].mmult(derivatives[d], projection);
+      }
+  }
+
+  std::vector<double>
+  StressPolynomials::derivative(const unsigned int         d,
+                                const std::vector<double> &values) const
+  {
+    if (!simplex)
+      {
+        const unsigned int n = line.size();
+        return apply_derivative(to_rule, d, {{{n, n, n}}, values}).values;
+      }
+    dealii::Vector<double> in(values.begin(), values.end()),
+      out(derivatives[d].m());
+    derivatives[d].vmult(out, in);
+    return {out.begin(), out.end()};
+  }
+
+  std::vector<Tensor<1, dim>>
+  StressPolynomials::divergence(const Body::CellIterator  &cell,
+                                const std::vector<Stress> &stresses)
+  {
+    const auto                 &jacobians = geometry.jacobians(cell);
+    std::vector<Tensor<1, dim>> result(jacobians.size());
+    std::vector<Tensor<2, dim>> inverse; // dxi_a / dx_j as [j][a]
+    for (const auto &jacobian : jacobians)
+      inverse.push_back(invert(jacobian));
+    std::vector<double> values(stresses.size());
+    for (unsigned int c = 0; c < Stress::n_independent_components; ++c)
+      {
+        for (unsigned int k = 0; k < values.size(); ++k)
+          values[k] = stresses[k].access_raw_entry(c);
+        const auto at = Stress::unrolled_to_component_indices(c);
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const auto slope = derivative(a, values);
+            for (unsigned int q = 0; q < slope.size(); ++q)
+              {
+                result[q][at[0]] += slope[q] * inverse[q][at[1]][a];
+                if (at[0] != at[1])
+                  result[q][at[1]] += slope[q] * inverse[q][at[0]][a];
+              }
+          }
+      }
+    return result;
+  }
+
+  std::vector<Stress>
+  StressPolynomials::on_face(const unsigned int         f,
+                             const std::vector<Stress> &stresses) const
+  {
+    if (simplex)
+      {
+        std::vector<Stress> result(projection.m());
+        for (unsigned int i = 0; i < projection.m(); ++i)
+          for (unsigned int q = 0; q < projection.n(); ++q)
+            result[i] += projection(i, q) * stresses[q];
+        return result;
+      }
+    const unsigned int  n = line.size(), d = f / 2;
+    const unsigned int  step = d == 0 ? 1 : d == 1 ? n : n * n;
+    const auto         &end  = ends[f % 2];
+    std::vector<Stress> result;
+    result.reserve(n * n);
+    for (unsigned int j = 0; j < n; ++j)
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const unsigned int first = d == 0 ? (i + j * n) * n :
+                                     d == 1 ? i + j * n * n :
+                                              i + j * n;
+          Stress             sum;
+          for (unsigned int k = 0; k < n; ++k)
+            sum += end[k] * stresses[first + k * step];
+          result.push_back(sum);
+        }
+    return result;
+  }
+
+  std::vector<double>
+  StressPolynomials::factors_on_face(const unsigned int f,
+                                     const Point<dim>  &x) const
+  {
+    if (simplex)
+      return Functions(element, x).values;
+    std::vector<double> result;
+    const unsigned int  d     = f / 2;
+    const auto         first = lagrange_at(line, x[d == 0 ? 1 : 0]),
+               second        = lagrange_at(line, x[d == 2 ? 1 : 2]);
+    for (const double b : second)
+      for (const double a : first)
+        result.push_back(a * b);
+    return result;
+  }
+} // namespace mortise
