@@ -91,8 +91,7 @@ namespace mortise
       for (const double number : {history.change,
                                   history.error,
                                   history.ratio,
-                                  history.own_error,
-                                  history.doubt,
+                                  history.by_residual,
                                   history.violation,
                                   history.share,
                                   history.fall,
@@ -204,7 +203,7 @@ namespace mortise
                std::to_string(kept.sizes.size()) + " bodies, the scene has " +
                std::to_string(bodies.size()));
       for (const char *name :
-           {"all", "value", "change of rest", "error of rest", "allowed"})
+           {"value", "change of rest", "error of rest", "allowed", "residual"})
         if (kept.numbers.count(name) == 0)
           refuse("no number for '" + std::string(name) + "'");
       if (kept.numbers.count("estimate") != kept.numbers.count("at most"))

@@ -5,6 +5,7 @@
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/problem/discretisation.h>
 #include <mortise/problem/scene_data.h>
+#include <mortise/problem/solved_step.h>
 #include <mortise/solvers/solve.h>
 
 #include <cmath>
