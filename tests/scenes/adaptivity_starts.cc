@@ -184,6 +184,7 @@ namespace
               "Body b/Degree near=1, 0, 0, 0.6, 4"});
     estimate("linear stress, cells of gmsh",
              "set Bodies = b\nsubsection Body b\nset Degree = 2\nsubsection "
+             "Material\nset Young modulus = 900\nend\nsubsection "
              "Boundary sides\nset Traction = exact\nend\nsubsection Boundary "
              "inner sides\nset Traction = exact\nend\nsubsection Boundary "
              "zmin\nset Displacement = exact\nend\nsubsection Boundary "
