@@ -356,6 +356,10 @@ def main():
             if given.json:
                 with open(given.json, "w") as file:
                     json.dump(results, file)
+            if len(results) % 50 == 0:
+                met = [r for r in results if "runs" in r and r["runs"][0]["code"] == 0]
+                print(f"{len(results)} of {len(numbers)} starts, {len(met)} met their targets, "
+                      f"{sum(bool(false(r['runs'][0], r['target'])) for r in met)} of them falsely", file=sys.stderr, flush=True)
     report(results, binaries)
     if given.write:
         with open(given.write, "w") as file:
