@@ -175,13 +175,17 @@ namespace mortise
         cache->initialize(MappingQ<dim>(mapping_degree), triangulation());
         if (mesh.curved && triangulation().has_hanging_nodes())
           {
+            // of an edge: beside the straight chord of a much larger cell a
+            // smaller one would be squeezed
+            constexpr double        largest = 0.5;
             const HexahedralMapping manifold(*cache);
-            const NodesOfCells      conforming =
-              conforming_nodes(manifold, mapping_degree, triangulation());
+            const ConformingNodes   conforming(manifold,
+                                             mapping_degree,
+                                             triangulation());
+            if (mapping_degree == 1 && conforming.largest_shift() > largest)
+              return create_mapping(2);
             cache->initialize(triangulation(), [&](const auto &cell) {
-              const auto found = conforming.find({cell->level(), cell->index()});
-              return found == conforming.end() ? manifold.nodes(cell) :
-                                                 found->second;
+              return conforming.nodes(cell);
             });
           }
       }

@@ -12,7 +12,7 @@ namespace mortise
   constexpr double kept_of_earlier_cycles = 0.8 * 0.8;
 
   /// By which the root may be too small, since it is not the same everywhere.
-  constexpr double doubt_of_residuals = 1.25;
+  constexpr double doubt_of_residuals = 1.5;
 
   /// The square of the error in the energy norm by that of the residual: a refinement made the latter @p now
   /// out of @p before, and changed the solution by the square @p change, by which that of the error became

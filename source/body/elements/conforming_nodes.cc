@@ -7,6 +7,7 @@
 
 #include <mortise/body/elements/conforming_nodes.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -17,6 +18,15 @@ namespace mortise
   namespace
   {
     using Cell = Triangulation<3>::cell_iterator;
+
+    /// By level and index.
+    using NodesOfCells = std::map<std::pair<int, int>, std::vector<Point<3>>>;
+
+    std::pair<int, int>
+    key(const Cell &cell)
+    {
+      return {cell->level(), cell->index()};
+    }
 
     /// Of the unit cell, as the bits of the number of a vertex are.
     Point<3>
@@ -115,12 +125,6 @@ namespace mortise
     private:
       /// By i + n (j + n k).
       using Corrections = std::vector<std::optional<Tensor<1, 3>>>;
-
-      static std::pair<int, int>
-      key(const Cell &cell)
-      {
-        return {cell->level(), cell->index()};
-      }
 
       std::vector<Point<3>>
       nodes(const Cell &cell) const
@@ -332,11 +336,33 @@ namespace mortise
     };
   } // namespace
 
-  NodesOfCells
-  conforming_nodes(const HexahedralMapping &mapping,
-                   const unsigned int       degree,
-                   const Triangulation<3>  &triangulation)
+  ConformingNodes::ConformingNodes(const HexahedralMapping &mapping,
+                                   const unsigned int       degree,
+                                   const Triangulation<3>  &triangulation)
+    : mapping(mapping)
+    , triangulation(triangulation)
+    , changed(Conformity(mapping, degree, triangulation).run())
+  {}
+
+  std::vector<Point<3>>
+  ConformingNodes::nodes(const Triangulation<3>::cell_iterator &cell) const
   {
-    return Conformity(mapping, degree, triangulation).run();
+    const auto found = changed.find(key(cell));
+    return found == changed.end() ? mapping.nodes(cell) : found->second;
+  }
+
+  double
+  ConformingNodes::largest_shift() const
+  {
+    double result = 0.;
+    for (const auto &[number, moved] : changed)
+      {
+        const Cell cell(&triangulation, number.first, number.second);
+        const auto given = mapping.nodes(cell);
+        for (unsigned int i = 0; i < given.size(); ++i)
+          result = std::max(result,
+                            (moved[i] - given[i]).norm() / cell->minimum_vertex_distance());
+      }
+    return Utilities::MPI::max(result, triangulation.get_communicator());
   }
 } // namespace mortise
