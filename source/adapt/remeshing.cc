@@ -2,6 +2,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <mortise/base/of_all_ranks.h>
 #include <mortise/adapt/remeshing.h>
 #include <mortise/body/elements/simplex_quadrature.h>
 
@@ -215,9 +216,7 @@ namespace mortise
           number[1] += cell->measure() * cells_per_volume(after);
         }
     const MPI_Comm   comm = triangulation.get_communicator();
-    std::vector<Row> all;
-    for (const auto &of_rank : Utilities::MPI::all_gather(comm, own))
-      all.insert(all.end(), of_rank.begin(), of_rank.end());
+    std::vector<Row> all  = of_all_ranks(own, comm);
     std::sort(all.begin(), all.end()); // the same whatever the ranks
     Remeshing result = remeshing_of(all);
     Utilities::MPI::sum(number, comm, number);

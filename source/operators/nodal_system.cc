@@ -257,18 +257,23 @@ namespace mortise
     return in;
   }
 
+  void
+  NodalSystem::apply_free(const LevelVector<double> &u) const
+  {
+    in = u;
+    if (pressures)
+      apply_mixed_free();
+    else
+      stiffness->vmult_free(out, in);
+  }
+
   LevelVector<double>
   NodalSystem::internal_forces(const LevelVector<double> &u,
                                const Vector              &p) const
   {
-    in = u;
     if (pressures)
-      {
-        copy(p_in, p);
-        apply_mixed_free();
-      }
-    else
-      stiffness->vmult_free(out, in);
+      copy(p_in, p);
+    apply_free(u);
     return out;
   }
 
@@ -276,15 +281,11 @@ namespace mortise
   NodalSystem::apply_to_constrained(const LevelVector<double> &u,
                                     SystemVector              &rhs) const
   {
-    in = u;
     if (pressures)
-      {
-        p_in = 0.;
-        apply_mixed_free();
-        copy(rhs.pressure, p_out);
-      }
-    else
-      stiffness->vmult_free(out, in);
+      p_in = 0.;
+    apply_free(u);
+    if (pressures)
+      copy(rhs.pressure, p_out);
     stiffness->clear_constrained(out);
     copy(rhs.displacement, out);
   }

@@ -1,7 +1,9 @@
 #include <deal.II/base/mpi.h>
 
+#include <mortise/base/of_all_ranks.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/output/extremes.h>
+#include <mortise/output/fields.h>
 #include <mortise/output/lagrange_cells.h>
 
 #include <algorithm>
@@ -18,12 +20,6 @@ namespace mortise
     /// Values that differ by less are one peak: its place must not depend on
     /// rounding.
     constexpr double same_peak = 1e-6;
-
-    double
-    von_mises(const SymmetricTensor<2, dim> &stress)
-    {
-      return std::sqrt(1.5) * deviator(stress).norm();
-    }
 
     /// Nodes of a cell with @p element.
     Quadrature<dim>
@@ -112,16 +108,6 @@ namespace mortise
         archive &stress;
       }
     };
-
-    template <typename T>
-    std::vector<T>
-    of_all_ranks(const std::vector<T> &own, const MPI_Comm comm)
-    {
-      std::vector<T> all;
-      for (const auto &of_rank : Utilities::MPI::all_gather(comm, own))
-        all.insert(all.end(), of_rank.begin(), of_rank.end());
-      return all;
-    }
 
     /// What is evaluated on the cells of a body.
     class LargestValues

@@ -9,6 +9,12 @@ namespace mortise
 {
   using namespace dealii;
 
+  double
+  von_mises(const SymmetricTensor<2, dim> &stress)
+  {
+    return std::sqrt(1.5) * deviator(stress).norm();
+  }
+
   namespace
   {
     /// The displacement on a cell as @p degree asks for it, at the nodes of a cell of a file.
@@ -90,7 +96,7 @@ namespace mortise
             for (unsigned int j = 0; j < dim; ++j)
               put(stress[i][j]);
           ++field;
-          put(std::sqrt(1.5) * deviator(stress).norm());
+          put(von_mises(stress));
           ++field;
         }
       if (selection.pressure)

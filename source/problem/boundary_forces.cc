@@ -117,12 +117,10 @@ namespace mortise
     bool               any_on_held = false;
     for (const auto &body : discretisation.bodies())
       {
-        auto &tractions = on_held[body->index].tractions;
-        tractions = tractions_on(solved.data.loads(*body).tractions,
-                                 held,
-                                 body->index,
-                                 true);
-        any_on_held = any_on_held || !tractions.empty();
+        tractions.push_back(solved.data.loads(*body).tractions);
+        auto &there = on_held[body->index].tractions;
+        there = tractions_on(tractions.back(), held, body->index, true);
+        any_on_held = any_on_held || !there.empty();
       }
     if (any_on_held)
       borne += nodal.external_forces(on_held);
@@ -135,13 +133,64 @@ namespace mortise
     if (held.any_shared())
       for (const auto &body : discretisation.bodies())
         for (const auto &[boundary, which] : held.all()[body->index])
+          borne -= stresses_at_nodes(body->index, boundary, which);
+  }
+
+  LevelVector<double>
+  BoundaryForces::stresses_at_nodes(
+    const unsigned int                b,
+    const types::boundary_id          boundary,
+    const HeldBoundaries::Components &which) const
+  {
+    const Body         &body = *discretisation.bodies()[b];
+    LevelVector<double> result =
+      discretisation.linear_system().nodal->by_node(
+        body, stress_functionals(body, solutions[b], boundary));
+    result.scale(nodes_with(discretisation, b, boundary, which));
+    return result;
+  }
+
+  void
+  BoundaryForces::add_borne(const unsigned int       b,
+                            const types::boundary_id boundary,
+                            LevelVector<double>     &forces) const
+  {
+    const auto which = held.components(b, boundary);
+    if (which == HeldBoundaries::Components())
+      return;
+    const LevelVector<double> own =
+      nodes_with(discretisation, b, boundary, which);
+    for (unsigned int i = 0; i < own.locally_owned_size(); ++i)
+      if (own.local_element(i) > 0.)
+        forces.local_element(i) +=
+          borne.local_element(i) / held.numbers().local_element(i);
+    if (held.any_shared())
+      forces += stresses_at_nodes(b, boundary, which);
+  }
+
+  void
+  BoundaryForces::add_interfaces(const unsigned int       b,
+                                 const types::boundary_id boundary,
+                                 LevelVector<double>     &forces) const
+  {
+    const auto &interfaces = discretisation.interfaces().sides();
+    for (unsigned int i = 0; i < interfaces.size(); ++i)
+      for (const SideParameters &side : sides_of(interfaces[i]))
+        if (has(side, *discretisation.bodies()[b], boundary))
           {
-            LevelVector<double> stresses = nodal.by_node(
-              *body,
-              stress_functionals(*body, solutions[body->index], boundary));
-            stresses.scale(
-              nodes_with(discretisation, body->index, boundary, which));
-            borne -= stresses;
+            const LevelVector<double> own =
+              held.forces_of(i, solved.solution.multiplier);
+            const LevelVector<double> at_nodes =
+              nodes_with(discretisation,
+                         b,
+                         boundary,
+                         all_but(held.components(b, boundary)));
+            const LevelVector<double> n_boundaries =
+              boundaries_at_nodes(discretisation, side);
+            for (unsigned int k = 0; k < own.locally_owned_size(); ++k)
+              if (at_nodes.local_element(k) > 0.)
+                forces.local_element(k) -=
+                  own.local_element(k) / n_boundaries.local_element(k);
           }
   }
 
@@ -150,55 +199,18 @@ namespace mortise
                      const types::boundary_id boundary,
                      const Point<dim>        &point) const
   {
-    const Body        &body  = *discretisation.bodies()[b];
-    const NodalSystem &nodal = *discretisation.linear_system().nodal;
-    const auto         which = held.components(b, boundary);
-
-    std::vector<Loads>             loads(discretisation.bodies().size());
-    std::vector<TractionCondition> tractions;
-    for (const TractionCondition &condition : solved.data.loads(body).tractions)
+    const Body        &body = *discretisation.bodies()[b];
+    std::vector<Loads> loads(discretisation.bodies().size());
+    for (const TractionCondition &condition :
+         tractions_on(tractions[b], held, b, false))
       if (condition.boundary == boundary)
-        tractions.push_back(condition);
-    loads[b].tractions         = tractions_on(tractions, held, b, false);
-    LevelVector<double> forces = nodal.external_forces(loads);
+        loads[b].tractions.push_back(condition);
+    LevelVector<double> forces =
+      discretisation.linear_system().nodal->external_forces(loads);
+    add_borne(b, boundary, forces);
+    add_interfaces(b, boundary, forces);
 
-    if (which != HeldBoundaries::Components())
-      {
-        LevelVector<double> own =
-          nodes_with(discretisation, b, boundary, which);
-        LevelVector<double> stresses;
-        if (held.any_shared())
-          stresses = nodal.by_node(
-            body, stress_functionals(body, solutions[b], boundary));
-        for (unsigned int i = 0; i < own.locally_owned_size(); ++i)
-          if (own.local_element(i) > 0.)
-            forces.local_element(i) +=
-              borne.local_element(i) / held.numbers().local_element(i) +
-              (held.any_shared() ? stresses.local_element(i) : 0.);
-      }
-
-    const SceneCouplings &interfaces = discretisation.interfaces();
-    for (unsigned int i = 0; i < interfaces.all().size(); ++i)
-      for (const SideParameters &side : sides_of(interfaces.sides()[i]))
-        if (has(side, body, boundary))
-          {
-            const LevelVector<double> own = held.forces_of(
-                                        i, solved.solution.multiplier),
-                                      at_nodes =
-                                        nodes_with(discretisation,
-                                                   b,
-                                                   boundary,
-                                                   all_but(which)),
-                                      n_boundaries =
-                                        boundaries_at_nodes(discretisation,
-                                                            side);
-            for (unsigned int k = 0; k < own.locally_owned_size(); ++k)
-              if (at_nodes.local_element(k) > 0.)
-                forces.local_element(k) -=
-                  own.local_element(k) / n_boundaries.local_element(k);
-          }
-
-    LevelVector<double> wanted =
+    const LevelVector<double> wanted =
       boundary_nodes(nodes_of(discretisation), body, boundary);
     const LevelVector<double> places =
       node_places(nodes_of(discretisation), body, wanted);
@@ -315,7 +327,7 @@ namespace mortise
     }
   } // namespace
 
-  ReactionFunctional
+  LinearFunctional
   reaction_functional(const Discretisation    &discretisation,
                       const unsigned int       b,
                       const types::boundary_id boundary,
@@ -323,7 +335,7 @@ namespace mortise
   {
     const BlockSystem   &system = discretisation.linear_system();
     const HeldBoundaries held(discretisation);
-    ReactionFunctional   result{system.zero_vector(),
+    LinearFunctional   result{system.zero_vector(),
                               system.zero_vector().displacement};
     HeldBoundaries::Components which{};
     which[c] = true;

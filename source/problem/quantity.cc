@@ -90,14 +90,13 @@ namespace mortise
   }
 
   Tensor<1, dim>
-  Quantity::all_components(const Discretisation            &discretisation,
-                           const SolvedStep                &solved,
-                           const std::vector<BodySolution> &solutions) const
+  Quantity::all_components(const Bodies                    &bodies,
+                           const std::vector<BodySolution> &solutions,
+                           const BoundaryForces            &forces) const
   {
-    const Bodies &bodies = discretisation.bodies();
-    const Body   &body   = *bodies[this->body()];
+    const Body &body = *bodies[this->body()];
     if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
-      return BoundaryForces(discretisation, solved, solutions)
+      return forces
         .on(body.index, body.boundary_id(force->boundary, ""), {})
         .force;
     const auto value = point_value(body,
@@ -120,26 +119,7 @@ namespace mortise
                               body.index)[component];
   }
 
-  CellFunctionals
-  Quantity::point_derivative(const Bodies        &bodies,
-                             const PointQuantity &point) const
-  {
-    const Body     &body = *bodies[point.body];
-    CellFunctionals result = point_functional(body, point.point, component);
-    if (Utilities::MPI::max(result.empty() ? 0 : 1,
-                            body.triangulation().get_communicator()) == 0)
-      fail_outside(bodies);
-    return result;
-  }
-
-  void
-  Quantity::check_place(const Bodies &bodies) const
-  {
-    if (const auto *point = std::get_if<PointQuantity>(&quantity))
-      point_derivative(bodies, *point);
-  }
-
-  ReactionFunctional
+  LinearFunctional
   Quantity::derivative(const Discretisation &discretisation) const
   {
     const Bodies &bodies = discretisation.bodies();
@@ -149,10 +129,14 @@ namespace mortise
                                  body.index,
                                  body.boundary_id(force->boundary, ""),
                                  component);
-    return {discretisation
-              .load(body,
-                    point_derivative(bodies, std::get<PointQuantity>(quantity)))
-              .rhs,
+    const CellFunctionals on_cells =
+      point_functional(body,
+                       std::get<PointQuantity>(quantity).point,
+                       component);
+    if (Utilities::MPI::max(on_cells.empty() ? 0 : 1,
+                            body.triangulation().get_communicator()) == 0)
+      fail_outside(bodies);
+    return {discretisation.load(body, on_cells).rhs,
             discretisation.linear_system().zero_vector().displacement};
   }
 
@@ -161,13 +145,13 @@ namespace mortise
              const Discretisation            &discretisation,
              LinearSolver                    &solver,
              const Quantity                  &quantity,
-             const SolvedStep                &solved,
              const std::vector<BodySolution> &solutions,
+             const BoundaryForces            &forces,
              const std::vector<BodySolution> &start)
   {
     DualSolution         result;
     const Tensor<1, dim> all =
-      quantity.all_components(discretisation, solved, solutions);
+      quantity.all_components(discretisation.bodies(), solutions, forces);
     result.value            = all[quantity.component_number()];
     result.size             = all.norm();
     const auto   functional = quantity.derivative(discretisation);

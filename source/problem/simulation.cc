@@ -189,7 +189,9 @@ namespace mortise
   }
 
   StepSummary
-  Simulation::summarise(const SolvedStep &solved, const StepFields &fields)
+  Simulation::summarise(const SolvedStep     &solved,
+                        const BoundaryForces &forces,
+                        const StepFields     &fields)
   {
     StepSummary result = discretisation->summary();
     if (context.parameters.steps.given())
@@ -211,6 +213,7 @@ namespace mortise
         result.solver->linear_iterations = contact->linear_iterations();
       }
     evaluate_step(context, *discretisation, solved, fields, result);
+    add_forces(context, bodies, forces, result);
     for (unsigned int j = 0; j < preloads->interfaces().size(); ++j)
       result.interfaces[preloads->interfaces()[j]].preload = {
         preloads->force(j, solved.solution), preloads->shortenings()[j]};
@@ -255,9 +258,10 @@ namespace mortise
                                         std::vector<bool>(),
                               preloads->shortenings_by_interface()};
       fields = step_fields(context, *discretisation, solved);
+      const BoundaryForces forces(*discretisation, solved, fields.solutions);
       if (adaptivity)
-        learn(solved, fields);
-      summary.steps.push_back(summarise(solved, fields));
+        learn(solved, forces, fields);
+      summary.steps.push_back(summarise(solved, forces, fields));
     }
     state = std::move(next);
     if (is_last_cycle())

@@ -5,7 +5,9 @@
 namespace mortise
 {
   void
-  Simulation::learn(const SolvedStep &solved, StepFields &fields)
+  Simulation::learn(const SolvedStep     &solved,
+                    const BoundaryForces &forces,
+                    StepFields           &fields)
   {
     std::optional<DualSolution> dual;
     if (const auto &quantity = adaptivity->quantity())
@@ -13,8 +15,8 @@ namespace mortise
                         *discretisation,
                         *solver,
                         *quantity,
-                        solved,
                         fields.solutions,
+                        forces,
                         adaptivity->dual_start(bodies));
     std::vector<Violation> broken;
     Residuals              missing;
@@ -57,8 +59,6 @@ namespace mortise
       {
         context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
         discretise();
-        if (const auto &quantity = adaptivity->quantity())
-          quantity->check_place(bodies); // tells of a point that is nowhere
         step(writes);
         if (adaptivity->estimate())
           context.log.line("  " + adaptivity->found());

@@ -3,7 +3,6 @@
 #include <mortise/adapt/residuals.h>
 #include <mortise/output/extremes.h>
 #include <mortise/output/functionals.h>
-#include <mortise/problem/boundary_forces.h>
 #include <mortise/problem/contact_results.h>
 #include <mortise/problem/interface_law.h>
 #include <mortise/problem/step_results.h>
@@ -160,7 +159,7 @@ namespace mortise
     const Bodies &bodies     = discretisation.bodies();
     const auto   &interfaces = discretisation.interfaces().all();
     const auto   &point      = run.parameters.output.moments_about;
-    const Point<dim> about(point[0], point[1], point[2]);
+    const Tensor<1, dim> about({point[0], point[1], point[2]});
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const Extremes largest = extremes(*bodies[b], fields.solutions[b]);
@@ -174,7 +173,7 @@ namespace mortise
         InterfaceSummary &of  = summary.interfaces[i];
         of.force              = components(carried.force);
         of.moment             = components(
-          carried.moment - cross_product_3d(Tensor<1, dim>(about), carried.force));
+          carried.moment - cross_product_3d(about, carried.force));
         of.force_residual  = carried.force_residual;
         of.moment_residual = carried.moment_residual;
       }
@@ -192,14 +191,22 @@ namespace mortise
                                         value ? components(*value) :
                                                 std::vector<double>{});
       }
-    const BoundaryForces forces(discretisation, solved, fields.solutions);
+  }
+
+  void
+  add_forces(const RunContext     &run,
+             const Bodies         &bodies,
+             const BoundaryForces &forces,
+             StepSummary          &summary)
+  {
+    const auto &about   = run.parameters.output.moments_about;
     summary.equilibrium = forces.equilibrium();
     for (const ResultantQuantity &quantity : run.parameters.output.resultants)
       {
         const ForceAndMoment on_boundary = forces.on(
           quantity.body,
           bodies[quantity.body]->boundary_id(quantity.boundary, ""),
-          about);
+          Point<dim>(about[0], about[1], about[2]));
         summary.quantities.emplace_back(quantity.name,
                                         components(on_boundary.force));
         summary.quantities.emplace_back(quantity.name + ", moment",

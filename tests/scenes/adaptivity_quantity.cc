@@ -108,8 +108,12 @@ namespace
     SystemVector x, z;
     solver->solve(scene.load.rhs, x);
     const auto   u     = discretisation.solutions(scene.load, x);
-    const double value = quantity.all_components(
-      discretisation, scene.solved(x), u)[quantity.component_number()];
+    const SolvedStep     solved = scene.solved(x);
+    const BoundaryForces forces(discretisation, solved, u);
+    const double         value =
+      quantity.all_components(discretisation.bodies(),
+                              u,
+                              forces)[quantity.component_number()];
     const auto derivative = quantity.derivative(discretisation);
     solver->solve(derivative.rhs, z);
     const auto product = [](const SystemVector &a, const SystemVector &b) {

@@ -208,6 +208,10 @@ namespace mortise
     void
     apply_mixed_free() const;
 
+    /// The same of @p u and p_in; out = K u without bodies in mixed form.
+    void
+    apply_free(const LevelVector<double> &u) const;
+
     const bool                             preconditioned;
     std::vector<NodalLevel>                all_levels;
     std::unique_ptr<LevelOperator<double>> stiffness;

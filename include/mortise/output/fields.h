@@ -9,6 +9,10 @@
 
 namespace mortise
 {
+  /// The root of 3/2 s : s, s the deviator of @p stress.
+  double
+  von_mises(const dealii::SymmetricTensor<2, dim> &stress);
+
   struct FieldSelection
   {
     bool displacement = false; ///< length

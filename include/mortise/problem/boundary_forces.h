@@ -25,7 +25,7 @@ namespace mortise
   class BoundaryForces
   {
   public:
-    /// All but @p solutions are kept by reference. Collective.
+    /// All are kept by reference. Collective.
     BoundaryForces(const Discretisation            &discretisation,
                    const SolvedStep                &solved,
                    const std::vector<BodySolution> &solutions);
@@ -42,10 +42,28 @@ namespace mortise
     equilibrium() const;
 
   private:
+    /// int (sigma n) . v over @p boundary by node, for the components @p which of the
+    /// nodes there.
+    LevelVector<double>
+    stresses_at_nodes(unsigned int                      b,
+                      dealii::types::boundary_id        boundary,
+                      const HeldBoundaries::Components &which) const;
+    /// What passes through @p boundary where it prescribes components.
+    void
+    add_borne(unsigned int               b,
+              dealii::types::boundary_id boundary,
+              LevelVector<double>       &forces) const;
+    /// What interfaces put on it where it does not.
+    void
+    add_interfaces(unsigned int               b,
+                   dealii::types::boundary_id boundary,
+                   LevelVector<double>       &forces) const;
+
     const Discretisation            &discretisation;
     const SolvedStep                &solved;
     const std::vector<BodySolution> &solutions;
     const HeldBoundaries             held;
+    std::vector<std::vector<TractionCondition>> tractions; ///< by body
     /// What passes through boundaries that prescribe it, less what stresses say
     /// where they share a node.
     LevelVector<double> borne;
@@ -54,7 +72,7 @@ namespace mortise
   };
 
   /// A linear functional of what is solved for, and of what is prescribed.
-  struct ReactionFunctional
+  struct LinearFunctional
   {
     SystemVector rhs;
     /// Values at nodes where components are constrained: the functional is the
@@ -64,7 +82,7 @@ namespace mortise
 
   /// Component @p c of what BoundaryForces::on() has for a force, less what does not depend on the
   /// solution. Collective.
-  ReactionFunctional
+  LinearFunctional
   reaction_functional(const Discretisation      &discretisation,
                       unsigned int               body,
                       dealii::types::boundary_id boundary,

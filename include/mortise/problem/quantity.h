@@ -36,9 +36,9 @@ namespace mortise
     /// All components of the displacement or force of which it is one. Throws InputError where a
     /// point lies outside its body. Collective.
     dealii::Tensor<1, dim>
-    all_components(const Discretisation            &discretisation,
-                   const SolvedStep                &solved,
-                   const std::vector<BodySolution> &solutions) const;
+    all_components(const Bodies                    &bodies,
+                   const std::vector<BodySolution> &solutions,
+                   const BoundaryForces            &forces) const;
 
     /// Which of them it is.
     unsigned int
@@ -50,20 +50,14 @@ namespace mortise
     double
     value(const Bodies &bodies, const ExactSolution &exact) const;
 
-    /// Throws InputError where a point lies outside its body. Collective.
-    void
-    check_place(const Bodies &bodies) const;
-
     /// The derivative by what is solved for. Throws InputError where a
     /// point lies outside. Collective.
-    ReactionFunctional
+    LinearFunctional
     derivative(const Discretisation &discretisation) const;
 
   private:
     Quantity(const Parameters &parameters, const std::string &name);
 
-    CellFunctionals
-    point_derivative(const Bodies &bodies, const PointQuantity &point) const;
     [[noreturn]] void
     fail_outside(const Bodies &bodies) const;
 
@@ -80,19 +74,19 @@ namespace mortise
     double                    value = 0.;
     double size = 0.; ///< of all components of the quantity
     /// By body; less the function that the quantity is the energy product with, see
-    /// ReactionFunctional.
+    /// LinearFunctional.
     std::vector<BodySolution> solutions;
     SolveReport               report;
   };
 
-  /// Solve the system of @p discretisation, whose last solution is @p solved, @p solutions by body, for the derivative of
+  /// Solve the system of @p discretisation, whose last solution is @p solutions with @p forces, for the derivative of
   /// @p quantity; @p start may be empty. Collective.
   DualSolution
   solve_dual(const RunContext                &run,
              const Discretisation            &discretisation,
              LinearSolver                    &solver,
              const Quantity                  &quantity,
-             const SolvedStep                &solved,
              const std::vector<BodySolution> &solutions,
+             const BoundaryForces            &forces,
              const std::vector<BodySolution> &start);
 } // namespace mortise

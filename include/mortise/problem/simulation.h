@@ -92,9 +92,13 @@ namespace mortise
     solve(const SceneData &data, SceneLoad &load);
     /// Tell how the cycle changed the solution, and that of a quantity.
     void
-    learn(const SolvedStep &solved, StepFields &fields);
+    learn(const SolvedStep     &solved,
+          const BoundaryForces &forces,
+          StepFields           &fields);
     StepSummary
-    summarise(const SolvedStep &solved, const StepFields &fields);
+    summarise(const SolvedStep     &solved,
+              const BoundaryForces &forces,
+              const StepFields     &fields);
     void
     print_progress();
     void

@@ -47,11 +47,18 @@ namespace mortise
             const std::vector<Violation> &interfaces);
 
   /// Add to @p summary the largest values in bodies, the balance of interfaces, errors against the exact solution, and the
-  /// quantities that were asked for. Collective.
+  /// Points that were asked for. Collective.
   void
   evaluate_step(const RunContext     &run,
                 const Discretisation &discretisation,
                 const SolvedStep     &solved,
                 const StepFields     &fields,
                 StepSummary          &summary);
+
+  /// Add the equilibrium, and the Resultants that were asked for. Collective.
+  void
+  add_forces(const RunContext     &run,
+             const Bodies         &bodies,
+             const BoundaryForces &forces,
+             StepSummary          &summary);
 } // namespace mortise
