@@ -24,6 +24,15 @@ namespace mortise
   void
   declare_mesh(const ParameterSection &section, MeshParameters &mesh);
 
+  /// The part of those in the subsections of how a scene is solved.
+  void
+  declare_solver(const ParameterSection &section, SolverParameters &solver);
+  void
+  declare_adaptivity(const ParameterSection &section,
+                     AdaptivityParameters   &adaptivity);
+  void
+  declare_steps(const ParameterSection &section, StepParameters &steps);
+
   /// Note the value, and @p where it stands, in the entry that @p assignment names. Throws InputError
   /// if there is none, with the nearest.
   void
