@@ -5,6 +5,7 @@
 
 #include <deal.II/grid/grid_tools.h>
 
+#include <mortise/base/compatibility.h>
 #include <mortise/body/elements/conforming_nodes.h>
 
 #include <algorithm>
@@ -306,7 +307,7 @@ namespace mortise
         GridTools::exchange_cell_data_to_ghosts<Numbers, Triangulation<3>>(
           triangulation,
           [&](const Triangulation<3>::active_cell_iterator &cell)
-            -> std_cxx17::optional<Numbers> {
+            -> compatibility::optional<Numbers> {
             const auto found = changed.find(key(cell));
             if (static_cast<unsigned int>(cell->level()) != level ||
                 found == changed.end())
