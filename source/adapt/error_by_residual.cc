@@ -18,4 +18,10 @@ namespace mortise
     return fall > least_fall * before ? std::max(least, change / fall) :
                                         std::max(most, change / before);
   }
+
+  double
+  doubt_of_residuals(const unsigned int n_seen)
+  {
+    return 1. + 0.5 / std::clamp(n_seen - 1., 1., 3.);
+  }
 } // namespace mortise

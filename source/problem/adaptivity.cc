@@ -182,6 +182,7 @@ namespace mortise
         estimated.reset();
         at_most.reset();
         signed_error.reset();
+        n_estimates = 0;
       }
     else
       estimate(bodies, solutions, dual, residuals, norm);
@@ -229,6 +230,7 @@ namespace mortise
   {
     const double change = learn(bodies, solutions, dual),
                  unit   = norm > 0. ? norm : 1.;
+    ++n_estimates;
     if (dual)
       {
         sums      = error_sums(bodies, states);
@@ -252,7 +254,7 @@ namespace mortise
     // this one, by the square of the error
     constexpr double least_part = 0.01;
     const double     most =
-      for_sure + std::pow(doubt_of_residuals, 2) * by_equations;
+      for_sure + std::pow(doubt_of_residuals(n_estimates), 2) * by_equations;
     at_most = std::sqrt(
       most / std::max(unit * unit - most, least_part * unit * unit));
   }

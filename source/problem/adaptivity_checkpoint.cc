@@ -93,7 +93,8 @@ namespace mortise
                        {"change of rest", rest.change},
                        {"error of rest", rest.error},
                        {"allowed", allowed},
-                       {"residual", residual}};
+                       {"residual", residual},
+                       {"estimates", double(n_estimates)}};
     if (estimated)
       result.numbers.insert({{"estimate", *estimated}, {"at most", *at_most}});
     result.sizes.resize(bodies.size());
@@ -133,6 +134,7 @@ namespace mortise
     rest.error          = numbers.at("error of rest");
     allowed             = numbers.at("allowed");
     residual            = numbers.at("residual");
+    n_estimates         = static_cast<unsigned int>(numbers.at("estimates"));
     if (numbers.count("estimate") > 0)
       {
         estimated = numbers.at("estimate");

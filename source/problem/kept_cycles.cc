@@ -153,13 +153,21 @@ namespace mortise
              std::to_string(kept.sizes.size()) + " bodies, the scene has " +
              std::to_string(bodies.size()));
     for (const char *name :
-         {"value", "change of rest", "error of rest", "allowed", "residual"})
+         {"value",
+          "change of rest",
+          "error of rest",
+          "allowed",
+          "residual",
+          "estimates"})
       if (kept.numbers.count(name) == 0)
         refuse("no number for '" + std::string(name) + "'");
     if (kept.numbers.count("estimate") != kept.numbers.count("at most"))
       refuse("half of an estimate");
     for (const auto &[name, number] : kept.numbers)
       check(number);
+    if (const double n = kept.numbers.at("estimates"); n < 0. || n > kept.cycle)
+      refuse(std::to_string(n) + " estimates in " + std::to_string(kept.cycle) +
+             " cycles");
     for (unsigned int b = 0; b < bodies.size(); ++b)
       for (const KeptCell &cell : kept.cells[b])
         {

@@ -34,5 +34,13 @@ main()
   verdict("large change, residual stays",
           std::fabs(square_by_residual(5., 1., 1.) / 5. - 1.),
           1e-12);
+  verdict("doubt after one and two refinements",
+          std::fabs(doubt_of_residuals(1) - 1.5) +
+            std::fabs(doubt_of_residuals(2) - 1.5),
+          1e-12);
+  verdict("doubt after three", std::fabs(doubt_of_residuals(3) - 1.25), 1e-12);
+  verdict("doubt after many",
+          std::fabs(doubt_of_residuals(40) - 7. / 6.),
+          1e-12);
   verdict("exact before", 0.5 / square_by_residual(0., 0., 0.), 1.);
 }

@@ -218,6 +218,7 @@ namespace mortise
     std::vector<BodySolution> earlier, earlier_dual;
     ErrorSums                 sums;
     double residual = 0.; ///< square, of the equations in the last cycle
+    unsigned int n_estimates = 0; ///< since there was a new mesh
     std::vector<Violation>    interfaces;      ///< relative
     double                    last_value = 0.; ///< of the quantity
     /// How much the last refinement changed the quantity beyond what cells have
