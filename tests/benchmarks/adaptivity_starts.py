@@ -220,8 +220,31 @@ def shells(lot):
 GENERATORS = (one_box, one_box, two_boxes, two_boxes, fichera, l_shape, shells)
 
 
-def start(seed, number):
-    """Name and settings of one start; its target is drawn as a part of its first error."""
+def point_in(lot, settings):
+    """Of a start: one of its bodies and a point in it, now and then one on its boundary or at a corner."""
+    body = lot.choice([s for s in settings if s.startswith("Bodies=")][0][7:].split(", "))
+    of = dict(s.removeprefix(f"Body {body}/").split("=", 1) for s in settings if s.startswith(f"Body {body}/"))
+    part = [lot.choice([0., 1.]) if lot.random() < 0.15 else lot.uniform(0.02, 0.98) for _ in range(3)]
+    extent = [float(v) for v in of.get("Mesh/Extent", "-1, -1, 0, 1, 1, 1").split(",")]
+    source = of.get("Mesh/Source")
+    if source in SHELL_SIDES:
+        radius = extent[0] + part[0] * (extent[1] - extent[0])
+        angle, height = part[1] * math.pi / 2, part[2] * math.pi / 2 if source == "shell octant" else 0.
+        return body, [radius * math.cos(height) * math.cos(angle), radius * math.cos(height) * math.sin(angle),
+                      radius * math.sin(height) if source == "shell octant" else part[2] * extent[2]]
+    point = [extent[c] + part[c] * (extent[3 + c] - extent[c]) for c in range(3)]
+    if source == "file" and point[0] > 0. and point[1] > 0.:  # what the L lacks
+        point[lot.randrange(2)] *= -1.
+    return body, point
+
+
+def value_at(expression, point):
+    names = {name: getattr(math, name) for name in ("sin", "cos", "exp", "tanh", "sqrt", "atan2", "pi")}
+    return eval(expression.replace("^", "**"), {**names, **dict(zip("xyz", point))})
+
+
+def start(seed, number, quantity=False):
+    """Name, settings and, with a quantity, its exact value of one start; its target is drawn as a part of its first error."""
     lot = random.Random(f"{seed} {number}")
     name, (field, components), settings = lot.choice(GENERATORS)(lot)
     if components is None:
@@ -231,7 +254,13 @@ def start(seed, number):
         settings.append("Exact solution/Displacement=" + "; ".join(f"{amount(scale)}*({c})" for c in components))
     strategy = lot.choice(["hp", "hp", "hp", "h", "p"])
     settings += [f"Adaptivity/Strategy={strategy}", "Output/Fields="]
-    return f"{seed}.{number}: {name}, {field}, {strategy}", settings, 10. ** lot.uniform(-1.1, -0.05)
+    part, exact = 10. ** lot.uniform(-1.1, -0.05), None
+    if quantity and components is not None:
+        (body, point), c = point_in(lot, settings), lot.randrange(3)
+        settings += [f"Output/Points=point: {body}: " + ", ".join(f"{v:.17g}" for v in point), f"Adaptivity/Quantity=point, {'xyz'[c]}"]
+        values = [value_at(f"{amount(scale)}*({f})", point) for f in components]
+        exact = (c, values[c]) if abs(values[c]) > 0.01 * max(abs(v) for v in values) else None
+    return f"{seed}.{number}: {name}, {field}, {strategy}", settings, part, exact
 
 
 def run(binary, settings, work, seconds=SECONDS):
@@ -267,16 +296,23 @@ def run(binary, settings, work, seconds=SECONDS):
     return code, used, summary, text
 
 
-def cycles(summary):
-    result = []
-    for step in summary["steps"]:
-        result.append({"unknowns": step["dofs"]["total"], "error": step["errors"]["energy"], "estimate": step["adaptivity"].get("estimate")})
-    return result
+def error_of(step, exact):
+    """In the energy or, where an exact value is given, of that component of the point."""
+    if exact is None:
+        return step["errors"]["energy"]
+    component, value = exact
+    return abs(dict(step["quantities"])["point"][component] / value - 1)
+
+
+def cycles(summary, exact):
+    return [{"unknowns": step["dofs"]["total"], "error": error_of(step, exact), "estimate": step["adaptivity"].get("estimate")} for step in summary["steps"]]
 
 
 def measure(arguments):
-    binaries, seed, number, unknowns, idle = arguments
-    name, settings, part = start(seed, number)
+    binaries, seed, number, unknowns, idle, quantity = arguments
+    name, settings, part, exact = start(seed, number, quantity)
+    if quantity and exact is None:
+        return {"name": name, "skipped": "no exact value, or one of nearly zero"}
     settings.append(f"Adaptivity/Largest number of unknowns={unknowns}")
     with tempfile.TemporaryDirectory() as work:
         # the first mesh tells what there is to be won
@@ -285,7 +321,9 @@ def measure(arguments):
             return {"name": name, "skipped": "a ball beside the body"}
         if code != 0:
             return {"name": name, "skipped": f"first mesh: exit {code}", "log": log[-600:]}
-        first, size = summary["steps"][-1]["errors"]["energy"], summary["steps"][-1]["dofs"]["total"]
+        if exact and not dict(summary["steps"][-1]["quantities"])["point"]:
+            return {"name": name, "skipped": "a point beside the first mesh"}
+        first, size = error_of(summary["steps"][-1], exact), summary["steps"][-1]["dofs"]["total"]
         target = min(0.9, max(1e-6, first * part))
         if not first > 1e-8 or size > 0.4 * unknowns:
             return {"name": name, "skipped": f"{size} unknowns, error {first:.1e}"}
@@ -294,7 +332,7 @@ def measure(arguments):
             code, used, summary, log = run(binary, result["settings"], work)
             one = {"code": code, "seconds": max(1e-3, used - idle)}
             if summary:
-                one["cycles"] = cycles(summary)
+                one["cycles"] = cycles(summary, exact)
             if code not in (0, 3):
                 one["log"] = log[-600:]
             result["runs"].append(one)
@@ -336,6 +374,7 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--unknowns", type=int, default=20000, help="the largest number in a run")
+    parser.add_argument("--quantity", action="store_true", help="targets are those of a displacement at a point")
     parser.add_argument("--only", help="numbers of starts, separated by commas")
     parser.add_argument("--json", help="a file for all that was measured")
     parser.add_argument("--write", help="a file for the starts whose targets were met soon")
@@ -346,7 +385,7 @@ def main():
     numbers = [int(n) for n in given.only.split(",")] if given.only else range(given.first, given.first + given.number)
     results = []
     with concurrent.futures.ProcessPoolExecutor(given.jobs) as pool:
-        for result in pool.map(measure, [(binaries, given.seed, n, given.unknowns, idle) for n in numbers]):
+        for result in pool.map(measure, [(binaries, given.seed, n, given.unknowns, idle, given.quantity) for n in numbers]):
             results.append(result)
             for one in result.get("runs", []):
                 if one["code"] not in (0, 3):
