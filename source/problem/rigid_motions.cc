@@ -109,12 +109,10 @@ namespace mortise
                          const Extent                          &where,
                          const PartOfBody                      &part)
     {
-      RigidMatrix matrix(6, 6);
-      matrix = 0.;
-      add_block(
-        matrix, 0, 0, support_of(body, dirichlet, where, part), 0, 0);
+      Resistance resistance(1);
+      resistance.add(0, support_of(body, dirichlet, where, part));
       std::vector<Motion> motions;
-      for (const auto &vector : null_space(matrix, zero_support))
+      for (const auto &vector : resistance.free_motions())
         {
           motions.emplace_back();
           std::copy_n(vector.begin(), 6, motions.back().begin());
@@ -130,13 +128,6 @@ namespace mortise
                const std::vector<std::vector<DirichletCondition>> &dirichlet,
                const std::vector<TieSupport>                      &ties)
         : ties(ties)
-        , zero(std::any_of(ties.begin(),
-                           ties.end(),
-                           [](const TieSupport &tie) {
-                             return tie.directions == TiedDirections::normal;
-                           }) ?
-                 zero_support_of_sliding :
-                 zero_support)
         , held(bodies.size(), false)
       {
         const MPI_Comm comm =
@@ -150,11 +141,11 @@ namespace mortise
         for (const TieSupport &tie : ties)
           {
             of_tie.push_back(
-              support_of(tie,
-                         where[tie.slave],
-                         where[tie.master == TieSupport::ground ? tie.slave :
-                                                                  tie.master],
-                         comm));
+              resistance_of(tie,
+                            where[tie.slave],
+                            where[tie.master == TieSupport::ground ? tie.slave :
+                                                                     tie.master],
+                            comm));
             n_multipliers.push_back(
               Utilities::MPI::sum(tie.multipliers.size(), comm));
           }
@@ -230,9 +221,8 @@ namespace mortise
               {
                 if (held[b])
                   continue;
-                RigidMatrix matrix(6, 6);
-                matrix = 0.;
-                add_block(matrix, 0, 0, of_body[b], 0, 0);
+                Resistance resistance(1);
+                resistance.add(0, of_body[b]);
                 for (unsigned int t = 0; t < ties.size(); ++t)
                   {
                     const unsigned int sides[] = {ties[t].slave,
@@ -241,9 +231,11 @@ namespace mortise
                       if (sides[i] == b &&
                           (sides[1 - i] == TieSupport::ground ||
                            held[sides[1 - i]]))
-                        add_block(matrix, 0, 0, of_tie[t], i, i);
+                        resistance.add(i == 0 ? 0 : -1,
+                                       i == 1 ? 0 : -1,
+                                       of_tie[t]);
                   }
-                again = held[b] = null_space(matrix, zero).empty();
+                again = held[b] = resistance.free_motions().empty();
                 if (again)
                   break;
               }
@@ -259,29 +251,23 @@ namespace mortise
         for (unsigned int b = 0; b < held.size(); ++b)
           if (!held[b])
             place[b] = n++;
-        RigidMatrix matrix(6 * n, 6 * n);
-        matrix = 0.;
+        Resistance resistance(n);
         for (unsigned int b = 0; b < held.size(); ++b)
           if (!held[b])
-            add_block(matrix, place[b], place[b], of_body[b], 0, 0);
+            resistance.add(place[b], of_body[b]);
         for (unsigned int t = 0; t < ties.size(); ++t)
-          {
-            const int sides[] = {place[ties[t].slave],
-                                 ties[t].master == TieSupport::ground ?
-                                   -1 :
-                                   place[ties[t].master]};
-            for (unsigned int i = 0; i < 2; ++i)
-              for (unsigned int j = 0; j < 2; ++j)
-                if (sides[i] >= 0 && sides[j] >= 0)
-                  add_block(matrix, sides[i], sides[j], of_tie[t], i, j);
-          }
-        free = null_space(matrix, zero);
+          resistance.add(place[ties[t].slave],
+                         ties[t].master == TieSupport::ground ?
+                           -1 :
+                           place[ties[t].master],
+                         of_tie[t]);
+        free = resistance.free_motions();
       }
 
       const std::vector<TieSupport>   &ties;
-      const double                     zero; ///< see null_space()
       std::vector<Extent>              where;
-      std::vector<Support>             of_body, of_tie;
+      std::vector<Support>             of_body;
+      std::vector<TieResistance>       of_tie;
       std::vector<std::size_t>         n_multipliers; ///< by tie, of all ranks
       std::vector<bool>                held;
       std::vector<int>                 place; ///< by body, in vectors of free

@@ -32,30 +32,33 @@ namespace mortise
       return result;
     }
 
-    /// The smallest x A x / x B x over all x with x B x > 0.
+    /// The smallest x A x / x B x over all x that B resists.
     double
-    smallest_ratio(const RigidMatrix &A,
-                   const RigidMatrix &B,
-                   const double       zero)
+    smallest_ratio(const Resistance &A, const Resistance &B)
     {
-      const unsigned int n     = A.m();
-      const Spectrum     all   = spectrum(B);
-      unsigned int       range = 0;
-      while (range < n && all.values[range] > zero * all.values[0])
-        ++range;
-      if (range == 0)
-        return 1.;
-      RigidMatrix ratios(range, range);
-      for (unsigned int a = 0; a < range; ++a)
-        for (unsigned int b = 0; b < range; ++b)
+      // what is orthogonal to the motions that B leaves free
+      RigidMatrix projector = B.sum();
+      projector             = 0.;
+      const auto free       = B.free_motions();
+      for (const auto &vector : free)
+        for (unsigned int i = 0; i < projector.m(); ++i)
+          for (unsigned int j = 0; j < projector.m(); ++j)
+            projector(i, j) += vector[i] * vector[j];
+      auto resisted = spectrum(projector).vectors;
+      resisted.erase(resisted.begin(), resisted.begin() + free.size());
+      const Spectrum all = spectrum(restricted(B.sum(), resisted));
+      std::vector<std::vector<double>> unit; // x B x = 1
+      for (unsigned int k = 0; k < all.values.size(); ++k)
+        if (all.values[k] > rounding_of_squares * all.values[0])
           {
-            double sum = 0.;
-            for (unsigned int i = 0; i < n; ++i)
-              for (unsigned int j = 0; j < n; ++j)
-                sum += all.vectors[a][i] * A(i, j) * all.vectors[b][j];
-            ratios(a, b) = sum / std::sqrt(all.values[a] * all.values[b]);
+            unit.emplace_back(projector.m(), 0.);
+            for (unsigned int l = 0; l < resisted.size(); ++l)
+              for (unsigned int i = 0; i < projector.m(); ++i)
+                unit.back()[i] += all.vectors[k][l] * resisted[l][i] /
+                                  std::sqrt(all.values[k]);
           }
-      return spectrum(ratios).values.back();
+      return unit.empty() ? 1. :
+                            spectrum(restricted(A.sum(), unit)).values.back();
     }
 
     /// Ratios are 1 where multipliers are dense, .3 for two in a row, and 0 for
@@ -92,30 +95,17 @@ namespace mortise
                 add(direction);
               }
         }
-      RigidMatrix matrices[2];
-      for (unsigned int m = 0; m < 2; ++m)
-        {
-          matrices[m].reinit(12);
-          const Support support =
-            support_of(m == 0 ? tie : ideal, where, where, comm);
-          for (unsigned int i = 0; i < 2; ++i)
-            {
-              const unsigned int b = i == 0 ? tie.slave : tie.master;
-              add_block(matrices[m],
-                        i,
-                        i,
-                        support_of(*bodies[b], dirichlet[b], where),
-                        0,
-                        0);
-              for (unsigned int j = 0; j < 2; ++j)
-                add_block(matrices[m], i, j, support, i, j);
-            }
-        }
-      return !(smallest_ratio(matrices[0],
-                              matrices[1],
-                              tie.directions == TiedDirections::all ?
-                                zero_support :
-                                zero_support_of_sliding) > least_ratio);
+      const auto resistance = [&](const TieSupport &with) {
+        Resistance result(2);
+        for (unsigned int i = 0; i < 2; ++i)
+          {
+            const unsigned int b = i == 0 ? tie.slave : tie.master;
+            result.add(i, support_of(*bodies[b], dirichlet[b], where));
+          }
+        result.add(0, 1, resistance_of(with, where, where, comm));
+        return result;
+      };
+      return !(smallest_ratio(resistance(tie), resistance(ideal)) > least_ratio);
     }
   } // namespace
 

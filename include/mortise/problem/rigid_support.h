@@ -132,25 +132,8 @@ namespace mortise
     std::vector<Place> places;
   };
 
-  /// Of the slave, then of the master, translations of all together weighing
-  /// one. Collective.
-  Support
-  support_of(const TieSupport &tie,
-             const Extent     &slave,
-             const Extent     &master,
-             MPI_Comm          comm);
-
   /// Symmetric and positive semidefinite: a sum of squares.
   using RigidMatrix = dealii::LAPACKFullMatrix<double>;
-
-  /// Add the block of bodies @p a, @p b of @p support in the place of @p i, @p j.
-  void
-  add_block(RigidMatrix   &matrix,
-            unsigned int   i,
-            unsigned int   j,
-            const Support &support,
-            unsigned int   a,
-            unsigned int   b);
 
   /// Eigenvalues, the largest first, and eigenvectors.
   struct Spectrum
@@ -162,12 +145,66 @@ namespace mortise
   Spectrum
   spectrum(RigidMatrix matrix);
 
-  /// What is less than this share of the largest eigenvalue is zero: rounding,
-  /// or what meshes leave of a surface that slides along itself.
-  constexpr double zero_support = 1e-10, zero_support_of_sliding = 1e-6;
+  /// basis^T @p matrix basis. @p basis: vectors.
+  RigidMatrix
+  restricted(const RigidMatrix                      &matrix,
+             const std::vector<std::vector<double>> &basis);
 
-  /// A basis of the null space; less than @p zero of the largest eigenvalue is
-  /// zero.
-  std::vector<std::vector<double>>
-  null_space(RigidMatrix matrix, double zero);
+  /// Less than this share of the largest eigenvalue is rounding.
+  constexpr double rounding_of_squares = 1e-13;
+
+  /// What the multipliers of an interface resist: of the slave, then of the
+  /// master, translations of all together weighing one.
+  struct TieResistance
+  {
+    Support along_directions;
+    Support along_all; ///< as if each multiplier held along every direction
+    bool    curved;    ///< they hold along normals that are not parallel
+  };
+
+  /// Collective.
+  TieResistance
+  resistance_of(const TieSupport &tie,
+                const Extent     &slave,
+                const Extent     &master,
+                MPI_Comm          comm);
+
+  /// What resists the rigid motions of several bodies.
+  class Resistance
+  {
+  public:
+    explicit Resistance(unsigned int n_bodies);
+
+    /// The prescribed displacements of body @p b.
+    void
+    add(unsigned int b, const Support &support);
+
+    /// An interface of the bodies @p slave and @p master; negative: one that does not move.
+    void
+    add(int slave, int master, const TieResistance &tie);
+
+    RigidMatrix
+    sum() const;
+
+    /// An orthonormal basis of the motions that nothing prevents. What
+    /// displacements, ties and sliding along planes hold is exact but for
+    /// rounding. Of the motions that they leave, free are those along which all
+    /// that slides along curved surfaces moves across by less than three
+    /// thousandths of what it moves: so much is left of a surface that is
+    /// approximated. A thin body moves little and is no freer for it.
+    std::vector<std::vector<double>>
+    free_motions() const;
+
+  private:
+    static void
+    add_block(RigidMatrix   &matrix,
+              unsigned int   i,
+              unsigned int   j,
+              const Support &support,
+              unsigned int   a,
+              unsigned int   b);
+
+    RigidMatrix held;          ///< exactly
+    RigidMatrix across, moved; ///< of curved surfaces that slide: normals, and all directions
+  };
 } // namespace mortise
