@@ -105,10 +105,13 @@ namespace mortise
   std::string
   not_converged(const SolveReport &report,
                 const double       tolerance,
-                const unsigned int n_sets)
+                const unsigned int n_sets,
+                const std::string &advice)
   {
     const std::string other =
-      report.method == "direct" ? "" : ", or try Solver/Method = direct";
+      !advice.empty()           ? ", or take " + advice :
+      report.method == "direct" ? "" :
+                                  ", or try Solver/Method = direct";
     std::ostringstream text;
     if (!report.prepared)
       {
@@ -131,6 +134,8 @@ namespace mortise
     else if (report.relative_residual <= report.attainable)
       text << "Rounding leaves up to " << report.attainable
            << " whatever the method, since moduli or sizes differ too much";
+    else if (!advice.empty())
+      text << "Take " << advice << ", or raise Solver/Max iterations";
     else
       text << "Raise Solver/Max iterations or try another Solver/Method";
     return text.str();

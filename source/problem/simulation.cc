@@ -344,7 +344,8 @@ namespace mortise
       throw ConvergenceError(
         not_converged(report,
                       context.parameters.solver.tolerance,
-                      contact && !contact->settled() ? contact->n_sets() : 0));
+                      contact && !contact->settled() ? contact->n_sets() : 0,
+                      discretisation->choice().advice));
     if (adaptivity && !adaptivity->reached())
       throw ConvergenceError(adaptivity->missed());
   }

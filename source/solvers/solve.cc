@@ -44,7 +44,16 @@ namespace mortise
   choose_solver(const SolverMethod asked, const SceneSize &scene)
   {
     if (asked != SolverMethod::automatic)
-      return {asked, ""};
+      {
+        const SolverChoice best =
+          choose_solver(SolverMethod::automatic, scene);
+        return {asked,
+                "",
+                best.method != SolverMethod::direct || asked == best.method ?
+                  "" :
+                  "Solver/Method = auto, which here is direct (" +
+                    best.reason + ")"};
+      }
     if (scene.contrast > largest_contrast &&
         scene.n_displacements <= max_direct_dofs)
       return {SolverMethod::direct,

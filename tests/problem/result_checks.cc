@@ -4,6 +4,7 @@
 
 #include <mortise/problem/result_checks.h>
 #include <mortise/solvers/linear_solver.h>
+#include <mortise/solvers/solve.h>
 
 #include <cmath>
 #include <functional>
@@ -130,23 +131,35 @@ namespace
     const auto has = [](const std::string &text, const std::string &part) {
       return text.find(part) != std::string::npos;
     };
-    std::string text = not_converged(report, 1e-10, 0);
+    std::string text = not_converged(report, 1e-10, 0, "");
     verdict(has(text, "could not be set up") && has(text, "direct") &&
               !has(text, "Max iterations"),
             "a set-up that failed",
             text);
     report.method = "direct";
-    text          = not_converged(report, 1e-10, 0);
+    text          = not_converged(report, 1e-10, 0, "");
     verdict(has(text, "could not be set up") && !has(text, "Method"),
             "a factorisation that failed",
             text);
     report.prepared = true;
-    text            = not_converged(report, 1e-10, 1001);
+    text            = not_converged(report, 1e-10, 1001, "");
     verdict(has(text, "1001 sets") && !has(text, "Max iterations"),
             "sets without end",
             text);
-    verdict(has(not_converged(report, 1e-10, 0), "Raise Solver/Max iterations"),
+    verdict(has(not_converged(report, 1e-10, 0, ""), "Raise Solver/Max iterations"),
             "too few iterations");
+    report.method = "saddle point";
+    const SceneSize on_soft_springs{1000, false, 1., 1e10};
+    const auto      advice = [&](const SolverMethod asked) {
+      return choose_solver(asked, on_soft_springs).advice;
+    };
+    text = not_converged(report, 1e-10, 0, advice(SolverMethod::saddle_point));
+    verdict(has(text, "auto, which here is direct (chosen since springs"),
+            "a method that another one is better than",
+            text);
+    verdict(advice(SolverMethod::direct).empty() &&
+              advice(SolverMethod::automatic).empty(),
+            "no advice to take what was taken");
   }
 } // namespace
 

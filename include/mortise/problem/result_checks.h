@@ -22,9 +22,10 @@ namespace mortise
   first_not_finite(const StepSummary &step);
 
   /// What a solve that ended with @p report lacks of @p tolerance, and what to do about it. @p n_sets:
-  /// of contact, where these did not come to an end.
+  /// of contact, where these did not come to an end. @p advice: of SolverChoice.
   std::string
   not_converged(const SolveReport &report,
                 double             tolerance,
-                unsigned int       n_sets);
+                unsigned int       n_sets,
+                const std::string &advice);
 } // namespace mortise

@@ -10,6 +10,9 @@ namespace mortise
   {
     SolverMethod method; ///< never automatic
     std::string  reason; ///< empty when the method was asked for
+    /// Where iterations were asked for and a factorisation would have been
+    /// chosen: that, and why; else empty.
+    std::string advice = "";
   };
 
   /// What the choice depends on.
