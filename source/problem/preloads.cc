@@ -174,6 +174,50 @@ namespace mortise
     have_units = true;
   }
 
+  dealii::Vector<double>
+  Preloads::shortenings_for(const dealii::Vector<double> &lacks) const
+  {
+    const unsigned int n = indices.size();
+    FullMatrix<double> stiffness(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        stiffness(i, j) = forces[i] && forces[j] ? force(i, units[j].x) :
+                                                   (i == j ? 1. : 0.);
+    stiffness.gauss_jordan();
+    dealii::Vector<double> result(n);
+    stiffness.vmult(result, lacks);
+    return result;
+  }
+
+  void
+  Preloads::release(SystemVector &rhs, SystemVector &z, SolveReport &report)
+  {
+    if (!report.converged ||
+        std::none_of(forces.begin(), forces.end(), [](const auto &given) {
+          return given.has_value();
+        }))
+      return;
+    solve_units(report);
+    if (!report.converged)
+      return;
+    dealii::Vector<double> lacks(indices.size());
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      if (forces[j])
+        lacks(j) = -force(j, z);
+    const dealii::Vector<double> d = shortenings_for(lacks);
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      {
+        rhs.multiplier.add(d(j), units[j].rhs.multiplier);
+        add_scaled(z, d(j), units[j].x);
+      }
+    const SolveReport again = solver.solve_from(rhs, z);
+    report.iterations += again.iterations;
+    report.solve_seconds += again.solve_seconds;
+    report.relative_residual = again.relative_residual;
+    report.attainable        = again.attainable;
+    report.converged         = again.converged;
+  }
+
   SolveReport
   Preloads::solve_other_loads(const SceneLoad &load, SystemVector &x)
   {
@@ -216,17 +260,8 @@ namespace mortise
         solve_units(report);
         if (!report.converged)
           break;
-        const unsigned int n = indices.size();
-        FullMatrix<double> stiffness(n, n);
-        for (unsigned int i = 0; i < n; ++i)
-          for (unsigned int j = 0; j < n; ++j)
-            stiffness(i, j) = forces[i] && forces[j] ?
-                                force(i, units[j].x) :
-                                (i == j ? 1. : 0.);
-        stiffness.gauss_jordan();
-        dealii::Vector<double> d(n);
-        stiffness.vmult(d, lacks);
-        for (unsigned int j = 0; j < n; ++j)
+        const dealii::Vector<double> d = shortenings_for(lacks);
+        for (unsigned int j = 0; j < indices.size(); ++j)
           shorten(j, d(j), load, &x);
         const SolveReport again = solver.solve_from(load.rhs, x);
         report.iterations += again.iterations;

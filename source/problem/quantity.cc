@@ -144,6 +144,7 @@ namespace mortise
   solve_dual(const RunContext                &run,
              const Discretisation            &discretisation,
              LinearSolver                    &solver,
+             Preloads                        &preloads,
              const Quantity                  &quantity,
              const std::vector<BodySolution> &solutions,
              const BoundaryForces            &forces,
@@ -164,6 +165,7 @@ namespace mortise
         z             = discretisation.system_vector(start, load);
         result.report = solver.solve_from(load.rhs, z);
       }
+    preloads.release(load.rhs, z, result.report);
     z.displacement -= functional.lift;
     result.solutions = discretisation.solutions(load, z);
     run.timers.add("dual", result.report.solve_seconds);

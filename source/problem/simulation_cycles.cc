@@ -14,6 +14,7 @@ namespace mortise
       dual = solve_dual(context,
                         *discretisation,
                         *solver,
+                        *preloads,
                         *quantity,
                         fields.solutions,
                         forces,

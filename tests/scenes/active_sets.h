@@ -43,6 +43,18 @@ namespace mortise::testing
       return parameters;
     }
 
+    const RunContext &
+    context() const
+    {
+      return run;
+    }
+
+    const SceneData &
+    fields() const
+    {
+      return data;
+    }
+
     /// @p x must live on.
     SolvedStep
     solved(const SystemVector &x) const

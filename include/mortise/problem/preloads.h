@@ -62,6 +62,12 @@ namespace mortise
     SolveReport
     solve(bool goes_on, SceneLoad &load, SystemVector &x);
 
+    /// Of @p z, a solution of the system of the solver for @p rhs: that of the
+    /// system with the shortenings, which is symmetric, for no other loads and
+    /// no forces. What it takes is added to @p report and @p rhs. Collective.
+    void
+    release(SystemVector &rhs, SystemVector &z, SolveReport &report);
+
     /// Take the shortenings of @p x, a solution that was found before for the loads of @p load, into it.
     /// Collective.
     void
@@ -88,6 +94,10 @@ namespace mortise
     /// is kept.
     dealii::Vector<double>
     missing(const SystemVector &x) const;
+
+    /// What the forces are short of by @p lacks. After solve_units().
+    dealii::Vector<double>
+    shortenings_for(const dealii::Vector<double> &lacks) const;
 
     const RunContext                      &run;
     const Discretisation                  &discretisation;

@@ -6,6 +6,7 @@
 
 #include <mortise/output/functionals.h>
 #include <mortise/problem/boundary_forces.h>
+#include <mortise/problem/preloads.h>
 #include <mortise/solvers/linear_solver.h>
 
 #include <optional>
@@ -79,12 +80,13 @@ namespace mortise
     SolveReport               report;
   };
 
-  /// Solve the system of @p discretisation, whose last solution is @p solutions with @p forces, for the derivative of
-  /// @p quantity; @p start may be empty. Collective.
+  /// Solve the system of @p discretisation with the shortenings of @p preloads, whose last solution is @p solutions with
+  /// @p forces, for the derivative of @p quantity; @p start may be empty. Collective.
   DualSolution
   solve_dual(const RunContext                &run,
              const Discretisation            &discretisation,
              LinearSolver                    &solver,
+             Preloads                        &preloads,
              const Quantity                  &quantity,
              const std::vector<BodySolution> &solutions,
              const BoundaryForces            &forces,
