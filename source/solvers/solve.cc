@@ -19,7 +19,8 @@ namespace mortise
     /// see how it moves up to a contrast of 1e7 (tests/solvers/contrast.cc).
     constexpr double largest_contrast = 1e6;
     /// Bodies that springs hold, in double precision up to 1e10: fewer
-    /// iterations are lost than a factorisation costs.
+    /// iterations are lost than a factorisation costs. Of the saddle point method,
+    /// which makes residuals small and not energies, 36 at about 5e8 and more than 1000 at 5e9.
     constexpr double largest_contrast_of_springs = 1e9;
   } // namespace
 

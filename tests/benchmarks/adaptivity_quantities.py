@@ -467,6 +467,7 @@ Each cycle of the runs to the finest target: estimate by error. First estimates 
 
 - Of each cycle the dual problem is solved, too, with the same preconditioner, and what a cell has is the root of the product of both changes in energy. What
   refinements brought to the number is known exactly, and a sign with it for each cell.
+- Where a tie has a `Preload` the dual problem carries no force along its normal and has a shortening of its own.
 - From degree to degree signs are taken as drawn by lot: contributions of cells add up like the root of the sum of squares R. Where cells are cut, sums keep their
   sign.
 - The estimate is the root of the squares of the sum over cells that were cut, of 2 R over all, and of the tail of what no cell accounts for: prescribed values,
