@@ -9,6 +9,7 @@
 //   # expect /JSON/POINTER = NUMBER within NUMBER    of summary.json, absolute
 //   # expect /JSON/POINTER = NUMBER relative NUMBER
 //   # expect /JSON/POINTER < NUMBER                  or >
+// where /steps/last is the last one of /steps.
 // Exit code 0 when all of them hold, 1 with a line for each that does not, 2 for an expectation that cannot be read.
 
 #include <nlohmann/json.hpp>
@@ -109,7 +110,11 @@ namespace
           outcome.printed.find(line.substr(begin + 1, end - begin - 1)) != std::string::npos;
         return found == (first == "message") ? "" : first == "no" ? "it is printed" : "it is not printed";
       }
-    double value = 0, tolerance = 0;
+    double            value = 0, tolerance = 0;
+    const std::size_t space = line.find_last_of(' ', line.find_first_of("=<>")); // names have spaces
+    first                   = line.substr(0, space);
+    words.clear();
+    words.str(space == std::string::npos ? "" : line.substr(space));
     words >> relation >> value;
     const bool equality = relation == "=";
     if (equality)
@@ -117,6 +122,8 @@ namespace
     if (!words || first[0] != '/' || (equality && second != "within" && second != "relative") ||
         (!equality && relation != "<" && relation != ">"))
       throw std::runtime_error("'" + line + "' is no expectation");
+    if (first.rfind("/steps/last/", 0) == 0 && outcome.summary.contains("steps"))
+      first.replace(7, 4, std::to_string(outcome.summary["steps"].size() - 1));
     const nlohmann::json::json_pointer where(first);
     if (!outcome.summary.contains(where) || !outcome.summary.at(where).is_number())
       return "summary.json has no such number";
