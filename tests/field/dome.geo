@@ -1,0 +1,20 @@
+// An eighth of a thick sphere, radii 1 and 2, with a bore of radius 0.3 along z, in tetrahedra of second order.
+SetFactory("OpenCASCADE");
+Sphere(1) = {0, 0, 0, 2, 0, Pi/2, Pi/2};
+Sphere(2) = {0, 0, 0, 1};
+Cylinder(3) = {0, 0, 0, 0, 0, 3, 0.3};
+BooleanDifference(4) = { Volume{1}; Delete; }{ Volume{2, 3}; Delete; };
+e = 1e-3;
+x() = Surface In BoundingBox{-e, -e, -e, e, 2 + e, 2 + e};
+y() = Surface In BoundingBox{-e, -e, -e, 2 + e, e, 2 + e};
+z() = Surface In BoundingBox{-e, -e, -e, 2 + e, 2 + e, e};
+skin() = Surface{:};
+skin() -= {x(), y(), z()};
+Physical Surface("x") = x();
+Physical Surface("y") = y();
+Physical Surface("z") = z();
+Physical Surface("skin") = skin();
+Physical Volume("dome") = {4};
+Mesh.MeshSizeMax = 0.7;
+Mesh.ElementOrder = 2;
+Mesh.HighOrderOptimize = 2;
