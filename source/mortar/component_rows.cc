@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace mortise
 {
@@ -17,12 +18,14 @@ namespace mortise
     using ByDof = LinearAlgebra::distributed::Vector<double>;
 
     /// The rows of slave faces whose bodies slide: three for each node. Nodes
-    /// that faces share are numbered with their dofs; those that hang, or where
-    /// degrees meet, by face.
+    /// that faces share are numbered with their dofs; those that hang, where
+    /// degrees meet, or whose face has along_normals, by face.
     class RowsOfNodes
     {
     public:
-      RowsOfNodes(const Body &body, const BodySurface &slave)
+      RowsOfNodes(const Body                                   &body,
+                  const BodySurface                            &slave,
+                  const std::vector<MultiplierSpace::FaceRows> &by_face)
         : numbers(body.dof_handler.locally_owned_dofs(),
                   body.relevant_dofs,
                   body.triangulation().get_communicator())
@@ -31,7 +34,9 @@ namespace mortise
           {
             dofs.push_back(face_dofs(slave.cells[s], slave.face_numbers[s]));
             shared.push_back(
-              have_shared_nodes(slave.traces[s].basis(), dofs[s][0], body));
+              by_face[s].along_normals.empty() ?
+                have_shared_nodes(slave.traces[s].basis(), dofs[s][0], body) :
+                std::vector<bool>(dofs[s][0].size(), false));
             for (unsigned int k = 0; k < shared[s].size(); ++k)
               for (unsigned int c = 0; c < dim && shared[s][k]; ++c)
                 numbers(dofs[s][c][k]) = 1. + c;
@@ -110,7 +115,8 @@ namespace mortise
   MultiplierSpace::n_component_rows(const BodySurface &slave) const
   {
     return n_directions == dim ? n_owned() :
-                                 RowsOfNodes(body, slave).n_owned();
+                                 RowsOfNodes(body, slave, numbered.by_face)
+                                   .n_owned();
   }
 
   MultiplierSpace::ComponentRows
@@ -125,7 +131,7 @@ namespace mortise
           result.frames.emplace_back(first_number + i, first + i, 1.);
         return result;
       }
-    RowsOfNodes of_nodes(body, slave);
+    RowsOfNodes of_nodes(body, slave, numbered.by_face);
     of_nodes.number(first);
     result.rows.owned = of_nodes.owned;
     for (unsigned int s = 0; s < numbered.by_face.size(); ++s)
@@ -140,13 +146,18 @@ namespace mortise
             rows.weight.push_back(1.);
             rows.is_represented.push_back(r >= n);
             rows.begin.push_back(r + 1);
-            for (unsigned int e = own.begin[r % n]; e < own.begin[r % n + 1];
-                 ++e)
-              result.frames.emplace_back(own.index[e],
-                                         of_nodes.rows[s][r],
-                                         own.weight[e] *
-                                           own.normals[r % n][r / n]);
           }
+        std::map<std::pair<Index, Index>, double> of_face;
+        for (unsigned int k = 0; k < n; ++k)
+          own.for_each_direction(
+            k, [&](const unsigned int i, const Tensor<1, dim> &direction) {
+              for (unsigned int e = own.begin[k]; e < own.begin[k + 1]; ++e)
+                for (unsigned int c = 0; c < dim; ++c)
+                  of_face[{own.index[e], of_nodes.rows[s][c * n + i]}] +=
+                    own.weight[e] * direction[c];
+            });
+        for (const auto &[place, weight] : of_face)
+          result.frames.emplace_back(place.first, place.second, weight);
         result.rows.by_face.push_back(std::move(rows));
       }
     return result;

@@ -30,22 +30,29 @@ namespace mortise
                      const bool                       representatives)
       {
         const unsigned int n = rows.n_nodes();
+        // by component and node
+        std::vector<std::map<Index, double>> weights(dim * n);
+        for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
+          rows.for_each_direction(
+            r, [&](const unsigned int k, const Tensor<1, dim> &direction) {
+              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
+                if (!representatives || !rows.is_represented[e])
+                  for (unsigned int c = 0; c < dim; ++c)
+                    if (!rows.normals.empty() || c == r / n)
+                      weights[c * n + k][rows.index[e]] +=
+                        rows.weight[e] * direction[c];
+            });
         for (unsigned int c = 0; c < dim; ++c)
           {
             Part &part = parts[c];
             part.begin = {0};
             for (unsigned int k = 0; k < n; ++k)
               {
-                const unsigned int row = rows.normals.empty() ? c * n + k : k;
-                for (unsigned int e = rows.begin[row]; e < rows.begin[row + 1];
-                     ++e)
-                  if (!representatives || !rows.is_represented[e])
-                    {
-                      part.index.push_back(rows.index[e]);
-                      part.weight.push_back(
-                        rows.weight[e] *
-                        (rows.normals.empty() ? 1. : rows.normals[k][c]));
-                    }
+                for (const auto &[index, weight] : weights[c * n + k])
+                  {
+                    part.index.push_back(index);
+                    part.weight.push_back(weight);
+                  }
                 part.begin.push_back(part.index.size());
               }
           }

@@ -67,27 +67,27 @@ namespace mortise
     // the bound, then by component the weight and the moment
     constexpr unsigned int n_sums = 1 + dim + dim * dim;
     auto sums = make_sums(n_sums, coupling, owned_multiplier, comm);
-    for_each_entry(coupling,
-                   [&](const unsigned int    s,
-                       const unsigned int    i,
-                       const Tensor<1, dim> &direction,
-                       const auto            index,
-                       const double          w) {
-                     const LocalCoupling &local = coupling.local[s];
-                     sums[0](index) +=
-                       std::fabs(w) * weight_bound(coupling, s, i);
-                     const double weight = on_constants(
-                       local.constraint,
-                       i,
-                       coupling.interface->slave().traces[s].basis());
-                     for (unsigned int c = 0; c < dim; ++c)
-                       {
-                         sums[1 + c](index) += w * direction[c] * weight;
-                         for (unsigned int d = 0; d < dim; ++d)
-                           sums[1 + dim + dim * c + d](index) +=
-                             w * direction[c] * local.position_moment[i][d];
-                       }
-                   });
+    for_each_part(coupling,
+                  [&](const unsigned int    s,
+                      const unsigned int    i,
+                      const Tensor<1, dim> &direction,
+                      const auto            index,
+                      const double          w) {
+                    const LocalCoupling &local = coupling.local[s];
+                    sums[0](index) +=
+                      std::fabs(w) * direction.norm() * weight_bound(coupling, s, i);
+                    const double weight = on_constants(
+                      local.constraint,
+                      i,
+                      coupling.interface->slave().traces[s].basis());
+                    for (unsigned int c = 0; c < dim; ++c)
+                      {
+                        sums[1 + c](index) += w * direction[c] * weight;
+                        for (unsigned int d = 0; d < dim; ++d)
+                          sums[1 + dim + dim * c + d](index) +=
+                            w * direction[c] * local.position_moment[i][d];
+                      }
+                  });
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);
 
@@ -123,10 +123,11 @@ namespace mortise
     std::vector<double> shares(coupling.local.size()), sizes(shares);
     for_each_entry(coupling,
                    [&](const unsigned int s,
-                       const unsigned int i,
-                       const Tensor<1, dim> &,
-                       const auto   index,
-                       const double w) {
+                       const unsigned int r,
+                       const auto         index,
+                       const double       w) {
+                     const unsigned int i =
+                       r % coupling.multipliers->rows()[s].n_nodes();
                      const double size =
                        w * w * multiplier_product(coupling.local[s], i, i);
                      sizes[s] += size;
@@ -160,10 +161,10 @@ namespace mortise
     for_each_entry(
       coupling,
       [&](const unsigned int s,
-          const unsigned int i,
-          const Tensor<1, dim> &,
-          const auto   index,
-          const double w) {
+          const unsigned int r,
+          const auto         index,
+          const double       w) {
+        const unsigned int i = r % coupling.multipliers->rows()[s].n_nodes();
         const LocalCoupling &local = coupling.local[s];
         const double         row =
           on_constants(local.constraint,
@@ -242,18 +243,19 @@ namespace mortise
         const unsigned int n    = rows.n_nodes();
         coefficients.emplace_back(dim * n, 0.);
         for (unsigned int r = 0; r < values[s].size(); ++r)
-          {
-            const Tensor<1, dim> direction = rows.direction(r);
-            for (unsigned int c = 0; c < dim; ++c)
-              coefficients[s][c * n + r % n] += values[s][r] * direction[c];
-          }
+          rows.for_each_direction(
+            r, [&](const unsigned int i, const Tensor<1, dim> &direction) {
+              for (unsigned int c = 0; c < dim; ++c)
+                coefficients[s][c * n + i] += values[s][r] * direction[c];
+            });
       }
     return coefficients;
   }
 
   namespace
   {
-    /// Coefficients by row, from those of components.
+    /// Coefficients by row, from those of components: what undoes
+    /// multiplier_coefficients() on a face.
     std::vector<double>
     along_directions(const MultiplierSpace::FaceRows &rows,
                      const std::vector<double>       &coefficients)
@@ -261,12 +263,24 @@ namespace mortise
       const unsigned int  n = rows.n_nodes();
       std::vector<double> result(rows.begin.size() - 1);
       for (unsigned int r = 0; r < result.size(); ++r)
-        {
-          const Tensor<1, dim> direction = rows.direction(r);
-          for (unsigned int c = 0; c < dim; ++c)
-            result[r] += direction[c] * coefficients[c * n + r % n];
-        }
-      return result;
+        rows.for_each_direction(
+          r, [&](const unsigned int i, const Tensor<1, dim> &direction) {
+            for (unsigned int c = 0; c < dim; ++c)
+              result[r] += direction[c] * coefficients[c * n + i];
+          });
+      if (rows.along_normals.empty())
+        return result;
+      // the directions of rows are not orthogonal to each other
+      FullMatrix<double> products(n, n);
+      for (unsigned int r = 0; r < n; ++r)
+        for (unsigned int q = 0; q < n; ++q)
+          for (unsigned int i = 0; i < n; ++i)
+            products(r, q) +=
+              rows.along_normals[r * n + i] * rows.along_normals[q * n + i];
+      products.gauss_jordan();
+      dealii::Vector<double> right(result.begin(), result.end()), values(n);
+      products.vmult(values, right);
+      return {values.begin(), values.end()};
     }
   } // namespace
 
@@ -317,12 +331,14 @@ namespace mortise
                              normals[s][k]);
           for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
             {
-              Tensor<1, dim> sum;
-              for (unsigned int k = 0; k < n; ++k)
-                sum += nodal(r % n, k) * values[k];
+              double along = 0.;
+              rows.for_each_direction(
+                r, [&](const unsigned int i, const Tensor<1, dim> &direction) {
+                  for (unsigned int k = 0; k < n; ++k)
+                    along += nodal(i, k) * (values[k] * direction);
+                });
               for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                rhs[rows.index[e]] +=
-                  rows.weight[e] * (sum * rows.direction(r));
+                rhs[rows.index[e]] += rows.weight[e] * along;
             }
         }
   }

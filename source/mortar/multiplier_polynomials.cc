@@ -93,13 +93,17 @@ namespace mortise
       {
         const unsigned int n = rows.n_nodes(), first = values.size();
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-          for (unsigned int c = 0; c < dim; ++c)
-            if (const double part = rows.direction(r)[c]; part != 0.)
-              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                terms.push_back(
-                  {first + c * n + r % n,
-                   all.get_partitioner()->global_to_local(rows.index[e]),
-                   part * rows.weight[e]});
+          rows.for_each_direction(
+            r, [&](const unsigned int i, const Tensor<1, dim> &direction) {
+              for (unsigned int c = 0; c < dim; ++c)
+                if (direction[c] != 0.)
+                  for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1];
+                       ++e)
+                    terms.push_back(
+                      {first + c * n + i,
+                       all.get_partitioner()->global_to_local(rows.index[e]),
+                       direction[c] * rows.weight[e]});
+            });
         values.resize(first + dim * n);
       }
 

@@ -5,6 +5,7 @@
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/multiplier_space.h>
 #include <mortise/mortar/nodal_block.h>
+#include <mortise/mortar/slave_normals.h>
 
 #include <algorithm>
 #include <array>
@@ -311,7 +312,14 @@ namespace mortise
         if (n_directions == dim)
           shared.compare(result.by_face[s]);
         else
-          result.by_face[s].normals = normals[s];
+          {
+            result.by_face[s].normals = normals[s];
+            if (!has_dual[s])
+              result.by_face[s].along_normals =
+                tractions_along_normals(slave.faces[s],
+                                        slave.traces[s],
+                                        normals[s]);
+          }
       }
     shared.exchange();
     result.owned = shared.rows(first);

@@ -21,7 +21,7 @@ namespace mortise
     return sum;
   }
 
-  /// Calls visit(slave face, node, direction, multiplier, its weight).
+  /// Calls visit(slave face, row, multiplier, its weight).
   template <typename Visit>
   void
   for_each_entry(const Coupling &coupling, const Visit &visit)
@@ -29,12 +29,30 @@ namespace mortise
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       if (!coupling.local[s].partners.empty())
         {
-          const auto        &rows = coupling.multipliers->rows()[s];
-          const unsigned int n    = rows.n_nodes();
+          const auto &rows = coupling.multipliers->rows()[s];
           for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
             for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-              visit(s, r % n, rows.direction(r), rows.index[e], rows.weight[e]);
+              visit(s, r, rows.index[e], rows.weight[e]);
         }
+  }
+
+  /// Calls visit(slave face, node, direction, multiplier, its weight).
+  template <typename Visit>
+  void
+  for_each_part(const Coupling &coupling, const Visit &visit)
+  {
+    for_each_entry(coupling,
+                   [&](const unsigned int s,
+                       const unsigned int r,
+                       const auto         index,
+                       const double       weight) {
+                     coupling.multipliers->rows()[s].for_each_direction(
+                       r,
+                       [&](const unsigned int            node,
+                           const dealii::Tensor<1, dim> &direction) {
+                         visit(s, node, direction, index, weight);
+                       });
+                   });
   }
 
   /// Entries by multiplier, those that the faces of this rank touch included.

@@ -58,8 +58,9 @@ namespace mortise
     /// Multipliers on one face: value_c(xi) = sum_k psi_k(xi) sum_j weight_j
     /// lambda_index_j with row = c (degree + 1)^2 + k, k the nodes of the face,
     /// psi as in LocalCoupling. Most nodes have a multiplier of their own.
-    /// Along normals, value_c(xi) = sum_k psi_k(xi) n_kc sum_j weight_j
-    /// lambda_index_j with row = k.
+    /// Along normals, value_c(xi) = sum_i psi_i(xi) sum_k directions_ki,c sum_j
+    /// weight_j lambda_index_j with row = k: the normal at node k, where k = i,
+    /// or along_normals.
     struct FaceRows
     {
       std::vector<unsigned int> begin;
@@ -76,17 +77,28 @@ namespace mortise
       std::array<bool, dim> hold_constants{};
       /// Of nodes, where bodies slide; else empty.
       std::vector<dealii::Tensor<1, dim>> normals;
+      /// tractions_along_normals() of a curved face with standard multipliers;
+      /// else empty.
+      std::vector<dealii::Tensor<1, dim>> along_normals;
 
-      /// The direction of @p row, a multiple of whose multipliers' sum is its
-      /// part of the traction.
-      dealii::Tensor<1, dim>
-      direction(const unsigned int row) const
+      /// Calls visit(node, direction) for the nodes where @p row has a part of
+      /// the traction: direction times the sum of its multipliers.
+      template <typename Visit>
+      void
+      for_each_direction(const unsigned int row, const Visit &visit) const
       {
-        if (!normals.empty())
-          return normals[row];
-        dealii::Tensor<1, dim> result;
-        result[row / n_nodes()] = 1.;
-        return result;
+        const unsigned int n = n_nodes();
+        if (!along_normals.empty())
+          for (unsigned int i = 0; i < n; ++i)
+            visit(i, along_normals[row * n + i]);
+        else if (!normals.empty())
+          visit(row, normals[row]);
+        else
+          {
+            dealii::Tensor<1, dim> component;
+            component[row / n] = 1.;
+            visit(row % n, component);
+          }
       }
 
       unsigned int
