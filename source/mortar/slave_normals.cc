@@ -1,9 +1,9 @@
-#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
-#include <mortise/interface/surface_evaluation.h>
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/mortar/slave_normals.h>
+
+#include "projected_products.h"
 
 #include <algorithm>
 #include <array>
@@ -142,71 +142,17 @@ namespace mortise
     return normals;
   }
 
-  namespace
-  {
-    /// Calls visit(xi, area) for the points of a rule on the curved face.
-    template <typename Visit>
-    void
-    for_each_area(const SurfaceFace &face, const unsigned int n, const Visit &visit)
-    {
-      FacePolynomial polynomial;
-      polynomial.reinit(face, face.frame.center);
-      const ReferenceRule &rule =
-        gauss_rule(std::min(n, max_gauss_points)).on(face.shape);
-      for (unsigned int q = 0; q < rule.weight.size(); ++q)
-        {
-          Vec3<Lanes> x, dx[2];
-          polynomial.evaluate(broadcast(rule.xi_1[q]),
-                              broadcast(rule.xi_2[q]),
-                              x,
-                              dx);
-          const Vec3<Lanes> normal = cross(dx[0], dx[1]);
-          visit(Point<2>(rule.xi_1[q], rule.xi_2[q]),
-                rule.weight[q] * square_root(dot(normal, normal))[0]);
-        }
-    }
-  } // namespace
-
   std::vector<Tensor<1, dim>>
   tractions_along_normals(const SurfaceFace                 &face,
                           const FaceTrace                   &trace,
                           const std::vector<Tensor<1, dim>> &normals)
   {
-    constexpr double   rounding = 1e-12;
-    const unsigned int n        = normals.size();
-    if (std::all_of(normals.begin(), normals.end(), [&](const auto &normal) {
-          return (normal - normals[0]).norm() < rounding;
-        }))
+    if (!are_unlike(normals))
       return {};
-    const TraceBasis           &basis = trace.basis();
-    const FullMatrix<double> &functions =
-      face_nodal_basis(trace.shape, trace.degree).functions;
-    FullMatrix<double>          mass(n, n);
-    std::vector<Tensor<1, dim>> moments(n * n); // int phi_k phi_j n
-    dealii::Vector<double>      hierarchical(n), phi(n);
-    for_each_area(face,
-                  2 * trace.degree + face.degree + 2,
-                  [&](const Point<2> &xi, const double area) {
-                    basis.evaluate(xi[0], xi[1], &hierarchical(0));
-                    functions.Tvmult(phi, hierarchical);
-                    Tensor<1, dim> normal;
-                    for (unsigned int k = 0; k < n; ++k)
-                      normal += phi(k) * normals[k];
-                    for (unsigned int k = 0; k < n; ++k)
-                      for (unsigned int j = 0; j < n; ++j)
-                        {
-                          const double product = area * phi(k) * phi(j);
-                          mass(k, j) += product;
-                          moments[k * n + j] += product * normal;
-                        }
-                  });
-    mass.gauss_jordan();
-    std::vector<Tensor<1, dim>> result(n * n);
-    for (unsigned int k = 0; k < n; ++k)
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j < n; ++j)
-          result[k * n + i] += mass(i, j) * moments[k * n + j];
-    return result;
+    return projected_products<Tensor<1, dim>>(
+      face, trace, [&](const dealii::Vector<double> &phi) {
+        return interpolated(normals, phi);
+      });
   }
 
   std::optional<Point<dim>>

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupled_faces.h"
+#include "projected_products.h"
 
 namespace mortise
 {
@@ -13,14 +14,24 @@ namespace mortise
 
   namespace
   {
+    /// Of the compliance, along the normal and across it.
+    struct Roots
+    {
+      explicit Roots(const Stiffness &spring)
+        : along(1. / std::sqrt(spring.normal))
+        , across(spring.tangential > 0. ? 1. / std::sqrt(spring.tangential) :
+                                          0.)
+      {}
+
+      double along, across;
+    };
+
     /// The root of K^{-1}.
     Tensor<2, dim>
-    root_of_compliance(const Stiffness &spring, const Tensor<1, dim> &normal)
+    root_of_compliance(const double          along,
+                       const double          across,
+                       const Tensor<1, dim> &normal)
     {
-      const double along  = 1. / std::sqrt(spring.normal),
-                   across = spring.tangential > 0. ?
-                              1. / std::sqrt(spring.tangential) :
-                              0.;
       Tensor<2, dim> root = (along - across) * outer_product(normal, normal);
       for (unsigned int c = 0; c < dim; ++c)
         root[c][c] += across;
@@ -35,9 +46,14 @@ namespace mortise
         : local(coupling.local[s])
         , rows(coupling.multipliers->rows()[s])
       {
-        for (unsigned int k = 0; k < local.springs.size(); ++k)
-          roots.push_back(
-            root_of_compliance(local.springs[k], local.spring_normals[k]));
+        std::vector<Roots> at_nodes(local.springs.begin(), local.springs.end());
+        for (unsigned int k = 0; k < at_nodes.size(); ++k)
+          roots.push_back(root_of_compliance(at_nodes[k].along,
+                                             at_nodes[k].across,
+                                             local.spring_normals[k]));
+        if (!local.is_dual() && rows.normals.empty() &&
+            are_unlike(local.spring_normals))
+          set_turning(coupling.interface->slave(), s, at_nodes);
       }
 
       /// visit(row expansion, column expansion, block)
@@ -63,16 +79,61 @@ namespace mortise
         return ExpansionPart({rows.begin, rows.index, rows.weight, 0}, of_node);
       }
 
+      /// Standard multipliers of all directions where the normal turns: the
+      /// root varies along the face with it, as in tractions_along_normals(),
+      /// since a root that each node has for its own holds tangential openings
+      /// where springs are far stiffer along the normal.
+      void
+      set_turning(const BodySurface        &slave,
+                  const unsigned int        s,
+                  const std::vector<Roots> &at_nodes)
+      {
+        const unsigned int n        = at_nodes.size();
+        const auto         products = projected_products<Tensor<2, dim>>(
+          slave.faces[s],
+          slave.traces[s],
+          [&](const dealii::Vector<double> &phi) {
+            double along = 0., across = 0.;
+            for (unsigned int k = 0; k < n; ++k)
+              {
+                along += phi(k) * at_nodes[k].along;
+                across += phi(k) * at_nodes[k].across;
+              }
+            const auto normal = interpolated(local.spring_normals, phi);
+            return root_of_compliance(along, across, normal / normal.norm());
+          });
+        // the product of all with their masses, a side at a time
+        std::vector<Tensor<2, dim>> weighted(n * n);
+        for (unsigned int j = 0; j < n; ++j)
+          for (unsigned int a = 0; a < n; ++a)
+            for (unsigned int b = 0; b < n; ++b)
+              weighted[j * n + a] += mass(a, b) * products[j * n + b];
+        turning.resize(n * n);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
+            for (unsigned int a = 0; a < n; ++a)
+              turning[i * n + j] +=
+                products[i * n + a] * weighted[j * n + a]; // symmetric roots
+      }
+
+      /// int psi_i psi_j of standard multipliers.
+      double
+      mass(const unsigned int i, const unsigned int j) const
+      {
+        double result = 0.;
+        for (unsigned int k = 0; k < local.mass.m(); ++k)
+          result += local.constraint(i, k) * local.multiplier(j, k);
+        return result;
+      }
+
       FullMatrix<double>
       block(const unsigned int i, const unsigned int j) const
       {
-        double factor = 0.;
-        if (local.is_dual())
-          factor = local.weights[i];
-        else
-          for (unsigned int k = 0; k < local.mass.m(); ++k)
-            factor += local.constraint(i, k) * local.multiplier(j, k);
-        const Tensor<2, dim> product = factor * roots[i] * roots[j];
+        const Tensor<2, dim> product =
+          turning.empty() ?
+            (local.is_dual() ? local.weights[i] : mass(i, j)) * roots[i] *
+              roots[j] :
+            turning[i * roots.size() + j];
         if (!rows.normals.empty())
           {
             FullMatrix<double> along(1, 1);
@@ -89,6 +150,8 @@ namespace mortise
       const LocalCoupling             &local;
       const MultiplierSpace::FaceRows &rows;
       std::vector<Tensor<2, dim>>      roots; ///< by node
+      /// Where the normal turns: int psi_i K^{-1} psi_j at i n + j; else empty.
+      std::vector<Tensor<2, dim>> turning;
     };
   } // namespace
 
