@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "projected_products.h"
+
 namespace mortise
 {
   using namespace dealii;
@@ -203,6 +205,86 @@ namespace mortise
             }
         }
     }
+
+    /// int N_i N_j n on the covered part of a face, by component of n.
+    using NormalMoments = std::array<FullMatrix<double>, dim>;
+
+    /// Add w_q N_i N_j n of some points, of which @p weighted has w_q N_i. @p normal:
+    /// the coefficients of n.
+    void
+    add_normal_moments(const std::vector<Tensor<1, dim>> &normal,
+                       const FullMatrix<double>          &values,
+                       const FullMatrix<double>          &weighted,
+                       NormalMoments                     &moments)
+    {
+      std::vector<double> at_points(values.m());
+      FullMatrix<double>  of_component;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          for (unsigned int q = 0; q < values.m(); ++q)
+            {
+              at_points[q] = 0.;
+              for (unsigned int j = 0; j < values.n(); ++j)
+                at_points[q] += values(q, j) * normal[j][c];
+            }
+          scale_rows(weighted, at_points.data(), of_component);
+          of_component.Tmmult(moments[c], values, true);
+        }
+    }
+
+    /// The coefficients in N of what has @p values at nodes.
+    std::vector<Tensor<1, dim>>
+    in_functions(const std::vector<Tensor<1, dim>> &values,
+                 const FaceTrace                   &trace)
+    {
+      const FullMatrix<double> &functions =
+        face_nodal_basis(trace.shape, trace.degree).functions;
+      std::vector<Tensor<1, dim>> result(values.size());
+      for (unsigned int j = 0; j < values.size(); ++j)
+        for (unsigned int k = 0; k < values.size(); ++k)
+          result[j] += functions(j, k) * values[k];
+      return result;
+    }
+
+    /// LocalCoupling::along_normals, the projection on the whole face, put right
+    /// on its covered part, @p moments being those of multipliers there.
+    void
+    set_along_normals(const SurfaceFace                 &face,
+                      const FaceTrace                   &trace,
+                      const std::vector<Tensor<1, dim>> &normals,
+                      const NormalMoments               &moments,
+                      LocalCoupling                     &local)
+    {
+      /// So much less is put right what lives on the rest of the face.
+      constexpr double   share = 1e-9;
+      const unsigned int n     = normals.size();
+      local.along_normals      = projected_products<Tensor<1, dim>>(
+        face, trace, [&](const dealii::Vector<double> &phi) {
+          return interpolated(normals, phi);
+        });
+      FullMatrix<double> mass(n, n), inverse(n, n);
+      local.constraint.mTmult(mass, local.multiplier);
+      inverse = mass;
+      for (unsigned int i = 0; i < n; ++i)
+        inverse(i, i) *= 1. + share;
+      inverse.gauss_jordan();
+      FullMatrix<double> half(n, n), wanted(n, n), now(n, n), left(n, n);
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          local.multiplier.mmult(half, moments[c]);
+          half.mTmult(wanted, local.multiplier); // k, i
+          for (unsigned int k = 0; k < n; ++k)
+            for (unsigned int i = 0; i < n; ++i)
+              now(k, i) = local.along_normals[k * n + i][c];
+          now.mmult(left, mass);
+          wanted.add(-1., left);
+          wanted.mmult(left, inverse);
+          for (unsigned int k = 0; k < n; ++k)
+            for (unsigned int i = 0; i < n; ++i)
+              local.along_normals[k * n + i][c] += left(k, i);
+        }
+    }
+
     /// Which partners lead, and the penalty that follows from it.
     void
     set_leaders(const InterfaceHandler &interface,
@@ -229,9 +311,16 @@ namespace mortise
   integrate_coupling(InterfaceHandler     &interface,
                      const bool            with_master_mass,
                      const MultiplierBasis basis,
-                     const bool            may_lead)
+                     const bool            may_lead,
+                     const std::vector<std::vector<Tensor<1, dim>>> &normals)
   {
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
+    // empty where the normal does not turn
+    std::vector<std::vector<Tensor<1, dim>>> turning(couplings.size());
+    std::vector<NormalMoments>               normal_moments(couplings.size());
+    for (unsigned int s = 0; s < normals.size(); ++s)
+      if (are_unlike(normals[s]))
+        turning[s] = in_functions(normals[s], interface.slave().traces[s]);
     FullMatrix<double> slave_values, master_values, weighted, places, moment;
 
     interface.visit_pairs([&](const unsigned int       s,
@@ -248,6 +337,8 @@ namespace mortise
           local.mass.reinit(n_slave, n_slave);
           local.gap_moment.resize(n_slave);
           local.position_moment.resize(n_slave);
+          for (auto &moments : normal_moments[s])
+            moments.reinit(n_slave, n_slave);
         }
 
       partner.mixed.reinit(n_slave, master.n_functions());
@@ -262,6 +353,11 @@ namespace mortise
           evaluate(master.basis(), points.master_eta, first, n, master_values);
           scale_rows(slave_values, &points.weight[first], weighted);
           weighted.Tmmult(local.mass, slave_values, true);
+          if (!turning[s].empty())
+            add_normal_moments(turning[s],
+                               slave_values,
+                               weighted,
+                               normal_moments[s]);
           weighted.Tmmult(partner.mixed, master_values, true);
           places.reinit(n, 2 * dim, true);
           for (unsigned int q = 0; q < n; ++q)
@@ -293,6 +389,12 @@ namespace mortise
                           basis == MultiplierBasis::dual &&
                             interface.coverage()[s] > covered_as_a_whole,
                           couplings[s]);
+          if (!turning[s].empty() && !couplings[s].is_dual())
+            set_along_normals(interface.slave().faces[s],
+                              interface.slave().traces[s],
+                              normals[s],
+                              normal_moments[s],
+                              couplings[s]);
           set_leaders(interface, s, may_lead, couplings[s]);
         }
     return couplings;

@@ -5,7 +5,6 @@
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/multiplier_space.h>
 #include <mortise/mortar/nodal_block.h>
-#include <mortise/mortar/slave_normals.h>
 
 #include <algorithm>
 #include <array>
@@ -313,12 +312,8 @@ namespace mortise
           shared.compare(result.by_face[s]);
         else
           {
-            result.by_face[s].normals = normals[s];
-            if (!has_dual[s])
-              result.by_face[s].along_normals =
-                tractions_along_normals(slave.faces[s],
-                                        slave.traces[s],
-                                        normals[s]);
+            result.by_face[s].normals       = normals[s];
+            result.by_face[s].along_normals = along_normals[s];
           }
       }
     shared.exchange();

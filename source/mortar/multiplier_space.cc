@@ -222,15 +222,18 @@ namespace mortise
     , presses_only(presses_only)
   {
     for (const PartnerState &partner : partners)
-      has_dual.push_back(partner.has_dual);
-    const bool along_normals = directions == TiedDirections::normal;
-    if (along_normals)
+      {
+        has_dual.push_back(partner.has_dual);
+        along_normals.push_back(partner.along_normals);
+      }
+    const bool slides = directions == TiedDirections::normal;
+    if (slides)
       normals = slave_normals(body, slave);
     const std::vector<MultiplierFace> faces = collect_multiplier_faces(
       body,
       slave,
       partners,
-      along_normals ? blocked_normals(body, slave, normals, blocked) : blocked);
+      slides ? blocked_normals(body, slave, normals, blocked) : blocked);
 
     MultiplierRecords records;
     // with the dof of the first component there

@@ -84,7 +84,8 @@ namespace mortise
             const double covered = coupling.interface->coverage()[s];
             PartnerState state   = {cover_of(covered, true),
                                     {},
-                                    coupling.local[s].is_dual()};
+                                    coupling.local[s].is_dual(),
+                                    coupling.local[s].along_normals};
             for (const Coupling *other : sharing)
               if (goes_in_front(*other, coupling, s))
                 state.cover = cover_of(covered, false);

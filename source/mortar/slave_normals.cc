@@ -3,8 +3,6 @@
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/mortar/slave_normals.h>
 
-#include "projected_products.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -140,19 +138,6 @@ namespace mortise
                       normals[s][k] = mean;
                   });
     return normals;
-  }
-
-  std::vector<Tensor<1, dim>>
-  tractions_along_normals(const SurfaceFace                 &face,
-                          const FaceTrace                   &trace,
-                          const std::vector<Tensor<1, dim>> &normals)
-  {
-    if (!are_unlike(normals))
-      return {};
-    return projected_products<Tensor<1, dim>>(
-      face, trace, [&](const dealii::Vector<double> &phi) {
-        return interpolated(normals, phi);
-      });
   }
 
   std::optional<Point<dim>>

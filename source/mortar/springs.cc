@@ -80,7 +80,7 @@ namespace mortise
       }
 
       /// Standard multipliers of all directions where the normal turns: the
-      /// root varies along the face with it, as in tractions_along_normals(),
+      /// root varies along the face with it, as LocalCoupling::along_normals do,
       /// since a root that each node has for its own holds tangential openings
       /// where springs are far stiffer along the normal.
       void

@@ -102,17 +102,19 @@ namespace mortise
   SceneCouplings::integrate(const InterfaceParameters &given,
                             Coupling                  &coupling) const
   {
+    const auto normals = slave_normals(*spaces.bodies[given.slave.body],
+                                       coupling.interface->slave());
     coupling.local =
       integrate_coupling(*coupling.interface,
                          spaces.choice.method != SolverMethod::direct,
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
-                         !coupling.is_spring && !given.is_support);
+                         !coupling.is_spring && !given.is_support,
+                         coupling.directions == TiedDirections::normal ?
+                           normals :
+                           std::vector<std::vector<Tensor<1, dim>>>());
     if (const auto stiffness = spring_stiffness(run.parameters, given))
-      set_springs(stiffness,
-                  slave_normals(*spaces.bodies[given.slave.body],
-                                coupling.interface->slave()),
-                  coupling);
+      set_springs(stiffness, normals, coupling);
   }
 
   void

@@ -63,6 +63,13 @@ namespace mortise
     std::vector<Partner>                partners;
     std::vector<Stiffness>              springs; ///< by node; empty: a tie
     std::vector<dealii::Tensor<1, dim>> spring_normals; ///< likewise
+    /// Standard multipliers that stand for pressures, where the normal turns:
+    /// the traction of psi_k at node i of n, at k n + i; else empty, and it is
+    /// the normal at node k there. It is psi_k n, n interpolated from the normals
+    /// at nodes, as a polynomial of the face that does the same work on those: a
+    /// body then turns freely in its bore. psi_k n_k would hold it, since psi_k
+    /// has both signs from degree 2 on.
+    std::vector<dealii::Tensor<1, dim>> along_normals;
     double                              penalty =
       0.; ///< scale of jump penalties: about E / h of the softer side, or of
           ///< the slave where a master leads, since it is what moves
@@ -78,10 +85,13 @@ namespace mortise
   };
 
   /// Clip @p interface and integrate; one entry per slave face. @p may_lead: let slaves follow
-  /// where that pays. Collective.
+  /// where that pays. @p normals: slave_normals() where multipliers are pressures,
+  /// else empty. Collective.
   std::vector<LocalCoupling>
   integrate_coupling(InterfaceHandler &interface,
                      bool              with_master_mass,
                      MultiplierBasis   basis,
-                     bool              may_lead = true);
+                     bool              may_lead = true,
+                     const std::vector<std::vector<dealii::Tensor<1, dim>>>
+                       &normals = {});
 } // namespace mortise

@@ -31,6 +31,7 @@ namespace mortise
       can_follow{}; ///< by component: some displacement there is free, of
                     ///< the slave or of the master
     bool has_dual = false; ///< multipliers are dual: see LocalCoupling
+    std::vector<dealii::Tensor<1, dim>> along_normals; ///< see LocalCoupling
   };
 
   /// A slave face of an owned or ghost cell. Vertices and edges are numbered as

@@ -77,8 +77,7 @@ namespace mortise
       std::array<bool, dim> hold_constants{};
       /// Of nodes, where bodies slide; else empty.
       std::vector<dealii::Tensor<1, dim>> normals;
-      /// tractions_along_normals() of a curved face with standard multipliers;
-      /// else empty.
+      /// See LocalCoupling.
       std::vector<dealii::Tensor<1, dim>> along_normals;
 
       /// Calls visit(node, direction) for the nodes where @p row has a part of
@@ -198,6 +197,7 @@ namespace mortise
     unsigned int       n_directions; ///< dim, or 1: along the normals
     bool               presses_only;
     std::vector<bool>  has_dual; ///< by face
+    std::vector<std::vector<dealii::Tensor<1, dim>>> along_normals; ///< by face
     std::vector<Index> owned_dofs;
     std::vector<bool>  at_vertices; ///< by owned multiplier
     /// By owned multiplier: the dof of the first component there, its

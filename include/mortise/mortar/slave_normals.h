@@ -23,18 +23,6 @@ namespace mortise
   std::vector<std::vector<dealii::Tensor<1, dim>>>
   slave_normals(const Body &body, const BodySurface &slave);
 
-  /// The tractions on a face that pressures stand for, one for each node of the
-  /// face: at k n + i the value at node i, of n, of the one whose pressure is
-  /// phi_k. It is phi_k n, n interpolated from the @p normals at nodes, projected
-  /// on the polynomials of the face so that it does the same work on them: a body
-  /// then turns freely in its bore. phi_k n_k would hold it, since phi_k has both
-  /// signs from degree 2 on, and the normal turns along the face. Empty where all
-  /// normals are the same.
-  std::vector<dealii::Tensor<1, dim>>
-  tractions_along_normals(const SurfaceFace                         &face,
-                          const FaceTrace                           &trace,
-                          const std::vector<dealii::Tensor<1, dim>> &normals);
-
   /// A node of this rank where the normals of faces are more than 30 degrees off
   /// their mean. Collective.
   std::optional<dealii::Point<dim>>
