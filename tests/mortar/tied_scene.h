@@ -122,7 +122,7 @@ namespace mortise::testing
               const MultiplierBasis basis        = MultiplierBasis::standard,
               const bool            presses_only = false)
       : comm(comm)
-      , given{slave, master}
+      , given{{slave, master}}
     {
       std::vector<const dealii::DoFHandler<dim> *> handlers;
       for (unsigned int b = 0; b < 2; ++b)

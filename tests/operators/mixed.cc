@@ -188,7 +188,7 @@ namespace mortise::testing
     pressures(const ValueAt &at) const
     {
       const auto values = in_functions(*pressure, at);
-      return {values.begin(), values.end()};
+      return dealii::Vector<double>(values.begin(), values.end());
     }
 
     bool                            mixed;

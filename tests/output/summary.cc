@@ -75,7 +75,7 @@ namespace
     interface.moment_residual = 1. / 3.;
     interface.linear_completeness_error = 0.;
     step.interfaces.push_back(interface);
-    step.solver     = SolverSummary{"direct", "none", 1, 1e-16};
+    step.solver     = SolverSummary{"direct", "none", 1, 1e-16, {}, {}};
     step.equilibrium = EquilibriumSummary{{1.}, {-1.}, {0.}};
     step.errors     = ErrorSummary{1e-3, 2e-3, 3e-3, {}, {}};
     step.quantities = {{"z first", {1., 2., 3.}}, {"a second", {4.}}};

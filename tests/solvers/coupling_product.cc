@@ -96,8 +96,8 @@ namespace
       {
         std::map<int, double> row;
         for (const auto &[matrix, sign] :
-             {std::make_pair(&B, 1.),
-              std::make_pair(const_cast<const Epetra_CrsMatrix *>(&same), -1.)})
+             std::initializer_list<std::pair<const Epetra_CrsMatrix *, double>>{
+               {&B, 1.}, {&same, -1.}})
           {
             const EpetraRow entries(*matrix, i);
             for (int k = 0; k < entries.length; ++k)

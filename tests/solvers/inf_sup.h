@@ -238,8 +238,9 @@ namespace mortise::testing
     // both fields with one set of constraints, pressures last
     dealii::AffineConstraints<double> constraints;
     for (const auto &[field, first] :
-         {std::make_pair(&u, dealii::types::global_dof_index(0)),
-          std::make_pair(&p, n_u)})
+         std::initializer_list<
+           std::pair<const SceneField *, dealii::types::global_dof_index>>{
+           {&u, 0}, {&p, n_u}})
       for (const auto &line : field->constraints.get_lines())
         {
           constraints.add_line(first + line.index);
