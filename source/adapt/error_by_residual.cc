@@ -4,19 +4,23 @@
 
 namespace mortise
 {
+  bool
+  falls(const double before, const double now)
+  {
+    constexpr double least_fall = 0.05;
+    return before > 0. && before - now > least_fall * before;
+  }
+
   double
   square_by_residual(const double change, const double before, const double now)
   {
     // of 106 residuals on meshes of all kinds one in a hundred was smaller by
     // more, or larger (doc/adaptivity.md)
     constexpr double least = 0.15 * 0.15, most = 0.8 * 0.8;
-    constexpr double least_fall = 0.05;
     if (!(before > 0.))
       return most;
-    const double fall = before - now;
-    // nothing is seen where it did not fall
-    return fall > least_fall * before ? std::max(least, change / fall) :
-                                        std::max(most, change / before);
+    return falls(before, now) ? std::max(least, change / (before - now)) :
+                                std::max(most, change / before);
   }
 
   double

@@ -230,10 +230,10 @@ namespace mortise
   }
 
   void
-  set_errors(const Bodies    &bodies,
-             const Residuals &residuals,
-             const double     seen,
-             CellStates      &states)
+  set_errors(const Bodies              &bodies,
+             const Residuals           &residuals,
+             const std::vector<double> &seen,
+             CellStates                &states)
   {
     for_each_cell(bodies,
                   states,
@@ -243,7 +243,7 @@ namespace mortise
                     // what one cycle has shown may be chance
                     if (history.is_refined)
                       history.by_residual =
-                        std::max(seen,
+                        std::max(seen[body.index],
                                  kept_of_earlier_cycles * history.by_residual);
                     history.error =
                       history.by_residual * residuals.equations[body.index][k] +

@@ -22,12 +22,14 @@ namespace mortise
       return result;
     }
 
-    /// The functions of a tetrahedron at one point.
+    /// The functions of a tetrahedron at one point; slopes cost several times as much as values.
     struct Functions
     {
-      Functions(const FiniteElement<dim> &element, const Point<dim> &x)
+      Functions(const FiniteElement<dim> &element,
+                const Point<dim>         &x,
+                const bool                with_slopes)
         : values(element.n_dofs_per_cell())
-        , slopes(values.size())
+        , slopes(with_slopes ? values.size() : 0)
       {
         // all at once: one by one each takes as long
         std::vector<Tensor<2, dim>> no_2;
@@ -85,7 +87,7 @@ namespace mortise
     FullMatrix<double>    mass(n, n), moments(n, m), inverse(n, n);
     for (unsigned int q = 0; q < m; ++q)
       {
-        const auto values = Functions(element, from.point(q)).values;
+        const auto values = Functions(element, from.point(q), false).values;
         for (unsigned int i = 0; i < n; ++i)
           {
             moments(i, q) = from.weight(q) * values[i];
@@ -96,35 +98,50 @@ namespace mortise
     inverse.invert(mass);
     projection.reinit(n, m);
     inverse.mmult(projection, moments);
-    std::array<FullMatrix<double>, dim> slopes;
-    slopes.fill(FullMatrix<double>(to.size(), n));
+    FullMatrix<double> slopes(dim * to.size(), n);
     for (unsigned int q = 0; q < to.size(); ++q)
       {
-        const Functions at(element, to.point(q));
+        const Functions at(element, to.point(q), true);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int d = 0; d < dim; ++d)
-            slopes[d](q, i) = at.slopes[i][d];
+            slopes(d * to.size() + q, i) = at.slopes[i][d];
       }
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        derivatives[d].reinit(to.size(), m);
-        slopes[d].mmult(derivatives[d], projection);
-      }
+    derivatives.reinit(slopes.m(), m);
+    slopes.mmult(derivatives, projection);
   }
 
-  std::vector<double>
-  StressPolynomials::derivative(const unsigned int         d,
-                                const std::vector<double> &values) const
+  FullMatrix<double>
+  StressPolynomials::slopes(const std::vector<Stress> &stresses) const
   {
-    if (!simplex)
+    constexpr unsigned int n_components = Stress::n_independent_components;
+    FullMatrix<double>     values(stresses.size(), n_components);
+    for (unsigned int k = 0; k < stresses.size(); ++k)
+      for (unsigned int c = 0; c < n_components; ++c)
+        values(k, c) = stresses[k].access_raw_entry(c);
+    if (simplex)
       {
-        const unsigned int n = line.size();
-        return apply_derivative(to_rule, d, {{{n, n, n}}, values}).values;
+        FullMatrix<double> result(derivatives.m(), n_components);
+        derivatives.mmult(result, values);
+        return result;
       }
-    dealii::Vector<double> in(values.begin(), values.end()),
-      out(derivatives[d].m());
-    derivatives[d].vmult(out, in);
-    return {out.begin(), out.end()};
+    const unsigned int  n = line.size();
+    FullMatrix<double>  result;
+    std::vector<double> of_component(stresses.size());
+    for (unsigned int c = 0; c < n_components; ++c)
+      {
+        for (unsigned int k = 0; k < stresses.size(); ++k)
+          of_component[k] = values(k, c);
+        for (unsigned int a = 0; a < dim; ++a)
+          {
+            const auto slope =
+              apply_derivative(to_rule, a, {{{n, n, n}}, of_component}).values;
+            if (result.empty())
+              result.reinit(dim * slope.size(), n_components);
+            for (unsigned int q = 0; q < slope.size(); ++q)
+              result(a * slope.size() + q, c) = slope[q];
+          }
+      }
+    return result;
   }
 
   std::vector<Tensor<1, dim>>
@@ -136,22 +153,18 @@ namespace mortise
     std::vector<Tensor<2, dim>> inverse; // dxi_a / dx_j as [j][a]
     for (const auto &jacobian : jacobians)
       inverse.push_back(invert(jacobian));
-    std::vector<double> values(stresses.size());
+    const FullMatrix<double> along = slopes(stresses);
     for (unsigned int c = 0; c < Stress::n_independent_components; ++c)
       {
-        for (unsigned int k = 0; k < values.size(); ++k)
-          values[k] = stresses[k].access_raw_entry(c);
         const auto at = Stress::unrolled_to_component_indices(c);
         for (unsigned int a = 0; a < dim; ++a)
-          {
-            const auto slope = derivative(a, values);
-            for (unsigned int q = 0; q < slope.size(); ++q)
-              {
-                result[q][at[0]] += slope[q] * inverse[q][at[1]][a];
-                if (at[0] != at[1])
-                  result[q][at[1]] += slope[q] * inverse[q][at[0]][a];
-              }
-          }
+          for (unsigned int q = 0; q < result.size(); ++q)
+            {
+              const double slope = along(a * result.size() + q, c);
+              result[q][at[0]] += slope * inverse[q][at[1]][a];
+              if (at[0] != at[1])
+                result[q][at[1]] += slope * inverse[q][at[0]][a];
+            }
       }
     return result;
   }
@@ -192,7 +205,7 @@ namespace mortise
                                      const Point<dim>  &x) const
   {
     if (simplex)
-      return Functions(element, x).values;
+      return Functions(element, x, false).values;
     std::vector<double> result;
     const unsigned int  d     = f / 2;
     const auto         first = lagrange_at(line, x[d == 0 ? 1 : 0]),

@@ -48,7 +48,7 @@ namespace mortise
                                                          '\r',
                                                          '\n',
                                                          '\0'}};
-    constexpr std::uint64_t        checkpoint_format = 4;
+    constexpr std::uint64_t        checkpoint_format = 5;
     constexpr std::uint64_t        checkpoint_block  = 1 << 22;
 
     std::uint64_t

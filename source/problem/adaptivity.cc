@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace mortise
 {
@@ -33,14 +34,43 @@ namespace mortise
                result, bodies.front()->triangulation().get_communicator()) == 1;
     }
 
-    double
-    sum(const std::vector<std::vector<double>> &numbers, const MPI_Comm comm)
+    std::vector<double>
+    sums_by_body(const NumbersByCell &numbers, const MPI_Comm comm)
     {
-      double result = 0.;
+      std::vector<double> result;
       for (const auto &of_body : numbers)
-        for (const double number : of_body)
-          result += number;
-      return Utilities::MPI::sum(result, comm);
+        result.push_back(std::accumulate(of_body.begin(), of_body.end(), 0.));
+      Utilities::MPI::sum(result, comm, result);
+      return result;
+    }
+
+    double
+    sum(const std::vector<double> &numbers)
+    {
+      return std::accumulate(numbers.begin(), numbers.end(), 0.);
+    }
+
+    double
+    sum(const NumbersByCell &numbers, const MPI_Comm comm)
+    {
+      return sum(sums_by_body(numbers, comm));
+    }
+
+    /// By body: what all bodies together have shown, or what its own residual has, where that fell, if it is
+    /// more: where one body has most of the residual, what belongs to that of another is not seen.
+    std::vector<double>
+    squares_by_residual(const std::vector<double> &changes,
+                        const std::vector<double> &before,
+                        const std::vector<double> &now)
+    {
+      std::vector<double> result(
+        changes.size(), square_by_residual(sum(changes), sum(before), sum(now)));
+      for (unsigned int b = 0; b < result.size(); ++b)
+        if (falls(before[b], now[b]))
+          result[b] =
+            std::max(result[b],
+                     square_by_residual(changes[b], before[b], now[b]));
+      return result;
     }
   } // namespace
 
@@ -186,7 +216,7 @@ namespace mortise
       }
     else
       estimate(bodies, solutions, dual, residuals, norm);
-    residual = sum(residuals.equations, run.comm);
+    residual = sums_by_body(residuals.equations, run.comm);
     if (dual)
       last_value = dual->value;
     ++cycle;
@@ -228,8 +258,8 @@ namespace mortise
                        const Residuals                   &residuals,
                        const double                       norm)
   {
-    const double change = learn(bodies, solutions, dual),
-                 unit   = norm > 0. ? norm : 1.;
+    const std::vector<double> changes = learn(bodies, solutions, dual);
+    const double              unit    = norm > 0. ? norm : 1.;
     ++n_estimates;
     if (dual)
       {
@@ -240,9 +270,9 @@ namespace mortise
       }
     set_errors(bodies,
                residuals,
-               square_by_residual(change,
-                                  residual,
-                                  sum(residuals.equations, run.comm)),
+               squares_by_residual(changes,
+                                   residual,
+                                   sums_by_body(residuals.equations, run.comm)),
                states);
     sums                  = error_sums(bodies, states);
     const double for_sure = sum(residuals.conditions, run.comm) +
@@ -259,7 +289,7 @@ namespace mortise
       most / std::max(unit * unit - most, least_part * unit * unit));
   }
 
-  double
+  std::vector<double>
   Adaptivity::learn(const Bodies                      &bodies,
                     const std::vector<BodySolution>   &solutions,
                     const std::optional<DualSolution> &dual)
@@ -290,7 +320,7 @@ namespace mortise
       }
     earlier.clear();
     earlier_dual.clear();
-    return sum(changes, run.comm);
+    return sums_by_body(changes, run.comm);
   }
 
   double

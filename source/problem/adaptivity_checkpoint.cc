@@ -93,10 +93,10 @@ namespace mortise
                        {"change of rest", rest.change},
                        {"error of rest", rest.error},
                        {"allowed", allowed},
-                       {"residual", residual},
                        {"estimates", double(n_estimates)}};
     if (estimated)
       result.numbers.insert({{"estimate", *estimated}, {"at most", *at_most}});
+    result.residual = residual;
     result.sizes.resize(bodies.size());
     for (const auto &body : bodies)
       {
@@ -133,7 +133,7 @@ namespace mortise
     rest.change         = numbers.at("change of rest");
     rest.error          = numbers.at("error of rest");
     allowed             = numbers.at("allowed");
-    residual            = numbers.at("residual");
+    residual            = given.residual;
     n_estimates         = static_cast<unsigned int>(numbers.at("estimates"));
     if (numbers.count("estimate") > 0)
       {

@@ -147,23 +147,22 @@ namespace mortise
     archive          &kept;
     if (archive.left() > 0)
       refuse(std::to_string(archive.left()) + " bytes too many");
-    if (kept.cells.size() != bodies.size() ||
+    if (kept.residual.size() != bodies.size() ||
+        kept.cells.size() != bodies.size() ||
         kept.sizes.size() != bodies.size())
-      refuse(std::to_string(kept.cells.size()) + " and " +
+      refuse(std::to_string(kept.residual.size()) + ", " +
+             std::to_string(kept.cells.size()) + " and " +
              std::to_string(kept.sizes.size()) + " bodies, the scene has " +
              std::to_string(bodies.size()));
     for (const char *name :
-         {"value",
-          "change of rest",
-          "error of rest",
-          "allowed",
-          "residual",
-          "estimates"})
+         {"value", "change of rest", "error of rest", "allowed", "estimates"})
       if (kept.numbers.count(name) == 0)
         refuse("no number for '" + std::string(name) + "'");
     if (kept.numbers.count("estimate") != kept.numbers.count("at most"))
       refuse("half of an estimate");
     for (const auto &[name, number] : kept.numbers)
+      check(number);
+    for (const double number : kept.residual)
       check(number);
     if (const double n = kept.numbers.at("estimates"); n < 0. || n > kept.cycle)
       refuse(std::to_string(n) + " estimates in " + std::to_string(kept.cycle) +

@@ -36,14 +36,15 @@ namespace mortise
     std::string                           quantity; ///< empty: the energy norm
     unsigned int                          cycle = 0, n_meshes = 0;
     std::map<std::string, double>         numbers; ///< those that there are
-    std::vector<std::vector<KeptCell>>    cells;   ///< by body
+    std::vector<double>                   residual; ///< by body
+    std::vector<std::vector<KeptCell>>    cells;    ///< likewise
     std::vector<std::vector<SizesOfCell>> sizes;   ///< likewise
 
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &quantity &cycle &n_meshes &numbers &cells &sizes;
+      archive &quantity &cycle &n_meshes &numbers &residual &cells &sizes;
     }
   };
 

@@ -153,7 +153,7 @@ def two_boxes(lot):
         stiff = [f"Material/Young modulus={amount(10. ** lot.uniform(-2., 4.))}", lot.choice(shared[1:])]
     for b, (low, high, mine) in enumerate(((0., middle, shared), (middle, 1., stiff))):
         sides = [side for side in BOX_SIDES if side != ("zmin" if b else "zmax")]
-        settings = [f"Mesh/Extent=0, 0, {low:.17g}, 1, 1, {high:.17g}", f"Mesh/Subdivisions={cubes(lot, 3, 3)}"] + mine
+        settings = [f"Mesh/Extent=0, 0, {low:.17g}, 1, 1, {high:.17g}", f"Mesh/Subdivisions={cubes(lot, 3, lot.choice([1, 3, 3, 8]))}"] + mine
         settings += degrees(lot, [0.5, 0.5, (low + high) / 2], 1.) + graded(lot, corner, 1.) + conditions(lot, sides, sides if field[0] == "edge" else ())
         if lot.random() < 0.1:
             settings = as_tetrahedra(settings)

@@ -227,7 +227,7 @@ namespace
     check_refused("another format",
                   scene,
                   with_checksum(other),
-                  {"has format 2, allowed is format 4"});
+                  {"has format 2, allowed is format 5"});
     check_refused("no checkpoint",
                   scene,
                   std::string(1000, 'M'),

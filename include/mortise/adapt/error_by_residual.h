@@ -16,6 +16,10 @@ namespace mortise
   double
   doubt_of_residuals(unsigned int n_seen);
 
+  /// By more than what may be chance, and so that something is seen.
+  bool
+  falls(double before, double now);
+
   /// The square of the error in the energy norm by that of the residual: a refinement made the latter @p now
   /// out of @p before, and changed the solution by the square @p change, by which that of the error became
   /// smaller, since what is left of it is orthogonal to the change.

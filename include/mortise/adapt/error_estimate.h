@@ -28,13 +28,13 @@ namespace mortise
                   const NumbersByCell &own_parts,
                   CellStates          &states);
 
-  /// Errors in @p states from @p residuals; the last refinement has shown what square_by_residual() is: @p seen. Other
+  /// Errors in @p states from @p residuals; the last refinement has shown what square_by_residual() is: @p seen, by body. Other
   /// cells keep what was seen of them.
   void
-  set_errors(const Bodies    &bodies,
-             const Residuals &residuals,
-             double           seen,
-             CellStates      &states);
+  set_errors(const Bodies              &bodies,
+             const Residuals           &residuals,
+             const std::vector<double> &seen,
+             CellStates                &states);
 
   /// Shares in @p states of the cells that were refined from the @p products (products_by_cell()) of
   /// the changes of a solution and of its dual problem's.

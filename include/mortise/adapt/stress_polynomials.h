@@ -49,9 +49,9 @@ namespace mortise
     prepare_hexahedra();
     void
     prepare_tetrahedra();
-    /// Along axis @p d of the unit cell, from nodes() to rule().
-    std::vector<double>
-    derivative(unsigned int d, const std::vector<double> &values) const;
+    /// Derivatives along the axes of the unit cell at rule(), one axis below the other; a column for each component.
+    dealii::FullMatrix<double>
+    slopes(const std::vector<Stress> &stresses) const;
 
     const dealii::FiniteElement<dim>   &element;
     const bool                          simplex;
@@ -59,6 +59,6 @@ namespace mortise
     std::array<LineTable, dim>          to_rule;
     std::vector<std::vector<double>>    ends; ///< values at 0 and 1
     dealii::FullMatrix<double>          projection; ///< of tetrahedra
-    std::array<dealii::FullMatrix<double>, dim> derivatives;
+    dealii::FullMatrix<double>          derivatives; ///< likewise, slopes() from values
   };
 } // namespace mortise

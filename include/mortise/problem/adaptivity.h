@@ -187,8 +187,8 @@ namespace mortise
     std::string
     worst_part() const;
     /// Histories from the change that the refinement before this cycle made;
-    /// its square over all cells. Collective.
-    double
+    /// its squares by body. Collective.
+    std::vector<double>
     learn(const Bodies                      &bodies,
           const std::vector<BodySolution>   &solutions,
           const std::optional<DualSolution> &dual);
@@ -217,7 +217,7 @@ namespace mortise
     unsigned int              n_meshes = 0; ///< how often there were new ones
     std::vector<BodySolution> earlier, earlier_dual;
     ErrorSums                 sums;
-    double residual = 0.; ///< square, of the equations in the last cycle
+    std::vector<double> residual; ///< by body, square, of the equations in the last cycle
     unsigned int n_estimates = 0; ///< since there was a new mesh
     std::vector<Violation>    interfaces;      ///< relative
     double                    last_value = 0.; ///< of the quantity
