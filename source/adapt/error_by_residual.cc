@@ -16,11 +16,12 @@ namespace mortise
   {
     // of 106 residuals on meshes of all kinds one in a hundred was smaller by
     // more, or larger (doc/adaptivity.md)
-    constexpr double least = 0.15 * 0.15, most = 0.8 * 0.8;
+    constexpr double least = 0.15 * 0.15;
     if (!(before > 0.))
-      return most;
+      return square_by_residual_unseen;
     return falls(before, now) ? std::max(least, change / (before - now)) :
-                                std::max(most, change / before);
+                                std::max(square_by_residual_unseen,
+                                         change / before);
   }
 
   double

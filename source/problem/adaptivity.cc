@@ -57,7 +57,8 @@ namespace mortise
     }
 
     /// By body: what all bodies together have shown, or what its own residual has, where that fell, if it is
-    /// more: where one body has most of the residual, what belongs to that of another is not seen.
+    /// more: where one body has most of the residual, what belongs to that of another is not seen. What a
+    /// body alone shows is no more than what nothing shows, since it also changes by what others do.
     std::vector<double>
     squares_by_residual(const std::vector<double> &changes,
                         const std::vector<double> &before,
@@ -69,7 +70,10 @@ namespace mortise
         if (falls(before[b], now[b]))
           result[b] =
             std::max(result[b],
-                     square_by_residual(changes[b], before[b], now[b]));
+                     std::min(square_by_residual_unseen,
+                              square_by_residual(changes[b],
+                                                 before[b],
+                                                 now[b])));
       return result;
     }
   } // namespace

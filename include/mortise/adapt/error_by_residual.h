@@ -8,6 +8,9 @@ namespace mortise
   /// anything is seen, of squares of norms.
   constexpr double square_by_residual_at_first = 0.5 * 0.5;
 
+  /// Likewise, at least, where residuals did not fall.
+  constexpr double square_by_residual_unseen = 0.8 * 0.8;
+
   /// Of that, or of what earlier refinements have shown, after the next one.
   constexpr double kept_of_earlier_cycles = 0.8 * 0.8;
 
