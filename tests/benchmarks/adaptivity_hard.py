@@ -440,7 +440,7 @@ def wrapped(paragraph):
 
 TEXT = """# An error in place of a mesh, where that is hard
 
-Regenerate: `tests/benchmarks/adaptivity_hard.py build/mortise` (writes this page). AMD EPYC with AVX-512, one core.
+Regenerate: `tests/benchmarks/adaptivity_hard.py build/mortise` (writes this page). Intel Xeon with AVX-512, one core, the other one busy.
 The script takes {minutes:.0f} minutes. Other scenes: [adaptivity.md](adaptivity.md), [adaptivity_scenes.md](adaptivity_scenes.md).
 
 Missed:

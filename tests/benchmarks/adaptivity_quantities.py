@@ -424,7 +424,7 @@ def main():
 
 TEXT = """# The error of one number in place of a mesh
 
-Regenerate: `tests/benchmarks/adaptivity_quantities.py build/mortise` (writes this page and the plot). AMD EPYC with AVX-512, one core.
+Regenerate: `tests/benchmarks/adaptivity_quantities.py build/mortise` (writes this page and the plot). Intel Xeon with AVX-512, one core, the other one busy.
 The energy as target: [adaptivity.md](adaptivity.md).
 
 Missed (goal: estimates 0.8 to 4 times the error in every cycle, 0.9 to 1.5 at the end, targets met by the true error, at most 14 iterations):
