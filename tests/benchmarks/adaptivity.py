@@ -237,7 +237,9 @@ fields by lot (waves, bumps, poles, layers, fronts, polynomials, r^a at corners 
 | seed | unknowns at most | starts | before: met, false, largest error by target | now: met, false, largest | seconds, median of ratios |
 |---|---|---|---|---|---|
 | 61, by an estimate of 1.25 times | 8000 | 106 | 53, 2, 1.72 | 50, 0, 0.90 | 0.83 |
-| 1618033 | 20000 | 726 | - | 476, 0, 0.87 | - |
+| 1618033, before bodies learn alone | 20000 | 726 | - | 476, 0, 0.87 | - |
+| 5772156 | 20000 | 720 | - | 458, 0, 0.90 | - |
+| 141421 | 8000 | 86 | 43, 3, 1.49 | 43, 0, 0.65 | 1.00 |
 
 ## Each cycle
 
