@@ -2,8 +2,8 @@
 
 #include <deal.II/grid/grid_tools.h>
 
-#include <mortise/base/of_all_ranks.h>
 #include <mortise/adapt/remeshing.h>
+#include <mortise/base/of_all_ranks.h>
 #include <mortise/body/elements/simplex_quadrature.h>
 
 #include <algorithm>

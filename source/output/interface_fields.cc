@@ -174,7 +174,7 @@ namespace mortise
       piece.begin_cell(shape, degree);
       for (const auto &node : lagrange_nodes(shape, degree))
         {
-          const auto     xi = Point<2>(node[0], node[1]) / degree;
+          const auto xi = Point<2>(node[0], node[1]) / degree;
           basis.evaluate(xi[0], xi[1], values.data());
           piece.add_point(face_point(face, xi));
           for (unsigned int f = 0; f < fields.size(); ++f)

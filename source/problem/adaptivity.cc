@@ -279,10 +279,9 @@ namespace mortise
                                    sums_by_body(residuals.equations, run.comm)),
                states);
     sums                  = error_sums(bodies, states);
-    const double for_sure = sum(residuals.conditions, run.comm) +
-                            std::pow(unit * interface_error(), 2),
-                 by_equations =
-                   sums.all - sum(residuals.conditions, run.comm);
+    const double conditions = sum(residuals.conditions, run.comm),
+                 for_sure = conditions + std::pow(unit * interface_error(), 2),
+                 by_equations = sums.all - conditions;
     estimated = std::sqrt(for_sure + by_equations) / unit;
     // where displacements are prescribed the exact solution has less energy than
     // this one, by the square of the error
