@@ -227,4 +227,72 @@ namespace mortise
   {
     FaceRules(face, c, records).apply(face.can_follow[c]);
   }
+
+  void
+  add_edges_of_larger_cells(const std::vector<MultiplierFace> &faces,
+                            const unsigned int                 n_directions,
+                            const bool                         presses_only,
+                            const AffineConstraints<double>   &conformity,
+                            MultiplierPlaces                  &places,
+                            MultiplierRecords                 &records)
+  {
+    using Index = types::global_dof_index;
+    struct Mode
+    {
+      unsigned int    degree = 0, of_edge = 0;
+      std::set<Index> rims; ///< by vertices at the ends of the edge
+    };
+    std::map<Index, Mode> modes;
+    MultiplierPlaces      found;
+    for (const MultiplierFace &face : faces)
+      for (unsigned int e = 0; e < face.basis->n_edges(); ++e)
+        {
+          std::map<unsigned int, Index> of_first; // by degree
+          for (unsigned int c = 0; c < n_directions; ++c)
+            {
+              // A mode of part of an edge follows those of the whole edge that
+              // have its degree or a higher one.
+              std::map<Index, unsigned int> degrees;
+              for (unsigned int k = 0; k < face.basis->size(); ++k)
+                if (const auto &f = face.basis->functions[k];
+                    f.dimension == 1 && f.entity == e &&
+                    conformity.is_constrained(face.dofs[c][k]))
+                  for (const auto &entry :
+                       *conformity.get_constraint_entries(face.dofs[c][k]))
+                    if (places.count(entry.first) == 0)
+                      {
+                        unsigned int &degree = degrees[entry.first];
+                        degree               = std::max(degree, f.degree);
+                      }
+              unsigned int highest = 0;
+              for (const auto &[dof, degree] : degrees)
+                highest = std::max(highest, degree);
+              for (const auto &[dof, degree] : degrees)
+                {
+                  if (c == 0)
+                    of_first[degree] = dof;
+                  found.emplace(dof, std::make_pair(of_first.at(degree), c));
+                  Mode &mode   = modes[dof];
+                  mode.degree  = degree;
+                  mode.of_edge = highest;
+                  for (const unsigned int v : face.basis->edge_vertices(e))
+                    for (unsigned int across = 0;
+                         across < face.basis->n_edges();
+                         ++across)
+                      if (const auto ends = face.basis->edge_vertices(across);
+                          across != e && (ends[0] == v || ends[1] == v) &&
+                          face.rim[c][across])
+                        mode.rims.insert(
+                          face.dofs[c][face.basis->vertex_function(v)]);
+                  MultiplierRecord &record = records[dof];
+                  record.on_full_face |= face.cover == Cover::full;
+                  record.can_follow |= face.can_follow[c];
+                }
+            }
+        }
+    for (const auto &[dof, mode] : modes)
+      records[dof].kept =
+        !presses_only && mode.degree + mode.rims.size() <= mode.of_edge;
+    places.insert(found.begin(), found.end());
+  }
 } // namespace mortise

@@ -235,11 +235,8 @@ namespace mortise
       partners,
       slides ? blocked_normals(body, slave, normals, blocked) : blocked);
 
-    MultiplierRecords records;
-    // with the dof of the first component there
-    std::map<types::global_dof_index,
-             std::pair<types::global_dof_index, unsigned int>>
-                           on_surface;
+    MultiplierRecords      records;
+    MultiplierPlaces       on_surface;
     MultiplierRecord::Dofs at_vertex;
     for (const MultiplierFace &face : faces)
       for (unsigned int c = 0; c < n_directions; ++c)
@@ -254,6 +251,8 @@ namespace mortise
           if (face.cover >= Cover::partial)
             apply_multiplier_rules(face, c, records);
         }
+    add_edges_of_larger_cells(
+      faces, n_directions, presses_only, body.conformity, on_surface, records);
     for (auto &[dof, record] : records)
       record.blocked &= !body.conformity.is_constrained(dof);
     for (const MultiplierFace &face : faces)

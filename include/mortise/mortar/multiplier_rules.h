@@ -2,10 +2,13 @@
 // by one face alone.
 #pragma once
 
+#include <deal.II/lac/affine_constraints.h>
+
 #include <mortise/mortar/multiplier_faces.h>
 
 #include <map>
 #include <set>
+#include <utility>
 
 namespace mortise
 {
@@ -47,6 +50,11 @@ namespace mortise
   using MultiplierRecords =
     std::map<dealii::types::global_dof_index, MultiplierRecord>;
 
+  /// By dof on the slave: the dof of the first component there, its component.
+  using MultiplierPlaces =
+    std::map<dealii::types::global_dof_index,
+             std::pair<dealii::types::global_dof_index, unsigned int>>;
+
   /// Add what @p face says about component @p c. As many multipliers are left
   /// as there are free displacements, or fewer:
   ///
@@ -69,4 +77,19 @@ namespace mortise
   make_up_for_blocked_vertices(const MultiplierFace &face,
                                unsigned int          c,
                                MultiplierRecords    &records);
+
+  /// At the margin of the slave and at its kinks edges of @p faces may hang on
+  /// one of a larger cell that has no face there. What displacements have there
+  /// follows the modes of that edge, which are multipliers, too, with the
+  /// reduction beside rims: add these to @p places, and their @p records, for
+  /// each of @p n_directions components. Where @p presses_only they are left
+  /// out, since no face gives them Bernstein coefficients. Behind
+  /// apply_multiplier_rules() for all faces.
+  void
+  add_edges_of_larger_cells(const std::vector<MultiplierFace>       &faces,
+                            unsigned int                             n_directions,
+                            bool                                     presses_only,
+                            const dealii::AffineConstraints<double> &conformity,
+                            MultiplierPlaces                        &places,
+                            MultiplierRecords                       &records);
 } // namespace mortise
