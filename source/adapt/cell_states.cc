@@ -249,7 +249,10 @@ namespace mortise
     auto &triangulation =
       dynamic_cast<HexTriangulation &>(*body.mesh.triangulation);
     body.pressure.reset();
-    body.dof_handler.clear();
+    // a handler follows the cells of its mesh, from deal.II 9.6 on without dofs,
+    // too, which then fails
+    static const Triangulation<dim> no_cells;
+    body.dof_handler.reinit(no_cells);
     for (const auto &cell : triangulation.active_cell_iterators())
       if (cell->is_locally_owned() && split[cell->active_cell_index()])
         cell->set_refine_flag();
