@@ -23,8 +23,11 @@ namespace mortise
     {
       const BodySurface &first  = a.interface->slave(),
                         &second = b.interface->slave();
+      // cells of different bodies must not be compared
       return !first.faces.empty() &&
              first.faces.size() == second.faces.size() &&
+             &first.cells[0]->get_dof_handler() ==
+               &second.cells[0]->get_dof_handler() &&
              first.cells[0] == second.cells[0] &&
              first.face_numbers[0] == second.face_numbers[0];
     }

@@ -20,6 +20,7 @@ namespace mortise
     /// zero where they drive none. Collective.
     SystemVector
     driven_motion(const Discretisation &discretisation,
+                  const Preloads       &preloads,
                   const SceneLoad      &load,
                   const FreeMotions    &free)
     {
@@ -40,6 +41,11 @@ namespace mortise
           Utilities::MPI::sum(ArrayView<const double>(sums),
                               system.communicator,
                               ArrayView<double>(sums));
+          Vector opening = load.rhs.multiplier;
+          system.apply_constraint(opening, motion.displacement);
+          const double of_preloads = preloads.work(opening);
+          sums[0] += of_preloads;
+          sums[1] += std::fabs(of_preloads);
           if (std::fabs(sums[0]) > rounding * sums[1])
             add_scaled(result, sums[0], motion);
         }
@@ -49,6 +55,7 @@ namespace mortise
 
   std::vector<bool>
   fall(const Discretisation &discretisation,
+       const Preloads       &preloads,
        const SceneLoad      &load,
        const SystemVector   &x,
        std::vector<bool>     active)
@@ -59,8 +66,10 @@ namespace mortise
     while (true)
       {
         const FreeMotions free =
-          discretisation.interfaces().free_motions(active);
-        const SystemVector motion = driven_motion(discretisation, load, free);
+          discretisation.interfaces().free_motions(active,
+                                                   preloads.have_forces());
+        const SystemVector motion =
+          driven_motion(discretisation, preloads, load, free);
         if (motion.displacement.linfty_norm() == 0.)
           return active;
         const Vector gaps = discretisation.gaps(load, at);

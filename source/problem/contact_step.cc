@@ -98,7 +98,7 @@ namespace mortise
   {
     try
       {
-        discretisation.interfaces().check_held(active);
+        discretisation.interfaces().check_held(active, preloads.have_forces());
       }
     catch (const InputError &error)
       {
@@ -311,7 +311,7 @@ namespace mortise
         if (tolerance == asked && !next.free.empty())
           {
             next.set.start_from(
-              fall(discretisation, load, x, next.set.active()));
+              fall(discretisation, preloads, load, x, next.set.active()));
             next.free = free_motions(next.set.active());
           }
         if (tolerance == asked && !next.free.empty())

@@ -103,8 +103,9 @@ namespace mortise
       section.add(
         "Preload",
         interface.preload,
-        "Law = tie: the normal force that the interface carries, positive where it pulls its sides together, as the head of a "
-        "bolt that is tightened [force]. By how much the sides approach for it follows, on top of Offset. Empty: none.",
+        "Law = tie: the normal force that the interface carries [force], positive where it pulls its sides together, as a cut "
+        "through the shank of a bolt that is tightened does; negative where it presses them apart, as between the head of "
+        "that bolt and what it holds. By how much the sides approach for it follows, on top of Offset. Empty: none.",
         {"an expression in t"});
       section.add(
         "Preload until",

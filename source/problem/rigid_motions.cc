@@ -203,7 +203,10 @@ namespace mortise
               text += (text.empty() ? " (tied by " : ", ") + ties[t].name +
                       ": " + std::to_string(n_multipliers[t]) +
                       " multipliers, " + covered +
-                      " % of the slave surface covered";
+                      " % of the slave surface covered" +
+                      (ties[t].released ?
+                         ", whose Preload is all along its normal" :
+                         "");
             }
         return text.empty() ? "" : text + ")";
       }

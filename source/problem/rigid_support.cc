@@ -154,11 +154,14 @@ namespace mortise
                          Support(2),
                          tie.directions == TiedDirections::normal &&
                            !is_plane(tie, comm)};
-    const auto    add = [&](const MultiplierMoment &m, Support &support) {
+    const auto    rows = [&](const MultiplierMoment &m) {
       Motion minus = row_of(master, m);
       for (double &entry : minus)
         entry *= -1.;
-      support.add({row_of(slave, m), minus}, 1., m.weight.norm_square());
+      return std::vector<Motion>{row_of(slave, m), minus};
+    };
+    const auto add = [&](const MultiplierMoment &m, Support &support) {
+      support.add(rows(m), 1., m.weight.norm_square());
     };
     for (const MultiplierMoment &m : tie.multipliers)
       {
@@ -172,6 +175,33 @@ namespace mortise
               turned.moment[d] = m.moment[c];
               add(turned, result.along_all);
             }
+      }
+    if (tie.released)
+      {
+        // rows as if they had an unknown more, the shortening, of which each
+        // has what it feels of a translation along the normal
+        MultiplierMoment    sum;
+        std::vector<double> sums(1 + dim + dim * dim, 0.);
+        for (const MultiplierMoment &m : tie.multipliers)
+          {
+            const double along = m.weight * *tie.released;
+            sums[0] += along * along;
+            for (unsigned int c = 0; c < dim; ++c)
+              {
+                sums[1 + c] += along * m.weight[c];
+                for (unsigned int d = 0; d < dim; ++d)
+                  sums[1 + dim + dim * c + d] += along * m.moment[c][d];
+              }
+          }
+        Utilities::MPI::sum(sums, comm, sums);
+        for (unsigned int c = 0; c < dim; ++c)
+          {
+            sum.weight[c] = sums[1 + c];
+            for (unsigned int d = 0; d < dim; ++d)
+              sum.moment[c][d] = sums[1 + dim + dim * c + d];
+          }
+        if (sums[0] > 0. && Utilities::MPI::this_mpi_process(comm) == 0)
+          result.along_directions.add(rows(sum), -1. / sums[0], 0.);
       }
     result.along_directions.finish(comm);
     result.along_all.finish(comm);

@@ -16,6 +16,21 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Of the slave surface. Collective.
+    Tensor<1, dim>
+    mean_normal(const TieSupport &tie, const MPI_Comm comm)
+    {
+      Tensor<1, dim> sum;
+      for (const auto &place : tie.places)
+        sum += place.area * place.normal;
+      sum               = Utilities::MPI::sum(sum, comm);
+      const double norm = sum.norm();
+      return norm > 0. ? sum / norm : sum;
+    }
+  } // namespace
+
   std::vector<bool>
   SceneCouplings::blocked_dofs(const unsigned int       b,
                                const std::vector<bool> &taken) const
@@ -155,6 +170,7 @@ namespace mortise
                         multiplier_moments(couplings[i], owned, run.comm),
                         report.covered_area / report.slave_area,
                         couplings[i].directions,
+                        {},
                         {}});
         const BodySurface &slave = couplings[i].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
@@ -223,18 +239,25 @@ namespace mortise
     const auto states = partner_states(couplings);
     for (unsigned int i = 0; i < couplings.size(); ++i)
       check_constants(i, states[i]);
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      if (interfaces[i].preload)
+        ties[i].released = mean_normal(ties[i], run.comm);
     check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
     if (have_contact())
       supports = std::move(ties);
   }
 
   std::vector<TieSupport>
-  SceneCouplings::supports_of(const std::vector<bool> &active) const
+  SceneCouplings::supports_of(const std::vector<bool> &active,
+                              const std::vector<bool> &is_preloaded) const
   {
     auto         ties  = supports;
     unsigned int first = 0;
-    for (TieSupport &tie : ties)
+    for (unsigned int i = 0; i < ties.size(); ++i)
       {
+        TieSupport &tie = ties[i];
+        if (!is_preloaded[i])
+          tie.released.reset();
         std::vector<MultiplierMoment> pressing;
         for (unsigned int k = 0; k < tie.multipliers.size(); ++k)
           if (active[first + k])
@@ -246,17 +269,21 @@ namespace mortise
   }
 
   void
-  SceneCouplings::check_held(const std::vector<bool> &active) const
+  SceneCouplings::check_held(const std::vector<bool> &active,
+                             const std::vector<bool> &is_preloaded) const
   {
-    check_rigid_motions(spaces.bodies, spaces.dirichlet, supports_of(active));
+    check_rigid_motions(spaces.bodies,
+                        spaces.dirichlet,
+                        supports_of(active, is_preloaded));
   }
 
   FreeMotions
-  SceneCouplings::free_motions(const std::vector<bool> &active) const
+  SceneCouplings::free_motions(const std::vector<bool> &active,
+                               const std::vector<bool> &is_preloaded) const
   {
     return find_free_motions(spaces.bodies,
                              spaces.dirichlet,
-                             supports_of(active));
+                             supports_of(active, is_preloaded));
   }
 
   void

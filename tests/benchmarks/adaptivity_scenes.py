@@ -224,7 +224,7 @@ def main():
 TEXT = """# Edges and contact from coarse meshes
 
 Regenerate: `tests/benchmarks/adaptivity_scenes.py build/mortise --peers tests/benchmarks` (writes this page and the plot; without NGSolve leave out
-`--peers`). AMD EPYC with AVX-512, one core.
+`--peers`). Intel Xeon with AVX-512, one core.
 
 Missed:
 

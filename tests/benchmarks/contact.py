@@ -329,7 +329,7 @@ def main():
 TEXT = """# Contact without friction
 
 Regenerate: `tests/benchmarks/contact.py build/mortise --peers DIRECTORY` (writes this page and the picture; `DIRECTORY` holds
-ngsolve_pressfit.py, without it Mortise alone). AMD EPYC without AVX-512.
+ngsolve_pressfit.py, without it Mortise alone). Intel Xeon with AVX-512.
 
 Missed: `flange_lift` and `hertz` by force at p = 2 cost more than three ties. At degree 1, which has no lower one to start from, `hertz` by force takes 11 sets and the layer that
 recedes 13 (goal 8); on triangles, where what has a sign are Bernstein coefficients, `hertz_solid` takes 8 to 13. Waves: cells of one size N^-0.35 to -0.5,

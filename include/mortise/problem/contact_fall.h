@@ -3,18 +3,20 @@
 #pragma once
 
 #include <mortise/problem/discretisation.h>
+#include <mortise/problem/preloads.h>
 
 #include <vector>
 
 namespace mortise
 {
   /// Bodies that @p active multipliers, by owned one, do not hold fall from @p x along their
-  /// loads, rigid, until gaps close, whose multipliers are then active, and on along what is
+  /// loads and @p preloads, rigid, until gaps close, whose multipliers are then active, and on along what is
   /// still free. What closed first need not press in the end: sets that follow
   /// tell. The result leaves motions free where no load goes along them, or
   /// nothing is in the way. Collective.
   std::vector<bool>
   fall(const Discretisation &discretisation,
+       const Preloads       &preloads,
        const SceneLoad      &load,
        const SystemVector   &x,
        std::vector<bool>     active);

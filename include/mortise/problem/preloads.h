@@ -47,6 +47,15 @@ namespace mortise
       return indices;
     }
 
+    /// By interface of the scene: is its force given since begin(), and not its shortening?
+    std::vector<bool>
+    have_forces() const;
+
+    /// What the given forces do along a motion that the constraint feels as @p opening.
+    /// Collective.
+    double
+    work(const Vector &opening) const;
+
     /// The normal force that preloaded interface @p j carries, positive where it pulls the
     /// sides together. Collective.
     double

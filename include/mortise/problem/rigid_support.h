@@ -10,6 +10,7 @@
 #include <mortise/operators/scene_system.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -130,6 +131,8 @@ namespace mortise
     };
     /// Of this rank, spread over the covered part of the slave surface.
     std::vector<Place> places;
+    /// The sides come as close along it as a given force takes: a preload.
+    std::optional<dealii::Tensor<1, dim>> released;
   };
 
   /// Symmetric and positive semidefinite: a sum of squares.

@@ -53,13 +53,17 @@ namespace mortise
     select(const std::vector<bool> &active);
 
     /// Throws InputError that names the bodies which @p active multipliers, by owned one,
-    /// do not hold, and their motions. Collective.
+    /// do not hold, and their motions. @p is_preloaded, by interface: its force is given
+    /// now, and its sides come as close as that takes. Collective.
     void
-    check_held(const std::vector<bool> &active) const;
+    check_held(const std::vector<bool> &active,
+               const std::vector<bool> &is_preloaded) const;
 
-    /// Those that @p active multipliers, by owned one, leave. Collective.
+    /// Those that @p active multipliers, by owned one, leave. @p is_preloaded as for check_held().
+    /// Collective.
     FreeMotions
-    free_motions(const std::vector<bool> &active) const;
+    free_motions(const std::vector<bool> &active,
+                 const std::vector<bool> &is_preloaded) const;
 
     /// Does an interface let bodies slide?
     bool
@@ -151,7 +155,8 @@ namespace mortise
     tie_supports() const;
     /// The ties of active multipliers, in scenes with contact.
     std::vector<TieSupport>
-    supports_of(const std::vector<bool> &active) const;
+    supports_of(const std::vector<bool> &active,
+                const std::vector<bool> &is_preloaded) const;
     /// Throws InputError where constant tractions do not pass interface @p i, though its master
     /// could follow. @p states: of its slave faces.
     void
