@@ -151,7 +151,7 @@ def main():
 
 TEXT = """# An error in place of a mesh
 
-Regenerate: `tests/benchmarks/adaptivity.py build/mortise` (writes this page and the plot). Intel Xeon with AVX-512, one core, the other one busy.
+Regenerate: `tests/benchmarks/adaptivity.py build/mortise` (writes this page and the plot). Intel Xeon with AVX-512, one core.
 Edges, cracks, contact, NGSolve and CalculiX beside it: [adaptivity_scenes.md](adaptivity_scenes.md); one number as target: [adaptivity_quantities.md](adaptivity_quantities.md);
 bodies of which one is far coarser, flat or nearly incompressible, contact in load steps: [adaptivity_hard.md](adaptivity_hard.md).
 
@@ -160,9 +160,9 @@ Missed or not there:
 - Meshes that go on from step to step: with `Steps` each begins with the first mesh again and has all cycles of its own.
 - A solver tolerance that follows the estimate: tried. Solves are a tenth of the time of all cycles (curved blocks at 1e-7: 0.11 of 1.15 s); a tolerance ten times
   as large gains 3 %, one a hundred times as large makes estimates wrong.
-- Estimates 0.8 to 4 times the error in single cycles: 0.68 and 0.64 (curved blocks, the first two). At the end 0.9 to 1.5: curved blocks 1.86 and 1.52 at 1e-5 and 1e-7.
-- Seconds three times those of the best run without: 7.0, 4.4 and 4.6 beside cells graded by hand (Fichera at 1e-3, 3e-4 and 1e-4: an estimate that is 0.96 of the target is not enough, the
-  next cycle leaves 0.4 of it), 3.9 and 4.7 beside the best uniform degree (curved blocks at 1e-3 and 1e-7). Unknowns are up to 1.70 times (Fichera at 1e-3; goal 1.5).
+- Estimates 0.8 to 4 times the error in single cycles: 0.68 and 0.64 (curved blocks, the first two). At the end 0.9 to 1.5: curved blocks 1.76 and 1.69 at 1e-5 and 1e-7.
+- Seconds three times those of the best run without: 6.5, 4.1 and 4.7 beside cells graded by hand (Fichera at 1e-3, 3e-4 and 1e-4: an estimate that is 0.96 of the target is not enough, the
+  next cycle leaves 0.4 of it), 4.1 and 4.6 beside the best uniform degree (curved blocks at 1e-3 and 1e-7). Unknowns are up to 1.70 times (Fichera at 1e-3; goal 1.5).
 - New meshes to 1e-2 take 79,878 unknowns, degree 8 on all cells of the first mesh 58,803. `prm/flange_adaptive.prm` takes 290,045 unknowns; estimated by changes it ended with 74,753, where
   residuals estimate 0.07, perhaps 0.10.
 
