@@ -91,19 +91,21 @@ namespace mortise
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);
 
-    std::vector<MultiplierMoment> result;
-    for (unsigned int k = 0; k < owned_multiplier.n_elements(); ++k)
-      if (const double bound = sums[0].local_element(k))
-        {
-          result.emplace_back();
+    std::vector<MultiplierMoment> result(coupling.multipliers->n_owned());
+    const auto                   &layout = *sums[0].get_partitioner();
+    const auto                    first  = coupling.multipliers->first();
+    for (unsigned int k = 0; k < result.size(); ++k)
+      {
+        const auto i = layout.global_to_local(first + k);
+        if (const double bound = sums[0].local_element(i))
           for (unsigned int c = 0; c < dim; ++c)
             {
-              result.back().weight[c] = sums[1 + c].local_element(k) / bound;
+              result[k].weight[c] = sums[1 + c].local_element(i) / bound;
               for (unsigned int d = 0; d < dim; ++d)
-                result.back().moment[c][d] =
-                  sums[1 + dim + dim * c + d].local_element(k) / bound;
+                result[k].moment[c][d] =
+                  sums[1 + dim + dim * c + d].local_element(i) / bound;
             }
-        }
+      }
     return result;
   }
 

@@ -93,7 +93,7 @@ namespace mortise
     dealii::Tensor<2, dim> moment; ///< [c]: int psi_c x, a length
   };
 
-  /// Of the owned multipliers of @p coupling. Collective.
+  /// By owned multiplier of @p coupling; zero where it has no weight anywhere. Collective.
   std::vector<MultiplierMoment>
   multiplier_moments(const Coupling         &coupling,
                      const dealii::IndexSet &owned_multiplier,
