@@ -92,18 +92,15 @@ namespace mortise
       sum.compress(VectorOperation::add);
 
     std::vector<MultiplierMoment> result(coupling.multipliers->n_owned());
-    const auto                   &layout = *sums[0].get_partitioner();
-    const auto                    first  = coupling.multipliers->first();
     for (unsigned int k = 0; k < result.size(); ++k)
       {
-        const auto i = layout.global_to_local(first + k);
-        if (const double bound = sums[0].local_element(i))
+        const auto i = coupling.multipliers->first() + k;
+        if (const double bound = sums[0](i))
           for (unsigned int c = 0; c < dim; ++c)
             {
-              result[k].weight[c] = sums[1 + c].local_element(i) / bound;
+              result[k].weight[c] = sums[1 + c](i) / bound;
               for (unsigned int d = 0; d < dim; ++d)
-                result[k].moment[c][d] =
-                  sums[1 + dim + dim * c + d].local_element(i) / bound;
+                result[k].moment[c][d] = sums[1 + dim + dim * c + d](i) / bound;
             }
       }
     return result;

@@ -228,6 +228,53 @@ namespace mortise
     FaceRules(face, c, records).apply(face.can_follow[c]);
   }
 
+  namespace
+  {
+    using Index = types::global_dof_index;
+
+    /// By dof that none of @p places has, and that edge @p e of @p face hangs
+    /// on: the degree of its mode. A mode of part of an edge follows those of
+    /// the whole edge that have its degree or a higher one.
+    std::map<Index, unsigned int>
+    modes_of_larger_edge(const MultiplierFace            &face,
+                         const unsigned int               c,
+                         const unsigned int               e,
+                         const AffineConstraints<double> &conformity,
+                         const MultiplierPlaces          &places)
+    {
+      std::map<Index, unsigned int> degrees;
+      for (unsigned int k = 0; k < face.basis->size(); ++k)
+        if (const auto &f = face.basis->functions[k];
+            f.dimension == 1 && f.entity == e &&
+            conformity.is_constrained(face.dofs[c][k]))
+          for (const auto &entry :
+               *conformity.get_constraint_entries(face.dofs[c][k]))
+            if (places.count(entry.first) == 0)
+              {
+                unsigned int &degree = degrees[entry.first];
+                degree               = std::max(degree, f.degree);
+              }
+      return degrees;
+    }
+
+    /// The ends of edge @p e of @p face, by their dofs, where another edge is a
+    /// rim.
+    MultiplierRecord::Dofs
+    ends_on_rims(const MultiplierFace &face,
+                 const unsigned int    c,
+                 const unsigned int    e)
+    {
+      MultiplierRecord::Dofs result;
+      for (unsigned int other = 0; other < face.basis->n_edges(); ++other)
+        if (other != e && face.rim[c][other])
+          for (const unsigned int v : face.basis->edge_vertices(e))
+            if (const auto ends = face.basis->edge_vertices(other);
+                ends[0] == v || ends[1] == v)
+              result.insert(face.dofs[c][face.basis->vertex_function(v)]);
+      return result;
+    }
+  } // namespace
+
   void
   add_edges_of_larger_cells(const std::vector<MultiplierFace> &faces,
                             const unsigned int                 n_directions,
@@ -236,11 +283,10 @@ namespace mortise
                             MultiplierPlaces                  &places,
                             MultiplierRecords                 &records)
   {
-    using Index = types::global_dof_index;
     struct Mode
     {
-      unsigned int    degree = 0, of_edge = 0;
-      std::set<Index> rims; ///< by vertices at the ends of the edge
+      unsigned int           degree, of_edge;
+      MultiplierRecord::Dofs rims; ///< at both ends of the edge
     };
     std::map<Index, Mode> modes;
     MultiplierPlaces      found;
@@ -250,20 +296,9 @@ namespace mortise
           std::map<unsigned int, Index> of_first; // by degree
           for (unsigned int c = 0; c < n_directions; ++c)
             {
-              // A mode of part of an edge follows those of the whole edge that
-              // have its degree or a higher one.
-              std::map<Index, unsigned int> degrees;
-              for (unsigned int k = 0; k < face.basis->size(); ++k)
-                if (const auto &f = face.basis->functions[k];
-                    f.dimension == 1 && f.entity == e &&
-                    conformity.is_constrained(face.dofs[c][k]))
-                  for (const auto &entry :
-                       *conformity.get_constraint_entries(face.dofs[c][k]))
-                    if (places.count(entry.first) == 0)
-                      {
-                        unsigned int &degree = degrees[entry.first];
-                        degree               = std::max(degree, f.degree);
-                      }
+              const auto degrees =
+                modes_of_larger_edge(face, c, e, conformity, places);
+              const auto   rims    = ends_on_rims(face, c, e);
               unsigned int highest = 0;
               for (const auto &[dof, degree] : degrees)
                 highest = std::max(highest, degree);
@@ -275,15 +310,7 @@ namespace mortise
                   Mode &mode   = modes[dof];
                   mode.degree  = degree;
                   mode.of_edge = highest;
-                  for (const unsigned int v : face.basis->edge_vertices(e))
-                    for (unsigned int across = 0;
-                         across < face.basis->n_edges();
-                         ++across)
-                      if (const auto ends = face.basis->edge_vertices(across);
-                          across != e && (ends[0] == v || ends[1] == v) &&
-                          face.rim[c][across])
-                        mode.rims.insert(
-                          face.dofs[c][face.basis->vertex_function(v)]);
+                  mode.rims.insert(rims.begin(), rims.end());
                   MultiplierRecord &record = records[dof];
                   record.on_full_face |= face.cover == Cover::full;
                   record.can_follow |= face.can_follow[c];

@@ -102,9 +102,16 @@ namespace mortise
   {
     double sum = 0.;
     for (unsigned int j = 0; j < indices.size(); ++j)
-      if (const Vector &w = units[j].rhs.multiplier; forces[j])
-        sum += *forces[j] * (w * opening) / (w * w);
+      if (forces[j])
+        sum += *forces[j] * shortening(j, opening);
     return sum;
+  }
+
+  double
+  Preloads::shortening(const unsigned int j, const Vector &opening) const
+  {
+    const Vector &w = units[j].rhs.multiplier;
+    return (w * opening) / (w * w);
   }
 
   double
@@ -283,9 +290,8 @@ namespace mortise
     opening -= given;
     for (unsigned int j = 0; j < indices.size(); ++j)
       {
-        const Vector &w = units[j].rhs.multiplier;
-        values[j]       = 0.;
-        shorten(j, (w * opening) / (w * w), load, nullptr);
+        values[j] = 0.;
+        shorten(j, shortening(j, opening), load, nullptr);
       }
   }
 } // namespace mortise

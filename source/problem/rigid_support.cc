@@ -180,28 +180,20 @@ namespace mortise
       {
         // rows as if they had an unknown more, the shortening, of which each
         // has what it feels of a translation along the normal
-        MultiplierMoment    sum;
-        std::vector<double> sums(1 + dim + dim * dim, 0.);
+        MultiplierMoment sum;
+        double           squares = 0.;
         for (const MultiplierMoment &m : tie.multipliers)
           {
             const double along = m.weight * *tie.released;
-            sums[0] += along * along;
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                sums[1 + c] += along * m.weight[c];
-                for (unsigned int d = 0; d < dim; ++d)
-                  sums[1 + dim + dim * c + d] += along * m.moment[c][d];
-              }
+            squares += along * along;
+            sum.weight += along * m.weight;
+            sum.moment += along * m.moment;
           }
-        Utilities::MPI::sum(sums, comm, sums);
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            sum.weight[c] = sums[1 + c];
-            for (unsigned int d = 0; d < dim; ++d)
-              sum.moment[c][d] = sums[1 + dim + dim * c + d];
-          }
-        if (sums[0] > 0. && Utilities::MPI::this_mpi_process(comm) == 0)
-          result.along_directions.add(rows(sum), -1. / sums[0], 0.);
+        squares    = Utilities::MPI::sum(squares, comm);
+        sum.weight = Utilities::MPI::sum(sum.weight, comm);
+        sum.moment = Utilities::MPI::sum(sum.moment, comm);
+        if (squares > 0. && Utilities::MPI::this_mpi_process(comm) == 0)
+          result.along_directions.add(rows(sum), -1. / squares, 0.);
       }
     result.along_directions.finish(comm);
     result.along_all.finish(comm);

@@ -13,22 +13,6 @@ using namespace mortise::testing;
 namespace
 {
   std::string
-  body(const std::string &name,
-       const std::string &mesh,
-       const std::string &prescribed)
-  {
-    std::string text = "subsection Body " + name + "\n  subsection Mesh\n" +
-                       mesh +
-                       "  end\n  subsection Material\n    set Young modulus = 1\n"
-                       "    set Poisson ratio = 0.3\n  end\n";
-    std::istringstream names(prescribed);
-    for (std::string boundary; names >> boundary;)
-      text += "  subsection Boundary " + boundary +
-              "\n    set Displacement = exact\n  end\n";
-    return text + "end\n";
-  }
-
-  std::string
   interface(const std::string &name,
             const std::string &slave,
             const std::string &master,
@@ -43,25 +27,13 @@ namespace
   std::string
   scene(const std::string &law)
   {
-    const std::string file =
-      (std::filesystem::path(__FILE__).parent_path() /
-       "../../meshes/l_shape_sides.msh")
-        .string();
     return "set Bodies = slab, corner, cube\n"
            "set Interfaces = corner on slab, cube on slab, cube in corner x, "
            "cube in corner y\n"
            "subsection Output\n  set Directory = unused\n  set Fields =\nend\n" +
-           body("slab",
-                "    set Extent = -1, -1, -1, 1, 1, 0\n"
-                "    set Subdivisions = 6, 6, 2\n",
-                "xmin xmax ymin ymax zmin") +
-           body("corner",
-                "    set Source = file\n    set File = " + file + "\n",
-                "xmin xmax ymin ymax zmax") +
-           body("cube",
-                "    set Extent = 0, 0, 0, 1, 1, 1\n"
-                "    set Subdivisions = 4, 4, 4\n",
-                "xmax ymax zmax") +
+           box("slab", "-1, -1, -1, 1, 1, 0", "xmin xmax ymin ymax zmin", "") +
+           body("corner", "file", "", "xmin xmax ymin ymax zmax", "") +
+           box("cube", "0, 0, 0, 1, 1, 1", "xmax ymax zmax", "") +
            interface("corner on slab", "corner: zmin", "slab: zmax", law) +
            interface("cube on slab", "slab: zmax", "cube: zmin", law) +
            interface("cube in corner x", "corner: inner x", "cube: xmin", law) +
@@ -75,6 +47,12 @@ namespace
         const std::string &displacement)
   {
     Settings settings = {"Exact solution/Displacement=" + displacement,
+                         "Body slab/Mesh/Subdivisions=6, 6, 2",
+                         "Body cube/Mesh/Subdivisions=4, 4, 4",
+                         "Body corner/Mesh/File=" +
+                           (std::filesystem::path(__FILE__).parent_path() /
+                            "../../meshes/l_shape_sides.msh")
+                             .string(),
                          "Body corner/Mesh/Refine near=" + near,
                          "Solver/Tolerance=1e-13"};
     for (const std::string name : {"slab", "corner", "cube"})

@@ -96,6 +96,9 @@ namespace mortise
     /// start from those of earlier steps, beside which shortenings are large.
     SolveReport
     solve_other_loads(const SceneLoad &load, SystemVector &x);
+    /// The part of what the constraint feels, @p opening, that is d w. Collective.
+    double
+    shortening(unsigned int j, const Vector &opening) const;
     /// Add d w to @p load, and to x what it brings.
     void
     shorten(unsigned int j, double d, SceneLoad &load, SystemVector *x);
