@@ -249,8 +249,8 @@ namespace mortise
     auto &triangulation =
       dynamic_cast<HexTriangulation &>(*body.mesh.triangulation);
     body.pressure.reset();
-    // a handler follows the cells of its mesh, from deal.II 9.6 on without dofs,
-    // too, which then fails
+    // a handler follows the cells of its mesh, from deal.II 9.6 on without
+    // dofs, too, which then fails
     static const Triangulation<dim> no_cells;
     body.dof_handler.reinit(no_cells);
     for (const auto &cell : triangulation.active_cell_iterators())

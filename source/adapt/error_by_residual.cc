@@ -19,9 +19,9 @@ namespace mortise
     constexpr double least = 0.15 * 0.15;
     if (!(before > 0.))
       return square_by_residual_unseen;
-    return falls(before, now) ? std::max(least, change / (before - now)) :
-                                std::max(square_by_residual_unseen,
-                                         change / before);
+    return falls(before, now) ?
+             std::max(least, change / (before - now)) :
+             std::max(square_by_residual_unseen, change / before);
   }
 
   double

@@ -238,7 +238,7 @@ namespace mortise
     for_each_cell(bodies,
                   states,
                   [&](const Body &body, const auto &cell, CellState &state) {
-                    const unsigned int k = cell->active_cell_index();
+                    const unsigned int k       = cell->active_cell_index();
                     CellHistory       &history = state.history;
                     // what one cycle has shown may be chance
                     if (history.is_refined)

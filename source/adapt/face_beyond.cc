@@ -61,10 +61,10 @@ namespace mortise
         if (neighbour->vertex_index(v) == whole->vertex_index(given[i]))
           result.corners[i] = v;
     const auto holds = [&](const unsigned int g, const unsigned int v) {
-      return simplex ? v != 6 - tetrahedron_faces[g][0] -
-                              tetrahedron_faces[g][1] -
-                              tetrahedron_faces[g][2] :
-                       ((v >> (g / 2)) & 1u) == g % 2;
+      return simplex ?
+               v != 6 - tetrahedron_faces[g][0] - tetrahedron_faces[g][1] -
+                      tetrahedron_faces[g][2] :
+               ((v >> (g / 2)) & 1u) == g % 2;
     };
     for (const unsigned int g : neighbour->face_indices())
       if (holds(g, result.corners[0]) && holds(g, result.corners[1]) &&
@@ -88,9 +88,9 @@ namespace mortise
       {
         if (beyond.child)
           for (unsigned int a = 0; a < 2; ++a)
-            xi[a] = 0.5 * (xi[a] + ((*beyond.child >>
-                                     face_topology::direction(f, a)) &
-                                    1u));
+            xi[a] =
+              0.5 * (xi[a] +
+                     ((*beyond.child >> face_topology::direction(f, a)) & 1u));
         result.push_back(corners[0] + xi[0] * (corners[1] - corners[0]) +
                          xi[1] * (corners[2] - corners[0]));
       }

@@ -113,8 +113,8 @@ namespace mortise
       double
       length(const Body::CellIterator &cell) const
       {
-        return cell->diameter() /
-               (body.mesh.tetrahedra ? 1. : std::sqrt(3.)) / body.degree(cell);
+        return cell->diameter() / (body.mesh.tetrahedra ? 1. : std::sqrt(3.)) /
+               body.degree(cell);
       }
       Tensor<1, dim>
       given_traction(const Body::CellIterator &cell,
@@ -129,7 +129,8 @@ namespace mortise
       const BodySolution              &solution;
       const BodyData                  &data;
       std::vector<std::vector<Stress>> stresses; ///< of owned and ghost cells
-      std::set<std::pair<unsigned int, unsigned int>> have_partners; ///< cell, face
+      std::set<std::pair<unsigned int, unsigned int>>
+        have_partners; ///< cell, face
       std::map<unsigned int, std::unique_ptr<StressPolynomials>> by_element;
       std::map<Key, std::unique_ptr<FaceGeometry>>               geometries;
       std::map<Key, std::unique_ptr<FaceValues>>                 functions;
@@ -204,8 +205,8 @@ namespace mortise
     void
     BodyResiduals::add_inside(const Body::CellIterator &cell)
     {
-      StressPolynomials    &of     = polynomials(cell);
-      const Quadrature<dim> rule   = StressPolynomials::rule(cell->get_fe());
+      StressPolynomials    &of   = polynomials(cell);
+      const Quadrature<dim> rule = StressPolynomials::rule(cell->get_fe());
       auto forces = of.divergence(cell, stresses[cell->active_cell_index()]);
       if (data.loads.body_force)
         {
@@ -216,12 +217,11 @@ namespace mortise
       const auto &jacobians = of.geometry.jacobians(cell);
       double      sum       = 0.;
       for (unsigned int q = 0; q < forces.size(); ++q)
-        sum += rule.weight(q) * determinant(jacobians[q]) *
-               forces[q].norm_square();
+        sum +=
+          rule.weight(q) * determinant(jacobians[q]) * forces[q].norm_square();
       // of a function without mean, by its gradient
       equations[cell->active_cell_index()] +=
-        std::pow(length(cell) / numbers::PI, 2) * sum /
-        body.material.modulus();
+        std::pow(length(cell) / numbers::PI, 2) * sum / body.material.modulus();
     }
 
     Tensor<1, dim>
@@ -263,9 +263,9 @@ namespace mortise
         {
           const auto factors = polynomials(cell).factors_on_face(
             f, coordinates.unit_point(point.xi[0], point.xi[1]));
-          const auto missing =
-            given_traction(cell, f, point.x, point.normal) + point.traction -
-            traction(factors.data(), stress, point.normal);
+          const auto missing = given_traction(cell, f, point.x, point.normal) +
+                               point.traction -
+                               traction(factors.data(), stress, point.normal);
           for (unsigned int c = 0; c < dim; ++c)
             if (is_free[c] && point.is_known[c])
               sum += point.weight * missing[c] * missing[c];
@@ -315,10 +315,8 @@ namespace mortise
     {
       auto &face = functions[{{cell->active_fe_index(), f, 0}}];
       if (!face)
-        face = std::make_unique<FaceValues>(body,
-                                            cell,
-                                            f,
-                                            body.degree(cell) + 2);
+        face =
+          std::make_unique<FaceValues>(body, cell, f, body.degree(cell) + 2);
       face->reinit(cell);
       const auto u   = cell_coefficients(body, cell, solution);
       double     sum = 0.;
@@ -367,8 +365,9 @@ namespace mortise
                       [&] {
                         return points_beyond(cell->get_fe(), f, n, beyond);
                       });
-      const auto stress = on_face(cell, f), stress_beyond = on_face(neighbour, beyond.number);
-      double     sum    = 0.;
+      const auto stress        = on_face(cell, f),
+                 stress_beyond = on_face(neighbour, beyond.number);
+      double sum               = 0.;
       for (unsigned int q = 0; q < face.points.size(); ++q)
         sum += face.weights[q] *
                (traction(&factors[q * stress.size()], stress, face.normals[q]) -

@@ -22,7 +22,8 @@ namespace mortise
       return result;
     }
 
-    /// The functions of a tetrahedron at one point; slopes cost several times as much as values.
+    /// The functions of a tetrahedron at one point; slopes cost several times
+    /// as much as values.
     struct Functions
     {
       Functions(const FiniteElement<dim> &element,
@@ -44,7 +45,7 @@ namespace mortise
     };
   } // namespace
 
-  StressPolynomials::StressPolynomials(const Body             &body,
+  StressPolynomials::StressPolynomials(const Body               &body,
                                        const FiniteElement<dim> &element)
     : geometry(body, element.reference_cell(), rule(element))
     , element(element.base_element(0))
@@ -208,8 +209,8 @@ namespace mortise
       return Functions(element, x, false).values;
     std::vector<double> result;
     const unsigned int  d     = f / 2;
-    const auto         first = lagrange_at(line, x[d == 0 ? 1 : 0]),
-               second        = lagrange_at(line, x[d == 2 ? 1 : 2]);
+    const auto          first = lagrange_at(line, x[d == 0 ? 1 : 0]),
+               second         = lagrange_at(line, x[d == 2 ? 1 : 2]);
     for (const double b : second)
       for (const double a : first)
         result.push_back(a * b);

@@ -227,9 +227,10 @@ namespace mortise::interruption
   void
   add_complete(const std::string &file)
   {
-    complete_files.erase(
-      std::remove(complete_files.begin(), complete_files.end(), file),
-      complete_files.end());
+    complete_files.erase(std::remove(complete_files.begin(),
+                                     complete_files.end(),
+                                     file),
+                         complete_files.end());
     complete_files.push_back(file);
     complete.set(what_is_complete());
   }

@@ -26,9 +26,7 @@ namespace mortise
       if (std::iscntrl(static_cast<unsigned char>(c)))
         c = '?';
     return mark + shorter + mark +
-           (whole ?
-              "" :
-              " (" + std::to_string(text.size()) + " characters)");
+           (whole ? "" : " (" + std::to_string(text.size()) + " characters)");
   }
 
   std::string

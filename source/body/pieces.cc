@@ -18,7 +18,8 @@ namespace mortise
 
     constexpr Label no_label = std::numeric_limits<Label>::max();
 
-    /// What the vertices of owned and ghost cells hold together on this rank: the group of each vertex.
+    /// What the vertices of owned and ghost cells hold together on this rank:
+    /// the group of each vertex.
     class LocalGroups
     {
     public:
@@ -65,7 +66,7 @@ namespace mortise
           if (!cell->is_artificial())
             {
               Label &least = of_group[groups.root(cell->vertex_index(0))];
-              least = std::min(least, label[cell->active_cell_index()]);
+              least        = std::min(least, label[cell->active_cell_index()]);
             }
         for (const auto &cell : cells)
           if (!cell->is_artificial())

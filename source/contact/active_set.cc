@@ -83,8 +83,8 @@ namespace mortise
                        small    = now[i] ?
                                     std::max(least, rounding * stiffness[i]) :
                                     std::max(least / stiffness[i], rounding);
-          turns[i]           = value < -small;
-          unclear[i]         = !turns[i] && value <= small;
+          turns[i]              = value < -small;
+          unclear[i]            = !turns[i] && value <= small;
         }
     const std::vector<bool> before = now;
     const auto              turn   = [&](const std::vector<bool> &those) {
@@ -150,7 +150,8 @@ namespace mortise
     for (unsigned int i = 0; i < falling.size(); ++i)
       if (one_sided[i] && before[i])
         {
-          falling[i] = std::max(0., falling[i] + length * (multiplier[i] - falling[i]));
+          falling[i] =
+            std::max(0., falling[i] + length * (multiplier[i] - falling[i]));
           if (!none_pulls)
             turns[i] = pulls[i] && falling[i] <= rounding;
         }

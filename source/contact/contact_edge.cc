@@ -1,10 +1,10 @@
 // See contact_edge.h.
 #include <mortise/contact/contact_edge.h>
 
-#include "place_trees.h"
-
 #include <algorithm>
 #include <utility>
+
+#include "place_trees.h"
 
 namespace mortise
 {
@@ -50,9 +50,9 @@ namespace mortise
               // nearest that pulls is deep inside, it is another's
               const double depth = inner.distance(edge),
                            outer = pulled.distance(edge);
-              more[i]            = outer < (0.5 + rounding) * depth &&
-                        place.distance(inner) <
-                          (1. - rounding) * (depth - outer / 2.);
+              more[i] =
+                outer < (0.5 + rounding) * depth &&
+                place.distance(inner) < (1. - rounding) * (depth - outer / 2.);
             }
       }
     turns = std::move(more);

@@ -1,7 +1,7 @@
 // See multiplier_places.h.
-#include "place_trees.h"
-
 #include <algorithm>
+
+#include "place_trees.h"
 
 namespace mortise
 {
@@ -12,7 +12,8 @@ namespace mortise
   {
     const auto last =
       std::max_element(places.surfaces.begin(), places.surfaces.end());
-    return Utilities::MPI::max(last == places.surfaces.end() ? 0u : *last, comm);
+    return Utilities::MPI::max(last == places.surfaces.end() ? 0u : *last,
+                               comm);
   }
 
   /// By surface, of those that are not active and of those that are.
@@ -46,8 +47,9 @@ namespace mortise
           surface > 0 && surface <= trees->by_surface.size())
         {
           const auto &of_surface = trees->by_surface[surface - 1];
-          result[i]              = of_surface[1].distance(places.points[i]) <=
-                      (1. + rounding) * of_surface[0].distance(places.points[i]);
+          result[i] =
+            of_surface[1].distance(places.points[i]) <=
+            (1. + rounding) * of_surface[0].distance(places.points[i]);
         }
     return result;
   }

@@ -95,8 +95,7 @@ namespace mortise
           result.shape == FaceShape::triangle && i + j > result.degree ?
             Point<3>() :
             body.mapping->transform_unit_to_real_cell(
-              at.cell,
-              face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
+              at.cell, face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
     return result;
   }
 
@@ -148,7 +147,7 @@ namespace mortise
                   const NodalSpaces               &levels)
   {
     // ghost cells take part in the averaging of normals
-    BodySurface                               surface;
+    BodySurface surface;
     surface.known = known;
     std::vector<SurfaceFace>                  faces;
     std::vector<std::array<std::uint64_t, 4>> vertices;

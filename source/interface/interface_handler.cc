@@ -41,17 +41,15 @@ namespace mortise
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       tree.candidates(slave_surface.faces[s], candidates[s]);
     if (options.slave_boundary && may_see_through())
-      visibility =
-        std::make_unique<Visibility>(exchange_near_faces(slave_surface.faces,
-                                                         options
-                                                           .slave_boundary(),
-                                                         options.distance,
-                                                         comm),
-                                     exchange_near_faces(slave_surface.faces,
-                                                         options
-                                                           .master_boundary(),
-                                                         options.distance,
-                                                         comm));
+      visibility = std::make_unique<Visibility>(
+        exchange_near_faces(slave_surface.faces,
+                            options.slave_boundary(),
+                            options.distance,
+                            comm),
+        exchange_near_faces(slave_surface.faces,
+                            options.master_boundary(),
+                            options.distance,
+                            comm));
   }
 
   namespace
@@ -69,8 +67,8 @@ namespace mortise
         {
           const FaceFrame &slave  = slave_surface.faces[s].frame;
           const FaceFrame &master = near_masters[m].frame;
-          const double     depth  = std::min(slave_surface.traces[s].depth,
-                                        near_traces[m].depth);
+          const double     depth =
+            std::min(slave_surface.traces[s].depth, near_traces[m].depth);
           if (std::fabs((master.center - slave.center) * slave.normal) >
               safe_distance * depth)
             found = 1;
@@ -84,16 +82,12 @@ namespace mortise
                                 PairResult        &pair,
                                 IntegrationPoints &points) const
   {
-    const double safe =
-      safe_distance *
-      std::min(slave_surface.traces[s].depth, near_traces[m].depth);
+    const double safe = safe_distance * std::min(slave_surface.traces[s].depth,
+                                                 near_traces[m].depth);
     if (!visibility || pair.max_gap <= safe)
       return;
-    const std::vector<bool> hidden =
-      visibility->hidden(slave_surface.faces[s].id,
-                         near_masters[m].id,
-                         safe,
-                         points);
+    const std::vector<bool> hidden = visibility->hidden(
+      slave_surface.faces[s].id, near_masters[m].id, safe, points);
     unsigned int n = 0;
     pair.area = pair.max_gap = 0.;
     for (unsigned int q = 0; q < points.size(); ++q)
@@ -145,7 +139,7 @@ namespace mortise
     Point<3>        worst_centre;
     Clock::duration clipping(0);
     std::uint64_t   n_coinciding = 0;
-    double sagitta = 0., largest_coverage = 0.;
+    double          sagitta = 0., largest_coverage = 0.;
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       {
         auto before = Clock::now();

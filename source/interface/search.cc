@@ -55,10 +55,10 @@ namespace mortise
       const double        low[2]   = {chart.lower[0] - frame.center_xi,
                                       chart.lower[1] - frame.center_xi};
       const double        high[2]  = {
-                (triangle ? chart.upper[2] - chart.lower[1] : chart.upper[0]) -
-                  frame.center_xi,
-                (triangle ? chart.upper[2] - chart.lower[0] : chart.upper[1]) -
-                  frame.center_xi};
+        (triangle ? chart.upper[2] - chart.lower[1] : chart.upper[0]) -
+          frame.center_xi,
+        (triangle ? chart.upper[2] - chart.lower[0] : chart.upper[1]) -
+          frame.center_xi};
       // What a chart's dual base leaves out is the part of the tangents along
       // the normal.
       Prism prism;
@@ -95,8 +95,8 @@ namespace mortise
         for (const auto &corner : other.corner)
           {
             const double chart = centre + axis * (corner - frame.center);
-            low                = std::min(low, chart);
-            high               = std::max(high, chart);
+            low  = std::min(low, chart);
+            high = std::max(high, chart);
           }
         const double slack = 1e-10 + twist * reach;
         return low > most + slack || high < least - slack;
@@ -119,9 +119,9 @@ namespace mortise
     Tensor<1, 3>
     own_normal(const SurfaceFace &face)
     {
-      const Tensor<1, 3> area = face.orientation *
-                                cross_product_3d(face.frame.tangent[0],
-                                                 face.frame.tangent[1]);
+      const Tensor<1, 3> area =
+        face.orientation *
+        cross_product_3d(face.frame.tangent[0], face.frame.tangent[1]);
       return area / area.norm();
     }
 

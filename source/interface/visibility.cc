@@ -58,9 +58,9 @@ namespace mortise
         {
           const auto &a = points.slave_x[d], &b = points.master_x[d];
           const auto  of_a = std::minmax_element(a.begin(), a.end()),
-                     of_b = std::minmax_element(b.begin(), b.end());
-          lower[d] = std::min(*of_a.first, *of_b.first);
-          upper[d] = std::max(*of_a.second, *of_b.second);
+                     of_b  = std::minmax_element(b.begin(), b.end());
+          lower[d]         = std::min(*of_a.first, *of_b.first);
+          upper[d]         = std::max(*of_a.second, *of_b.second);
         }
       return BoundingBox<3>({lower, upper});
     }
@@ -87,9 +87,9 @@ namespace mortise
           of.id = face.id;
           of.map.reinit(face, face.frame.center);
           of.center = to_vec3(face.frame.center);
-          of.normal = to_vec3(face.orientation *
-                              cross_product_3d(face.frame.tangent[0],
-                                               face.frame.tangent[1]));
+          of.normal =
+            to_vec3(face.orientation * cross_product_3d(face.frame.tangent[0],
+                                                        face.frame.tangent[1]));
           faces.push_back(of);
           all.emplace_back(Box({face.lower, face.upper}), faces.size() - 1);
         }
@@ -123,22 +123,22 @@ namespace mortise
       const Ways of = ways(points, begin);
       // the projection looks for a place that faces the point: towards it where
       // the way enters the body, backwards where it leaves
-      const Lanes along = dot(of.way, face.normal);
-      const Lanes sign = along > 0. ? broadcast(-1.) : broadcast(1.);
-      Lanes       eta[2], t, slope;
-      Vec3<Lanes> at;
-      const Vec3<Lanes>  from   = of.from - broadcast(face.center);
+      const Lanes        along = dot(of.way, face.normal);
+      const Lanes        sign  = along > 0. ? broadcast(-1.) : broadcast(1.);
+      Lanes              eta[2], t, slope;
+      Vec3<Lanes>        at;
+      const Vec3<Lanes>  from = of.from - broadcast(face.center);
       const unsigned int failed =
         face.map.project(from, sign * of.way, false, eta, t, at, slope);
-      t                  = sign * t;
+      t                   = sign * t;
       const Lanes  length = square_root(dot(of.way, of.way));
       const double size   = std::sqrt(dot(face.normal, face.normal));
       for (unsigned int l = 0; l < n_lanes && begin + l < points.size(); ++l)
         {
           const double most = 1. + rim;
           const double end  = std::min(near_end, safe / length[l]);
-          if ((failed & (1u << l)) == 0 && t[l] > end &&
-              t[l] < 1. - end && eta[0][l] >= -rim && eta[1][l] >= -rim &&
+          if ((failed & (1u << l)) == 0 && t[l] > end && t[l] < 1. - end &&
+              eta[0][l] >= -rim && eta[1][l] >= -rim &&
               (face.map.shape == FaceShape::triangle ?
                  eta[0][l] + eta[1][l] <= most :
                  eta[0][l] <= most && eta[1][l] <= most) &&

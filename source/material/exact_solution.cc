@@ -10,10 +10,11 @@ namespace mortise
 {
   using namespace dealii;
 
-  ExpressionSolution::ExpressionSolution(const VectorExpression &displacement,
-                                         const std::vector<Material> &materials,
-                                         const Expression            &pressure,
-                                         const std::vector<Expression> &thermal_strains)
+  ExpressionSolution::ExpressionSolution(
+    const VectorExpression        &displacement,
+    const std::vector<Material>   &materials,
+    const Expression              &pressure,
+    const std::vector<Expression> &thermal_strains)
     : expression(displacement)
     , materials(materials)
     , pressure(pressure)
@@ -39,11 +40,11 @@ namespace mortise
     const Material    &material = materials[body];
     const Tensor<2, 3> gradient = expression.gradient(p);
     if (!material.incompressible())
-      return material.stress(
-        thermal_strains.empty() ?
-          gradient :
-          gradient - thermal_strains[body].value(p) *
-                       Tensor<2, 3>(unit_symmetric_tensor<3>()));
+      return material.stress(thermal_strains.empty() ?
+                               gradient :
+                               gradient -
+                                 thermal_strains[body].value(p) *
+                                   Tensor<2, 3>(unit_symmetric_tensor<3>()));
     // in the mean minus the pressure, whatever the divergence
     return deviator(material.stress(gradient, 0.)) -
            pressure.value(p) * unit_symmetric_tensor<3>();

@@ -131,9 +131,8 @@ namespace mortise
                                ", but the body has Law = " + parameters.law +
                                "; allowed with it: " + join_names(own));
             }
-    if (!(parameters.density == 0. ||
-          (parameters.density >= smallest_number &&
-           parameters.density <= largest_number)))
+    if (!(parameters.density == 0. || (parameters.density >= smallest_number &&
+                                       parameters.density <= largest_number)))
       fail(where("Density"),
            text(parameters.density),
            "0 or a positive number (mass per volume) " + allowed_numbers());

@@ -74,8 +74,7 @@ namespace mortise
             for (unsigned int c = 0; c < dim; ++c)
               for (unsigned int k = 0; k < shared[s].size(); ++k)
                 if (shared[s][k])
-                  rows[s].push_back(
-                    static_cast<Index>(numbers(dofs[s][c][k])));
+                  rows[s].push_back(static_cast<Index>(numbers(dofs[s][c][k])));
                 else
                   {
                     rows[s].push_back(next++);
@@ -114,9 +113,9 @@ namespace mortise
   unsigned int
   MultiplierSpace::n_component_rows(const BodySurface &slave) const
   {
-    return n_directions == dim ? n_owned() :
-                                 RowsOfNodes(body, slave, numbered.by_face)
-                                   .n_owned();
+    return n_directions == dim ?
+             n_owned() :
+             RowsOfNodes(body, slave, numbered.by_face).n_owned();
   }
 
   MultiplierSpace::ComponentRows

@@ -30,8 +30,8 @@ namespace mortise
     }
   };
 
-  /// Nodes, where some of the face hang those that they hang on: the matrix also has the columns of
-  /// components that are prescribed.
+  /// Nodes, where some of the face hang those that they hang on: the matrix
+  /// also has the columns of components that are prescribed.
   class NodalColumns
   {
   public:

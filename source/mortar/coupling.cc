@@ -5,13 +5,13 @@
 #include <mortise/mortar/coupling.h>
 #include <mortise/mortar/row_assembler.h>
 
-#include "constraint_columns.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
+
+#include "constraint_columns.h"
 
 namespace mortise
 {
@@ -247,19 +247,21 @@ namespace mortise
   {
     const IndexSet nodes = nodes_of(partition.owned_displacement);
     std::vector<CouplingMatrix::Row> rows;
-    const auto add_rows = [&rows](const std::vector<CouplingMatrix::Row> &more) {
-      rows.insert(rows.end(), more.begin(), more.end());
-    };
+    const auto                       add_rows =
+      [&rows](const std::vector<CouplingMatrix::Row> &more) {
+        rows.insert(rows.end(), more.begin(), more.end());
+      };
     SparseMatrix entries, frames;
     if (!with_frames)
       {
         for (const Coupling &coupling : couplings)
           add_rows(coupling.multipliers->matrix_rows());
-        assemble_blocks<NodalColumns>(
-          couplings,
-          rows_of(couplings),
-          {nodes, partition.owned_multiplier, partition.comm},
-          entries);
+        assemble_blocks<NodalColumns>(couplings,
+                                      rows_of(couplings),
+                                      {nodes,
+                                       partition.owned_multiplier,
+                                       partition.comm},
+                                      entries);
         return {std::move(entries), rows, std::move(frames)};
       }
 
@@ -280,8 +282,9 @@ namespace mortise
     all.reserve(couplings.size());
     for (const Coupling &coupling : couplings)
       {
-        all.push_back(coupling.multipliers->component_rows(
-          coupling.interface->slave(), first + rows.size()));
+        all.push_back(
+          coupling.multipliers->component_rows(coupling.interface->slave(),
+                                               first + rows.size()));
         by_face.push_back(&all.back().rows.by_face);
         add_rows(all.back().rows.owned);
         all_frames.insert(all_frames.end(),

@@ -74,8 +74,8 @@ namespace mortise
                       const auto            index,
                       const double          w) {
                     const LocalCoupling &local = coupling.local[s];
-                    sums[0](index) +=
-                      std::fabs(w) * direction.norm() * weight_bound(coupling, s, i);
+                    sums[0](index) += std::fabs(w) * direction.norm() *
+                                      weight_bound(coupling, s, i);
                     const double weight = on_constants(
                       local.constraint,
                       i,
@@ -163,7 +163,7 @@ namespace mortise
           const unsigned int r,
           const auto         index,
           const double       w) {
-        const unsigned int i = r % coupling.multipliers->rows()[s].n_nodes();
+        const unsigned int   i = r % coupling.multipliers->rows()[s].n_nodes();
         const LocalCoupling &local = coupling.local[s];
         const double         row =
           on_constants(local.constraint,
@@ -372,7 +372,8 @@ namespace mortise
                              i,
                              coupling.interface->slave().traces[s].basis()) *
                 value;
-              result.moment += cross_product_3d(local.position_moment[i], value);
+              result.moment +=
+                cross_product_3d(local.position_moment[i], value);
               force += row_difference(coupling, s, i) * value;
               moment += cross_product_3d(local.gap_moment[i], value);
             }

@@ -246,7 +246,8 @@ namespace mortise
       return result;
     }
 
-    /// LocalCoupling::along_normals, the projection on the whole face, put right
+    /// LocalCoupling::along_normals, the projection on the whole face, put
+    /// right
     /// on its covered part, @p moments being those of multipliers there.
     void
     set_along_normals(const SurfaceFace                 &face,

@@ -117,8 +117,8 @@ namespace mortise
     std::vector<Point<2>>     nodes(basis.size());
     for (unsigned int k = 0; k < nodes.size(); ++k)
       for (unsigned int v = 1; v < basis.n_vertices(); ++v)
-        nodes[k] += values(k, basis.vertex_function(v)) *
-                    Point<2>(v % 2, v / 2);
+        nodes[k] +=
+          values(k, basis.vertex_function(v)) * Point<2>(v % 2, v / 2);
     return nodes;
   }
 

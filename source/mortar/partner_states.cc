@@ -100,10 +100,8 @@ namespace mortise
             for (const auto &partner : coupling.local[s].partners)
               find_free(coupling.interface->master_traces()[partner.master]);
             if (coupling.directions == TiedDirections::normal)
-              state.can_follow = {
-                {can_follow_normal(coupling.interface->slave(),
-                                   s,
-                                   state.can_follow)}};
+              state.can_follow = {{can_follow_normal(
+                coupling.interface->slave(), s, state.can_follow)}};
             all.back().push_back(state);
           }
       }

@@ -12,7 +12,8 @@
 
 namespace mortise
 {
-  /// The projection of phi_k times a field on the polynomials of the face, which
+  /// The projection of phi_k times a field on the polynomials of the face,
+  /// which
   /// does the same work on them: at k n + i its value at node i, of n. @p field:
   /// its value where the nodal functions have the values that it is given.
   template <typename Value, typename Field>
@@ -32,8 +33,7 @@ namespace mortise
     polynomial.reinit(face, face.frame.center);
     // a product of three functions and the area, a root of a polynomial
     const ReferenceRule &rule =
-      gauss_rule(
-        std::min(2 * trace.degree + face.degree + 2, max_gauss_points))
+      gauss_rule(std::min(2 * trace.degree + face.degree + 2, max_gauss_points))
         .on(face.shape);
     for (unsigned int q = 0; q < rule.weight.size(); ++q)
       {

@@ -161,9 +161,10 @@ namespace mortise
         const auto is_rounding = [](const auto &entry) {
           return std::fabs(entry.second) < 1e-11;
         };
-        result[j].erase(
-          std::remove_if(result[j].begin(), result[j].end(), is_rounding),
-          result[j].end());
+        result[j].erase(std::remove_if(result[j].begin(),
+                                       result[j].end(),
+                                       is_rounding),
+                        result[j].end());
       }
     return result;
   }

@@ -80,9 +80,9 @@ namespace mortise
       }
 
       /// Standard multipliers of all directions where the normal turns: the
-      /// root varies along the face with it, as LocalCoupling::along_normals do,
-      /// since a root that each node has for its own holds tangential openings
-      /// where springs are far stiffer along the normal.
+      /// root varies along the face with it, as LocalCoupling::along_normals
+      /// do, since a root that each node has for its own holds tangential
+      /// openings where springs are far stiffer along the normal.
       void
       set_turning(const BodySurface        &slave,
                   const unsigned int        s,
@@ -130,10 +130,9 @@ namespace mortise
       block(const unsigned int i, const unsigned int j) const
       {
         const Tensor<2, dim> product =
-          turning.empty() ?
-            (local.is_dual() ? local.weights[i] : mass(i, j)) * roots[i] *
-              roots[j] :
-            turning[i * roots.size() + j];
+          turning.empty() ? (local.is_dual() ? local.weights[i] : mass(i, j)) *
+                              roots[i] * roots[j] :
+                            turning[i * roots.size() + j];
         if (!rows.normals.empty())
           {
             FullMatrix<double> along(1, 1);
@@ -201,9 +200,7 @@ namespace mortise
   }
 
   Stiffness
-  penalty_of(const Coupling    &coupling,
-             const unsigned int s,
-             double             penalty)
+  penalty_of(const Coupling &coupling, const unsigned int s, double penalty)
   {
     // the square of the share, since what is held in points alone hardly holds
     // coarse functions: measured, see doc/active_sets.md

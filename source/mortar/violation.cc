@@ -167,10 +167,9 @@ namespace mortise
 
     /// What this rank has found for masters goes to those who own them.
     TractionsOnFaces
-    tractions_on_master(
-      const InterfaceHandler                          &interface,
-      const std::vector<std::vector<TractionAtPoint>> &found,
-      const MPI_Comm                                   comm)
+    tractions_on_master(const InterfaceHandler &interface,
+                        const std::vector<std::vector<TractionAtPoint>> &found,
+                        const MPI_Comm                                   comm)
     {
       using Found = std::pair<std::uint64_t, std::vector<TractionAtPoint>>;
       std::map<unsigned int, std::vector<Found>> for_owners;
@@ -249,12 +248,19 @@ namespace mortise
             }
           result.energies[s] += points.weight[q] * of_point;
           const auto     &rows = coupling.multipliers->rows()[s];
-          TractionAtPoint at{xi, slave_point(points, q), normal, -traction, points.weight[q], {}};
+          TractionAtPoint at{xi,
+                             slave_point(points, q),
+                             normal,
+                             -traction,
+                             points.weight[q],
+                             {}};
           for (unsigned int c = 0; c < dim; ++c)
             at.is_known[c] = rows.hold_constants[rows.normals.empty() ? c : 0];
           on_slaves[s].push_back(at);
           at.xi = Point<2>(points.master_eta[0][q], points.master_eta[1][q]);
-          at.x  = {points.master_x[0][q], points.master_x[1][q], points.master_x[2][q]};
+          at.x  = {points.master_x[0][q],
+                   points.master_x[1][q],
+                   points.master_x[2][q]};
           at.normal   = face_normal(interface.master_faces()[m], at.xi);
           at.traction = traction;
           on_masters[m].push_back(at);

@@ -97,8 +97,7 @@ namespace mortise
   }
 
   void
-  BlockSystem::subtract_spring_opening(Vector       &dst,
-                                       const Vector &lambda) const
+  BlockSystem::subtract_spring_opening(Vector &dst, const Vector &lambda) const
   {
     if (!has_springs())
       return;

@@ -16,10 +16,10 @@ namespace mortise
   boundary_area(const Body &body, const types::boundary_id boundary)
   {
     // moments about the origin would lose digits where a body is far from it
-    Point<dim>            origin;
-    std::vector<double>   first(4); // area, moments of first order
-    std::vector<double>   second(6);
-    const MPI_Comm        comm = body.triangulation().get_communicator();
+    Point<dim>          origin;
+    std::vector<double> first(4); // area, moments of first order
+    std::vector<double> second(6);
+    const MPI_Comm      comm = body.triangulation().get_communicator();
     std::map<std::pair<unsigned int, unsigned int>, std::unique_ptr<FaceValues>>
                faces;
     const auto for_each_point = [&](const auto &visit) {

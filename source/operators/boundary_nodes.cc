@@ -22,8 +22,8 @@ namespace mortise
       if (cell->is_locally_owned())
         for (const auto node : level.space->face_nodes(body, cell, f).nodes)
           for (unsigned int c = 0; c < dim; ++c)
-            result.local_element(level.layout->global_to_local(dim * node + c)) =
-              1.;
+            result.local_element(
+              level.layout->global_to_local(dim * node + c)) = 1.;
     result.compress(VectorOperation::max);
     return result;
   }

@@ -62,8 +62,8 @@ namespace mortise
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
         {
-          const auto  pressure_cell = body.pressure->cell(cell);
-          auto       &values        = functions(pressure_cell);
+          const auto pressure_cell = body.pressure->cell(cell);
+          auto      &values        = functions(pressure_cell);
           values.reinit(Triangulation<dim>::cell_iterator(pressure_cell));
           load.reinit(values.dofs_per_cell);
           for (const unsigned int q : values.quadrature_point_indices())

@@ -30,7 +30,7 @@ namespace mortise
                  const SystemVector &solution)
   {
     std::vector<BodySolution> result = zero_solutions(bodies);
-    const auto set = [](BodyVector                   &vector,
+    const auto                set    = [](BodyVector                   &vector,
                         const types::global_dof_index dof,
                         const double                  value) {
       if (vector.in_local_range(dof))

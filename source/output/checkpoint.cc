@@ -57,9 +57,9 @@ namespace mortise
                   const std::vector<Coupling> &couplings,
                   const MPI_Comm               comm)
   {
-    const std::string      name = checkpoint_file_name(directory);
-    const CheckpointFile   file(name, comm);
-    SceneDescription       then;
+    const std::string    name = checkpoint_file_name(directory);
+    const CheckpointFile file(name, comm);
+    SceneDescription     then;
     try
       {
         then = unpack_scene(file.header().scene);

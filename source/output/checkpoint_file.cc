@@ -202,8 +202,8 @@ namespace mortise
                        in_quotes(version) +
                        " of Mortise, and this is version " + in_quotes(own) +
                        "; allowed: a checkpoint of the same version");
-    contents.text  = bytes.get_text();
-    contents.scene = bytes.get_text();
+    contents.text      = bytes.get_text();
+    contents.scene     = bytes.get_text();
     const auto n_parts = bytes.get<std::uint64_t>();
     if (bytes.left() % sizeof(Part) != 0 ||
         bytes.left() / sizeof(Part) != n_parts)

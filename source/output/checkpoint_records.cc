@@ -237,7 +237,7 @@ namespace mortise
         if (bytes.left() < sizeof(RecordStart))
           break;
         Record record;
-        record.start                = bytes.get<RecordStart>();
+        record.start = bytes.get<RecordStart>();
         check(record);
         if (!problem.empty())
           break;

@@ -49,8 +49,8 @@ namespace mortise
       if (material.mixed())
         {
           const auto stress = exact.stress(x, body.index);
-          p                 = material.pressure(fields.elastic(gradient, q), stress);
-          p_error           = fields.pressures[q] - p;
+          p       = material.pressure(fields.elastic(gradient, q), stress);
+          p_error = fields.pressures[q] - p;
           const double mean = trace(stress) / dim,
                        mean_error =
                          trace(material.stress(gradient_error, p_error)) / dim;

@@ -29,7 +29,8 @@ namespace mortise
       if (!tetrahedra)
         return Quadrature<dim>(QGaussLobatto<1>(degree + 1));
       std::vector<Point<dim>> points;
-      for (const auto &node : lagrange_nodes(LagrangeShape::tetrahedron, degree))
+      for (const auto &node :
+           lagrange_nodes(LagrangeShape::tetrahedron, degree))
         points.emplace_back(double(node[0]) / degree,
                             double(node[1]) / degree,
                             double(node[2]) / degree);
@@ -117,10 +118,9 @@ namespace mortise
         : body(body)
         , solution(solution)
         , comm(body.triangulation().get_communicator())
-        , fields(body,
-                 [&](const auto &element) {
-                   return nodes_of(element, body.mesh.tetrahedra);
-                 })
+        , fields(body, [&](const auto &element) {
+          return nodes_of(element, body.mesh.tetrahedra);
+        })
       {}
 
       /// The largest values of each owned cell, then the first places of those
@@ -138,10 +138,9 @@ namespace mortise
           of_cells.push_back(sizes);
           largest.add(sizes);
         });
-        largest.displacement =
-          Utilities::MPI::max(largest.displacement, comm);
-        largest.von_mises = Utilities::MPI::max(largest.von_mises, comm);
-        const auto is_peak = [](const double value, const double most) {
+        largest.displacement = Utilities::MPI::max(largest.displacement, comm);
+        largest.von_mises    = Utilities::MPI::max(largest.von_mises, comm);
+        const auto is_peak   = [](const double value, const double most) {
           return value >= (1. - same_peak) * most;
         };
         FirstPlace displacement, von_mises;
@@ -164,10 +163,9 @@ namespace mortise
         Extremes result;
         result.displacement.value = largest.displacement;
         result.von_mises.value    = largest.von_mises;
-        result.displacement.at =
-          coordinates(displacement.over_ranks(comm));
-        const Point<dim> peak = von_mises.over_ranks(comm);
-        result.von_mises.at   = coordinates(peak);
+        result.displacement.at    = coordinates(displacement.over_ranks(comm));
+        const Point<dim> peak     = von_mises.over_ranks(comm);
+        result.von_mises.at       = coordinates(peak);
         compare_cells(peak, result.von_mises);
         return result;
       }
@@ -227,7 +225,7 @@ namespace mortise
       void
       compare_cells(const Point<dim> &peak, StressPeakSummary &result)
       {
-        std::vector<Point<dim>>       places = {peak};
+        std::vector<Point<dim>>       places  = {peak};
         const std::vector<Point<dim>> corners = corners_around(peak);
         double                        radius  = 0.;
         for (const Point<dim> &corner : corners)

@@ -28,15 +28,15 @@ namespace mortise
         , fields(body, [&](const auto &) { return rule(); })
       {
         for (const auto &node : lagrange_nodes(shape, degree))
-          place.push_back(
-            shape == LagrangeShape::hexahedron ?
-              node[0] + (degree + 1) * (node[1] + (degree + 1) * node[2]) :
-              place.size());
+          place.push_back(shape == LagrangeShape::hexahedron ?
+                            node[0] + (degree + 1) *
+                                        (node[1] + (degree + 1) * node[2]) :
+                            place.size());
       }
 
-      const LagrangeShape shape;
-      const unsigned int  degree;
-      CellFields          fields;
+      const LagrangeShape       shape;
+      const unsigned int        degree;
+      CellFields                fields;
       std::vector<unsigned int> place; ///< of a node among the points of fields
 
     private:
@@ -115,10 +115,10 @@ namespace mortise
     piece.of_points = announce(selection);
     for (const CellField &field : of_cells)
       piece.of_cells.push_back({field.name, 1, {}});
-    const CellGeometry geometry(body,
+    const CellGeometry                                 geometry(body,
                                 body.mesh.tetrahedra ?
-                                  ReferenceCells::Tetrahedron :
-                                  ReferenceCells::Hexahedron,
+                                                                  ReferenceCells::Tetrahedron :
+                                                                  ReferenceCells::Hexahedron,
                                 QMidpoint<dim>());
     std::map<unsigned int, std::unique_ptr<CellNodes>> by_degree;
     for (const auto &cell : body.dof_handler.active_cell_iterators())
@@ -136,8 +136,7 @@ namespace mortise
           for (const unsigned int q : nodes->place)
             {
               piece.add_point(nodes->fields.points[q]);
-              append(
-                nodes->fields, q, selection, piece.of_points);
+              append(nodes->fields, q, selection, piece.of_points);
             }
           for (unsigned int i = 0; i < of_cells.size(); ++i)
             piece.of_cells[i].values.push_back(

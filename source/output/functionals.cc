@@ -44,8 +44,7 @@ namespace mortise
           const double rounding = std::numeric_limits<double>::epsilon() *
                                   point.norm() /
                                   cell->minimum_vertex_distance();
-          if (cell->reference_cell().contains_point(unit,
-                                                    1e-8 + 4. * rounding))
+          if (cell->reference_cell().contains_point(unit, 1e-8 + 4. * rounding))
             return PointInCell{cell, unit};
         }
       return {};
@@ -182,7 +181,7 @@ namespace mortise
                      const types::boundary_id boundary)
   {
     CellFunctionals result;
-    const auto add_face = [&](const Body::CellIterator &cell,
+    const auto      add_face = [&](const Body::CellIterator &cell,
                               FieldsOnFace             &face) {
       const auto            &fe = cell->get_fe();
       dealii::Vector<double> forces(fe.n_dofs_per_cell());
@@ -196,7 +195,8 @@ namespace mortise
             {
               const auto [c, i] = fe.system_to_component_index(k);
               forces[k] +=
-                force[c] * fe.base_element(0).shape_value(i, face.rule.point(q));
+                force[c] *
+                fe.base_element(0).shape_value(i, face.rule.point(q));
             }
         }
       result.push_back({cell, forces, {}});

@@ -125,9 +125,9 @@ namespace mortise
       const SurfaceFace &face    = surface.faces[s];
       const TraceBasis  &basis   = surface.traces[s].basis();
       const unsigned int n       = basis.size();
-      const bool         faces   = !coupling.local[s].partners.empty() &&
-                         cover_of(coupling.interface->coverage()[s], true) !=
-                           Cover::none;
+      const bool         faces =
+        !coupling.local[s].partners.empty() &&
+        cover_of(coupling.interface->coverage()[s], true) != Cover::none;
       std::vector<FaceField> fields{{"traction", dim, {}}};
       if (coupling.is_contact)
         fields.insert(fields.end(),
@@ -143,7 +143,8 @@ namespace mortise
                          field.n_components,
                          field.coefficients);
       };
-      for (const double value : multiplier) // of which the slave bears the opposite
+      for (const double value :
+           multiplier) // of which the slave bears the opposite
         fields[0].coefficients.push_back(-value);
       spread(fields[0]);
       if (!coupling.is_contact)
@@ -167,9 +168,8 @@ namespace mortise
       const LagrangeShape shape = basis.shape == FaceShape::triangle ?
                                     LagrangeShape::triangle :
                                     LagrangeShape::quadrilateral;
-      const unsigned int degree = face.affine ?
-                                    basis.degree :
-                                    std::max(basis.degree, face.degree);
+      const unsigned int  degree =
+        face.affine ? basis.degree : std::max(basis.degree, face.degree);
       std::vector<double> values(basis.size());
       piece.begin_cell(shape, degree);
       for (const auto &node : lagrange_nodes(shape, degree))

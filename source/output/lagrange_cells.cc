@@ -92,7 +92,9 @@ namespace mortise
                        origin + unit[face[0]] + unit[face[1]] + unit[face[2]],
                        nodes);
       if (n > 3)
-        add_tetrahedron(n - 4, origin + unit[0] + unit[1] + unit[2] + unit[3], nodes);
+        add_tetrahedron(n - 4,
+                        origin + unit[0] + unit[1] + unit[2] + unit[3],
+                        nodes);
     }
 
     Nodes
@@ -114,7 +116,8 @@ namespace mortise
     void
     add_square_corners(const unsigned int n, const unsigned int k, Nodes &nodes)
     {
-      nodes.insert(nodes.end(), {{{0, 0, k}}, {{n, 0, k}}, {{n, n, k}}, {{0, n, k}}});
+      nodes.insert(nodes.end(),
+                   {{{0, 0, k}}, {{n, 0, k}}, {{n, n, k}}, {{0, n, k}}});
     }
 
     void
@@ -159,9 +162,9 @@ namespace mortise
             for (unsigned int i = 1; i < n; ++i)
               {
                 Node node;
-                node[across]                  = at;
-                node[across == 0 ? 1 : 0]     = i;
-                node[across == 2 ? 1 : 2]     = j;
+                node[across]              = at;
+                node[across == 0 ? 1 : 0] = i;
+                node[across == 2 ? 1 : 2] = j;
                 nodes.push_back(node);
               }
       for (unsigned int k = 1; k < n; ++k)

@@ -16,8 +16,7 @@ namespace mortise
   VtuPiece::begin_cell(const LagrangeShape shape, const unsigned int degree)
   {
     types.push_back(vtk_type(shape, degree));
-    offsets.push_back(points.size() / 3 +
-                      lagrange_nodes(shape, degree).size());
+    offsets.push_back(points.size() / 3 + lagrange_nodes(shape, degree).size());
   }
 
   void
@@ -66,14 +65,15 @@ namespace mortise
     encode(const unsigned char *data, const std::size_t size, const int level)
     {
       const std::size_t n_blocks = (size + block_size - 1) / block_size;
-      std::vector<unsigned char> header, blocks(compressBound(block_size) * n_blocks);
+      std::vector<unsigned char> header,
+        blocks(compressBound(block_size) * n_blocks);
       append_number(n_blocks, header);
       append_number(block_size, header);
       append_number(size % block_size, header);
       std::size_t used = 0;
       for (std::size_t start = 0; start < size; start += block_size)
         {
-          uLongf length = blocks.size() - used;
+          uLongf    length = blocks.size() - used;
           const int status = compress2(&blocks[used],
                                        &length,
                                        data + start,
@@ -95,13 +95,13 @@ namespace mortise
     {
       // values of fields hardly repeat: to compress them takes longer than to
       // write them
-      const int level = std::is_same<Number, float>::value ? Z_NO_COMPRESSION :
-                                                             Z_BEST_SPEED;
-      const std::string type =
-        std::is_same<Number, double>::value      ? "Float64" :
-        std::is_same<Number, float>::value       ? "Float32" :
-        std::is_same<Number, std::int32_t>::value ? "Int32" :
-                                                    "UInt8";
+      const int level =
+        std::is_same<Number, float>::value ? Z_NO_COMPRESSION : Z_BEST_SPEED;
+      const std::string type = std::is_same<Number, double>::value ? "Float64" :
+                               std::is_same<Number, float>::value  ? "Float32" :
+                               std::is_same<Number, std::int32_t>::value ?
+                                                                    "Int32" :
+                                                                    "UInt8";
       return "<DataArray type=\"" + type + "\" Name=\"" + name +
              "\" NumberOfComponents=\"" + std::to_string(n_components) +
              "\" format=\"binary\">\n" +
@@ -144,14 +144,15 @@ namespace mortise
   {
     const unsigned int me      = Utilities::MPI::this_mpi_process(comm),
                        n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const bool         has_cells = !piece.types.empty(),
-                       none = Utilities::MPI::max(has_cells ? 1 : 0, comm) == 0;
+    const bool has_cells       = !piece.types.empty(),
+               none = Utilities::MPI::max(has_cells ? 1 : 0, comm) == 0;
     std::string text;
     if (me == 0)
-      text = "<?xml version=\"1.0\"?>\n"
-             "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-             "compressor=\"vtkZLibDataCompressor\" byte_order=\"LittleEndian\">\n"
-             "<UnstructuredGrid>\n";
+      text =
+        "<?xml version=\"1.0\"?>\n"
+        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+        "compressor=\"vtkZLibDataCompressor\" byte_order=\"LittleEndian\">\n"
+        "<UnstructuredGrid>\n";
     if (has_cells || (none && me == 0))
       text += text_of(piece);
     if (me == n_ranks - 1)

@@ -56,24 +56,26 @@ namespace mortise
       return sum(sums_by_body(numbers, comm));
     }
 
-    /// By body: what all bodies together have shown, or what its own residual has, where that fell, if it is
-    /// more: where one body has most of the residual, what belongs to that of another is not seen. What a
-    /// body alone shows is no more than what nothing shows, since it also changes by what others do.
+    /// By body: what all bodies together have shown, or what its own residual
+    /// has, where that fell, if it is more: where one body has most of the
+    /// residual, what belongs to that of another is not seen. What a body alone
+    /// shows is no more than what nothing shows, since it also changes by what
+    /// others do.
     std::vector<double>
     squares_by_residual(const std::vector<double> &changes,
                         const std::vector<double> &before,
                         const std::vector<double> &now)
     {
-      std::vector<double> result(
-        changes.size(), square_by_residual(sum(changes), sum(before), sum(now)));
+      std::vector<double> result(changes.size(),
+                                 square_by_residual(sum(changes),
+                                                    sum(before),
+                                                    sum(now)));
       for (unsigned int b = 0; b < result.size(); ++b)
         if (falls(before[b], now[b]))
-          result[b] =
-            std::max(result[b],
-                     std::min(square_by_residual_unseen,
-                              square_by_residual(changes[b],
-                                                 before[b],
-                                                 now[b])));
+          result[b] = std::max(
+            result[b],
+            std::min(square_by_residual_unseen,
+                     square_by_residual(changes[b], before[b], now[b])));
       return result;
     }
   } // namespace
@@ -278,18 +280,18 @@ namespace mortise
                                    residual,
                                    sums_by_body(residuals.equations, run.comm)),
                states);
-    sums                  = error_sums(bodies, states);
+    sums                    = error_sums(bodies, states);
     const double conditions = sum(residuals.conditions, run.comm),
                  for_sure = conditions + std::pow(unit * interface_error(), 2),
                  by_equations = sums.all - conditions;
-    estimated = std::sqrt(for_sure + by_equations) / unit;
-    // where displacements are prescribed the exact solution has less energy than
-    // this one, by the square of the error
+    estimated                 = std::sqrt(for_sure + by_equations) / unit;
+    // where displacements are prescribed the exact solution has less energy
+    // than this one, by the square of the error
     constexpr double least_part = 0.01;
     const double     most =
       for_sure + std::pow(doubt_of_residuals(n_estimates), 2) * by_equations;
-    at_most = std::sqrt(
-      most / std::max(unit * unit - most, least_part * unit * unit));
+    at_most =
+      std::sqrt(most / std::max(unit * unit - most, least_part * unit * unit));
   }
 
   std::vector<double>

@@ -83,10 +83,11 @@ namespace mortise
                   material.law,
                   "Material law; each takes its own of the constants below.",
                   Allowed::one_of(law_names()));
-      section.add("Young modulus",
-                  material.young_modulus,
-                  "Young's modulus of Law = linear elastic [force per area], which needs one.",
-                  {"a positive number"});
+      section.add(
+        "Young modulus",
+        material.young_modulus,
+        "Young's modulus of Law = linear elastic [force per area], which needs one.",
+        {"a positive number"});
       section.add("Poisson ratio",
                   material.poisson_ratio,
                   "Poisson's ratio of Law = linear elastic [-].",

@@ -98,8 +98,8 @@ namespace mortise
     }
   } // namespace
 
-  BoundaryForces::BoundaryForces(const Discretisation            &discretisation,
-                                 const SolvedStep                &solved,
+  BoundaryForces::BoundaryForces(const Discretisation &discretisation,
+                                 const SolvedStep     &solved,
                                  const std::vector<BodySolution> &solutions)
     : discretisation(discretisation)
     , solved(solved)
@@ -119,7 +119,7 @@ namespace mortise
       {
         tractions.push_back(solved.data.loads(*body).tractions);
         auto &there = on_held[body->index].tractions;
-        there = tractions_on(tractions.back(), held, body->index, true);
+        there       = tractions_on(tractions.back(), held, body->index, true);
         any_on_held = any_on_held || !there.empty();
       }
     if (any_on_held)
@@ -142,10 +142,9 @@ namespace mortise
     const types::boundary_id          boundary,
     const HeldBoundaries::Components &which) const
   {
-    const Body         &body = *discretisation.bodies()[b];
-    LevelVector<double> result =
-      discretisation.linear_system().nodal->by_node(
-        body, stress_functionals(body, solutions[b], boundary));
+    const Body         &body   = *discretisation.bodies()[b];
+    LevelVector<double> result = discretisation.linear_system().nodal->by_node(
+      body, stress_functionals(body, solutions[b], boundary));
     result.scale(nodes_with(discretisation, b, boundary, which));
     return result;
   }
@@ -302,8 +301,8 @@ namespace mortise
             nodes_with(discretisation, part.body, boundary, which);
           for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
             if (weights.local_element(i) > 0. && shares.local_element(i) > 0.)
-              weights.local_element(i) = (boundary == part.boundary ? 1. : 0.) -
-                                         shares.local_element(i);
+              weights.local_element(i) =
+                (boundary == part.boundary ? 1. : 0.) - shares.local_element(i);
             else
               weights.local_element(i) = 0.;
           if (weights.linfty_norm() == 0.)
@@ -333,14 +332,13 @@ namespace mortise
                       const types::boundary_id boundary,
                       const unsigned int       c)
   {
-    const BlockSystem   &system = discretisation.linear_system();
-    const HeldBoundaries held(discretisation);
-    LinearFunctional   result{system.zero_vector(),
-                              system.zero_vector().displacement};
+    const BlockSystem         &system = discretisation.linear_system();
+    const HeldBoundaries       held(discretisation);
+    LinearFunctional           result{system.zero_vector(),
+                            system.zero_vector().displacement};
     HeldBoundaries::Components which{};
-    which[c] = true;
-    LevelVector<double> nodes =
-      nodes_with(discretisation, b, boundary, which);
+    which[c]                  = true;
+    LevelVector<double> nodes = nodes_with(discretisation, b, boundary, which);
     if (!held.components(b, boundary)[c])
       {
         if (result.rhs.multiplier.size() > 0)

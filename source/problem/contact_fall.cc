@@ -79,15 +79,14 @@ namespace mortise
         closing -= discretisation.gaps(load, unit);
         const double negligible = rounding * closing.linfty_norm();
         const auto   closes     = [&](const unsigned int i) {
-          return may_close[i] && !active[i] &&
-                 closing.begin()[i] > negligible;
+          return may_close[i] && !active[i] && closing.begin()[i] > negligible;
         };
         double length = std::numeric_limits<double>::max();
         for (unsigned int i = 0; i < active.size(); ++i)
           if (closes(i))
-            length = std::min(length,
-                              std::max(0., gaps.begin()[i]) /
-                                closing.begin()[i]);
+            length =
+              std::min(length,
+                       std::max(0., gaps.begin()[i]) / closing.begin()[i]);
         length = Utilities::MPI::min(length, comm);
         if (length == std::numeric_limits<double>::max())
           return active;

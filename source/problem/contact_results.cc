@@ -64,7 +64,7 @@ namespace mortise
                     const std::vector<bool>             &undecided,
                     const RunContext                    &run)
     {
-      const MPI_Comm comm = run.comm;
+      const MPI_Comm comm  = run.comm;
       const auto    &about = run.parameters.output.moments_about;
       ContactSummary result;
       Tensor<1, dim> force, moment;
@@ -93,9 +93,9 @@ namespace mortise
       result.pressure_max  = Utilities::MPI::max(result.pressure_max, comm);
       result.gap_min       = Utilities::MPI::min(least, comm);
       result.force         = components(Utilities::MPI::sum(force, comm));
-      moment -= cross_product_3d(Tensor<1, dim>({about[0], about[1], about[2]}),
-                                 force);
-      result.moment        = components(Utilities::MPI::sum(moment, comm));
+      moment -=
+        cross_product_3d(Tensor<1, dim>({about[0], about[1], about[2]}), force);
+      result.moment = components(Utilities::MPI::sum(moment, comm));
       for (std::uint64_t *count :
            {&result.active, &result.inactive, &result.undecided})
         *count = Utilities::MPI::sum(*count, comm);

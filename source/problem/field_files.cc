@@ -127,7 +127,8 @@ namespace mortise
     if (unwritten.empty())
       stage.details(directory);
     else
-      steps.pop_back(); // collections of a run that goes on name no file that is missing
+      steps.pop_back(); // collections of a run that goes on name no file that
+                        // is missing
     return unwritten;
   }
 } // namespace mortise

@@ -27,10 +27,9 @@ namespace mortise
              const types::boundary_id          boundary,
              const HeldBoundaries::Components &which)
   {
-    LevelVector<double> result =
-      boundary_nodes(nodes_of(discretisation),
-                     *discretisation.bodies()[body],
-                     boundary);
+    LevelVector<double> result = boundary_nodes(nodes_of(discretisation),
+                                                *discretisation.bodies()[body],
+                                                boundary);
     for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
       if (!which[i % dim])
         result.local_element(i) = 0.;
@@ -114,8 +113,8 @@ namespace mortise
   HeldBoundaries::forces_of(const unsigned int i, const Vector &lambda) const
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
-    discretisation.linear_system().coupling.Tvmult_add_free(result.begin(),
-                                                            part_of(discretisation, lambda, i));
+    discretisation.linear_system().coupling.Tvmult_add_free(
+      result.begin(), part_of(discretisation, lambda, i));
     return result;
   }
 

@@ -1,4 +1,6 @@
 // See kept_cycles.h.
+#include "kept_cycles.h"
+
 #include <mortise/base/quotes.h>
 #include <mortise/body/mesh/gmsh_model.h>
 #include <mortise/output/bytes.h>
@@ -10,8 +12,6 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "kept_cycles.h"
-
 namespace mortise
 {
   using namespace dealii;
@@ -20,9 +20,8 @@ namespace mortise
   to_text(Kept &kept)
   {
     ByteWriter writer;
-    writer &kept;
-    return Utilities::encode_base64(
-      {writer.bytes.begin(), writer.bytes.end()});
+    writer    &kept;
+    return Utilities::encode_base64({writer.bytes.begin(), writer.bytes.end()});
   }
 
   namespace
@@ -119,12 +118,11 @@ namespace mortise
         for (unsigned int d = 0; d < 3; ++d)
           edges[d] = cell.vertices[d + 1] - cell.vertices[0];
         // a regular one has six times its volume of edge^3 / sqrt(2)
-        wanted += determinant(edges) * std::sqrt(2.) /
-                  std::pow(std::accumulate(cell.sizes.begin(),
-                                           cell.sizes.end(),
-                                           0.) /
-                             4.,
-                           3);
+        wanted +=
+          determinant(edges) * std::sqrt(2.) /
+          std::pow(std::accumulate(cell.sizes.begin(), cell.sizes.end(), 0.) /
+                     4.,
+                   3);
       }
     if (wanted > 100. * n_cells + 1e4)
       refuse("sizes for " + std::to_string(std::lround(wanted)) +
@@ -177,9 +175,8 @@ namespace mortise
               check(coefficient);
         }
     for (unsigned int b = 0; b < bodies.size(); ++b)
-      if (!kept.sizes[b].empty() &&
-          (bodies[b].mesh.source != "file" ||
-           !is_geometry_file(bodies[b].mesh.file)))
+      if (!kept.sizes[b].empty() && (bodies[b].mesh.source != "file" ||
+                                     !is_geometry_file(bodies[b].mesh.file)))
         refuse("a new mesh of body " + in_quotes(bodies[b].name) +
                ", which is not made by gmsh");
     return kept;

@@ -35,10 +35,10 @@ namespace mortise
   {
     std::string                           quantity; ///< empty: the energy norm
     unsigned int                          cycle = 0, n_meshes = 0;
-    std::map<std::string, double>         numbers; ///< those that there are
+    std::map<std::string, double>         numbers;  ///< those that there are
     std::vector<double>                   residual; ///< by body
     std::vector<std::vector<KeptCell>>    cells;    ///< likewise
-    std::vector<std::vector<SizesOfCell>> sizes;   ///< likewise
+    std::vector<std::vector<SizesOfCell>> sizes;    ///< likewise
 
     template <typename Archive>
     void

@@ -59,8 +59,7 @@ namespace mortise
                     for (const std::string &boundary : side.boundaries)
                       if (boundary.empty() ||
                           !different.insert(boundary).second)
-                        value.fail(in_quotes(value.text),
-                                   "each boundary once");
+                        value.fail(in_quotes(value.text), "each boundary once");
                   });
     }
 
@@ -137,11 +136,11 @@ namespace mortise
           const std::string word      = "length ";
           SearchDistance   &distance  = interface.search_distance;
           const bool        is_length = value.text.rfind(word, 0) == 0;
-          const double      number =
-            value.number(is_length ? value.text.substr(word.size()) : value.text);
+          const double      number    = value.number(
+            is_length ? value.text.substr(word.size()) : value.text);
           if (!(number > 0.))
             value.fail(in_quotes(value.text));
-          distance = SearchDistance();
+          distance                                         = SearchDistance();
           (is_length ? distance.length : distance.by_size) = number;
         });
       section.add("Quadrature points",
@@ -257,23 +256,23 @@ namespace mortise
         [&](const ParameterValue &value) {
           output.points = points_of(value, parameters);
         });
-      section.add("Resultants",
-                  "",
-                  "Forces and moments to report in the summary, which act on boundaries of bodies: loads, "
-                  "reactions of supports, forces of interfaces.",
-                  {"\"name: body: boundary; ...\""},
-                  [&](const ParameterValue &value) {
-                    output.resultants.clear();
-                    for (const auto &record : value.records(3))
-                      output.resultants.push_back(
-                        {record[0],
-                         body_index(parameters, value, record[1]),
-                         record[2]});
-                  });
-      section.add("Moments about",
-                  output.moments_about,
-                  "The point about which moments of Resultants and interfaces are [length].",
-                  {"3 numbers"});
+      section.add(
+        "Resultants",
+        "",
+        "Forces and moments to report in the summary, which act on boundaries of bodies: loads, "
+        "reactions of supports, forces of interfaces.",
+        {"\"name: body: boundary; ...\""},
+        [&](const ParameterValue &value) {
+          output.resultants.clear();
+          for (const auto &record : value.records(3))
+            output.resultants.push_back(
+              {record[0], body_index(parameters, value, record[1]), record[2]});
+        });
+      section.add(
+        "Moments about",
+        output.moments_about,
+        "The point about which moments of Resultants and interfaces are [length].",
+        {"3 numbers"});
     }
   } // namespace
 
@@ -298,10 +297,11 @@ namespace mortise
               "Names of interfaces; each has an \"Interface NAME\".",
               {"names separated by commas"},
               known);
-    scene.add("Gravity",
-              parameters.gravity,
-              "Acceleration of all bodies with a Density [length per time squared], added to Body force. Empty: none.",
-              {"three expressions \"gx; gy; gz\" in x, y, z, t"});
+    scene.add(
+      "Gravity",
+      parameters.gravity,
+      "Acceleration of all bodies with a Density [length per time squared], added to Body force. Empty: none.",
+      {"three expressions \"gx; gy; gz\" in x, y, z, t"});
     for (BodyParameters &body : parameters.bodies)
       declare_body(scene.subsection("Body " + body.name), body);
     for (InterfaceParameters &interface : parameters.interfaces)

@@ -75,7 +75,9 @@ namespace mortise
       if (!interface.preload)
         {
           if (interface.preload_until)
-            parameters.fail(path + " until", "a time without a Preload", "none");
+            parameters.fail(path + " until",
+                            "a time without a Preload",
+                            "none");
           return;
         }
       if (interface.law != "tie")
@@ -113,7 +115,8 @@ namespace mortise
       if (share(slave, master))
         parameters.fail(
           section + "/Master",
-          in_quotes(side_text(parameters, master)) + ", which is on the slave's side",
+          in_quotes(side_text(parameters, master)) +
+            ", which is on the slave's side",
           "another boundary than the slave's, of the same or another body");
       const auto &boundaries = parameters.bodies[slave.body].boundaries;
       for (const std::string &boundary : slave.boundaries)

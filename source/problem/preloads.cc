@@ -158,8 +158,7 @@ namespace mortise
   {
     const auto &now = discretisation.linear_system().active;
     const bool  known =
-      have_units &&
-      Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0;
+      have_units && Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0;
     if (known)
       return;
     for (unsigned int j = 0; j < indices.size(); ++j)
@@ -168,9 +167,9 @@ namespace mortise
         if (have_units)
           discretisation.linear_system().clear_inactive(
             unit.x.multiplier.begin());
-        const SolveReport of_unit =
-          have_units ? solver.solve_from(unit.rhs, unit.x) :
-                       solver.solve(unit.rhs, unit.x);
+        const SolveReport of_unit = have_units ?
+                                      solver.solve_from(unit.rhs, unit.x) :
+                                      solver.solve(unit.rhs, unit.x);
         report.iterations += of_unit.iterations;
         report.setup_seconds += of_unit.setup_seconds;
         report.solve_seconds += of_unit.solve_seconds;
@@ -187,8 +186,8 @@ namespace mortise
     FullMatrix<double> stiffness(n, n);
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
-        stiffness(i, j) = forces[i] && forces[j] ? force(i, units[j].x) :
-                                                   (i == j ? 1. : 0.);
+        stiffness(i, j) =
+          forces[i] && forces[j] ? force(i, units[j].x) : (i == j ? 1. : 0.);
     stiffness.gauss_jordan();
     dealii::Vector<double> result(n);
     stiffness.vmult(result, lacks);

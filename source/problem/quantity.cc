@@ -96,8 +96,7 @@ namespace mortise
   {
     const Body &body = *bodies[this->body()];
     if (const auto *force = std::get_if<ResultantQuantity>(&quantity))
-      return forces
-        .on(body.index, body.boundary_id(force->boundary, ""), {})
+      return forces.on(body.index, body.boundary_id(force->boundary, ""), {})
         .force;
     const auto value = point_value(body,
                                    solutions[body.index].displacement,

@@ -115,12 +115,13 @@ namespace mortise
     std::ostringstream text;
     if (!report.prepared)
       {
-        text << "The solver (" << report.method
-             << ") could not be set up: its factorisation meets a pivot that is not positive, as "
-                "where something moves that nothing holds, or moduli or sizes "
-                "differ beyond rounding. No result is known. Check what holds "
-                "each part of the bodies"
-             << other;
+        text
+          << "The solver (" << report.method
+          << ") could not be set up: its factorisation meets a pivot that is not positive, as "
+             "where something moves that nothing holds, or moduli or sizes "
+             "differ beyond rounding. No result is known. Check what holds "
+             "each part of the bodies"
+          << other;
         return text.str();
       }
     text << "The solver (" << report.method

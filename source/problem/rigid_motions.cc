@@ -102,7 +102,8 @@ namespace mortise
       return n;
     }
 
-    /// In words, where prescribed displacements alone hold the part. Collective.
+    /// In words, where prescribed displacements alone hold the part.
+    /// Collective.
     std::string
     free_motions_of_part(const Body                            &body,
                          const std::vector<DirichletCondition> &dirichlet,
@@ -140,12 +141,11 @@ namespace mortise
           }
         for (const TieSupport &tie : ties)
           {
-            of_tie.push_back(
-              resistance_of(tie,
-                            where[tie.slave],
-                            where[tie.master == TieSupport::ground ? tie.slave :
-                                                                     tie.master],
-                            comm));
+            of_tie.push_back(resistance_of(
+              tie,
+              where[tie.slave],
+              where[tie.master == TieSupport::ground ? tie.slave : tie.master],
+              comm));
             n_multipliers.push_back(
               Utilities::MPI::sum(tie.multipliers.size(), comm));
           }
@@ -200,13 +200,12 @@ namespace mortise
                             sizeof(covered),
                             "%.3g",
                             100. * ties[t].coverage);
-              text += (text.empty() ? " (tied by " : ", ") + ties[t].name +
-                      ": " + std::to_string(n_multipliers[t]) +
-                      " multipliers, " + covered +
-                      " % of the slave surface covered" +
-                      (ties[t].released ?
-                         ", whose Preload is all along its normal" :
-                         "");
+              text +=
+                (text.empty() ? " (tied by " : ", ") + ties[t].name + ": " +
+                std::to_string(n_multipliers[t]) + " multipliers, " + covered +
+                " % of the slave surface covered" +
+                (ties[t].released ? ", whose Preload is all along its normal" :
+                                    "");
             }
         return text.empty() ? "" : text + ")";
       }
@@ -291,7 +290,8 @@ namespace mortise
         const Pieces pieces = find_pieces(*body);
         if (pieces.n == 1)
           continue;
-        const auto n_tied = faces_in_interfaces(bodies, *body, pieces, interfaces);
+        const auto n_tied =
+          faces_in_interfaces(bodies, *body, pieces, interfaces);
         for (unsigned int k = 0; k < pieces.n; ++k)
           {
             if (n_tied[k] > 0)
@@ -305,8 +305,8 @@ namespace mortise
             std::ostringstream text;
             text << (message.empty() ? "" : "; ") << "the piece of body "
                  << body->name << " around (" << where.centre << "), one of "
-                 << pieces.n << " that share no node, can move freely: "
-                 << motions;
+                 << pieces.n
+                 << " that share no node, can move freely: " << motions;
             message += text.str();
           }
       }

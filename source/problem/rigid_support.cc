@@ -166,7 +166,8 @@ namespace mortise
     for (const MultiplierMoment &m : tie.multipliers)
       {
         add(m, result.along_directions);
-        // what holds along a direction n, along all of them: by n_c, of which the squares are one
+        // what holds along a direction n, along all of them: by n_c, of which
+        // the squares are one
         for (unsigned int c = 0; c < dim && result.curved; ++c)
           for (unsigned int d = 0; d < dim; ++d)
             {
@@ -291,8 +292,10 @@ namespace mortise
       for (std::vector<double> vector : vectors)
         {
           const auto product = [&](const std::vector<double> &other) {
-            return std::inner_product(
-              vector.begin(), vector.end(), other.begin(), 0.);
+            return std::inner_product(vector.begin(),
+                                      vector.end(),
+                                      other.begin(),
+                                      0.);
           };
           const auto normalise = [&]() {
             const double norm = std::sqrt(product(vector));
@@ -319,16 +322,15 @@ namespace mortise
   std::vector<std::vector<double>>
   Resistance::free_motions() const
   {
-    // surfaces that are approximated leave, squared, up to 1e-6, more in short bodies;
-    // the slenderest tapers, 1 : 100 in diameter, 2.5e-5
+    // surfaces that are approximated leave, squared, up to 1e-6, more in short
+    // bodies; the slenderest tapers, 1 : 100 in diameter, 2.5e-5
     constexpr double zero_held = 1e-10, zero_across = 1e-5;
     const Spectrum   by_held = spectrum(held);
-    const Vectors    left =
-      null_space(by_held, zero_held * by_held.values[0]);
+    const Vectors    left = null_space(by_held, zero_held * by_held.values[0]);
     if (left.empty())
       return left;
     const Spectrum of_left = spectrum(restricted(moved, left));
-    const double   still = rounding_of_squares * of_left.values[0];
+    const double   still   = rounding_of_squares * of_left.values[0];
     // those that move nothing that slides
     Vectors free = combined(left, null_space(of_left, still));
     Vectors unit; // those that move it by one
@@ -340,9 +342,8 @@ namespace mortise
             entry /= std::sqrt(of_left.values[k]);
         }
     if (!unit.empty())
-      for (auto &motion :
-           combined(unit,
-                    null_space(spectrum(restricted(across, unit)), zero_across)))
+      for (auto &motion : combined(
+             unit, null_space(spectrum(restricted(across, unit)), zero_across)))
         free.push_back(std::move(motion));
     return orthonormal(free);
   }

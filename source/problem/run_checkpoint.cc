@@ -69,8 +69,8 @@ namespace mortise
       checkpoint.longest_step = json.at("longest_step").is_null() ?
                                   std::numeric_limits<double>::infinity() :
                                   json_value<double>(json.at("longest_step"));
-      checkpoint.n_steps    = json_value<unsigned int>(json.at("n_steps"));
-      checkpoint.adaptivity = json_value<std::string>(json.at("adaptivity"));
+      checkpoint.n_steps      = json_value<unsigned int>(json.at("n_steps"));
+      checkpoint.adaptivity   = json_value<std::string>(json.at("adaptivity"));
       checkpoint.steps =
         steps_from_json(json_value<std::string>(json.at("steps")));
       for (const Json &file : list_of(json, "files"))

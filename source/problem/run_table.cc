@@ -134,8 +134,11 @@ namespace mortise
     void
     print_contact(RunLog &log, const StepSummary &step)
     {
-      Rows rows = {
-        {"contact", "pressing area", "pressure, mean", "largest", "penetration"}};
+      Rows rows = {{"contact",
+                    "pressing area",
+                    "pressure, mean",
+                    "largest",
+                    "penetration"}};
       for (const InterfaceSummary &interface : step.interfaces)
         if (const auto &contact = interface.contact)
           rows.push_back({interface.name,

@@ -72,16 +72,14 @@ namespace mortise
     BodySurface slave_surface = surface(given.slave, slave);
     slave_surface.direction   = given.direction;
     BodySurface master_surface =
-      given.is_support ?
-        rigid_counterpart(slave_surface) :
-        surface(given.master, faces_of(given, given.master));
+      given.is_support ? rigid_counterpart(slave_surface) :
+                         surface(given.master, faces_of(given, given.master));
     InterfaceOptions options;
     options.distance             = given.search_distance;
     options.points_per_direction = given.quadrature_points;
     const auto boundary          = [&](const SideParameters &side) {
-      return [&body = *spaces.bodies[side.body]] {
-        return whole_boundary(body);
-      };
+      return
+        [&body = *spaces.bodies[side.body]] { return whole_boundary(body); };
     };
     options.slave_boundary  = boundary(given.slave);
     options.master_boundary = boundary(given.master);
@@ -216,13 +214,14 @@ namespace mortise
     if (report.largest_coverage > most_coverage)
       {
         std::ostringstream text;
-        text << "Interface " << given.name << ": a face of the slave has "
-             << RunLog::number(report.largest_coverage)
-             << " times its area in partners; worst is the face at "
-             << report.worst_face_centre
-             << ". Parts of " << side_text(run.parameters, given.master)
-             << " lie in several layers before it; allowed: one layer. Make "
-                "those that do not belong to the interface boundaries of their own";
+        text
+          << "Interface " << given.name << ": a face of the slave has "
+          << RunLog::number(report.largest_coverage)
+          << " times its area in partners; worst is the face at "
+          << report.worst_face_centre << ". Parts of "
+          << side_text(run.parameters, given.master)
+          << " lie in several layers before it; allowed: one layer. Make "
+             "those that do not belong to the interface boundaries of their own";
         throw InputError(text.str());
       }
     warn_of_mesh_gap(i);

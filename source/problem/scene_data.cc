@@ -178,7 +178,7 @@ namespace mortise
     const std::string     path  = "Body " + body.name;
     const unsigned int    b     = body.index;
     Loads                 loads;
-    const auto balance = [=](const Point<dim> &p) {
+    const auto            balance = [=](const Point<dim> &p) {
       return exact->body_force(p, b);
     };
     if (!given.body_force &&
@@ -195,12 +195,13 @@ namespace mortise
                           watch,
                           balance);
         if (parameters.gravity && given.material.density > 0.)
-          add_unless_zero(
-            forces,
-            components(*parameters.gravity, parameters.where("Gravity"), time),
-            watch,
-            balance,
-            given.material.density);
+          add_unless_zero(forces,
+                          components(*parameters.gravity,
+                                     parameters.where("Gravity"),
+                                     time),
+                          watch,
+                          balance,
+                          given.material.density);
         if (!forces.empty())
           loads.body_force = [forces](const Point<dim> &x) {
             Tensor<1, dim> sum;
@@ -234,16 +235,16 @@ namespace mortise
           }
         if (boundary.force || boundary.moment)
           {
-            const auto traction = equivalent_traction(
-              boundary_area(body, id),
-              total(boundary.force,
-                    parameters.where(where + "/Force"),
-                    time,
-                    watch),
-              total(boundary.moment,
-                    parameters.where(where + "/Moment"),
-                    time,
-                    watch));
+            const auto traction =
+              equivalent_traction(boundary_area(body, id),
+                                  total(boundary.force,
+                                        parameters.where(where + "/Force"),
+                                        time,
+                                        watch),
+                                  total(boundary.moment,
+                                        parameters.where(where + "/Moment"),
+                                        time,
+                                        watch));
             loads.tractions.push_back(
               {id, [traction](const Point<dim> &x, const Tensor<1, dim> &) {
                  return traction(x);
@@ -290,10 +291,9 @@ namespace mortise
   std::function<double(const Point<dim> &)>
   SceneData::offset(const InterfaceParameters &given) const
   {
-    const std::string where =
-      parameters.where(given.is_support ? given.displacement_path :
-                                          "Interface " + given.name +
-                                            "/Offset");
+    const std::string where = parameters.where(
+      given.is_support ? given.displacement_path :
+                         "Interface " + given.name + "/Offset");
     const Expression expression(given.offset, where, time);
     if (expression.is_constant() && !expression.depends_on_time() &&
         expression.value(Point<dim>()) == 0.)
@@ -341,8 +341,7 @@ namespace mortise
             RigidMotion(entry.second.displacement_axes, {}).rotation;
           if (!all_zero(field))
             condition.value = [=, &watch](const Point<dim> &x) {
-              return axes *
-                     evaluate(field, x, watch, [&](const Point<dim> &p) {
+              return axes * evaluate(field, x, watch, [&](const Point<dim> &p) {
                        return exact->displacement(p, b);
                      });
             };

@@ -167,7 +167,7 @@ namespace mortise
                              const double       time,
                              const std::string &where)
     {
-      const auto &pressure = parameters.exact_solution.pressure;
+      const auto             &pressure = parameters.exact_solution.pressure;
       std::vector<Expression> thermal_strains;
       for (const BodyParameters &body : parameters.bodies)
         {

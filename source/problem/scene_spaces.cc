@@ -92,17 +92,17 @@ namespace mortise
           far    = std::max({far, largest[d], largest[dim + d]});
           extent = std::min(extent, largest[d] + largest[dim + d]);
         }
-      const double spacing = std::numeric_limits<double>::epsilon() * far;
-      const double edge    = -largest[2 * dim];
-      const std::string what = "its coordinates are up to " +
+      const double      spacing = std::numeric_limits<double>::epsilon() * far;
+      const double      edge    = -largest[2 * dim];
+      const std::string what    = "its coordinates are up to " +
                                RunLog::number(far) + ", where numbers are " +
                                RunLog::number(spacing) + " apart";
       const std::string remedy =
         "Mesh/Translate, or a file whose origin is near the body";
       if (spacing > refused * edge)
         throw InputError("Body " + body.name + ", Mesh: " + what +
-                         ", and its shortest edge has " +
-                         RunLog::number(edge) + "; allowed: edges of at least " +
+                         ", and its shortest edge has " + RunLog::number(edge) +
+                         "; allowed: edges of at least " +
                          RunLog::number(spacing / refused) + " there (" +
                          remedy + ")");
       if (spacing > told * extent)
@@ -189,10 +189,8 @@ namespace mortise
         if (const auto stiffness = spring_stiffness(run.parameters, interface))
           {
             const double size = extent(*bodies[interface.slave.body]).size;
-            for (const BoundaryFace &face :
-                 side_faces(bodies,
-                            interface.slave,
-                            "Interface " + interface.name))
+            for (const BoundaryFace &face : side_faces(
+                   bodies, interface.slave, "Interface " + interface.name))
               {
                 const Stiffness at =
                   stiffness(face.cell->face(face.number)->center());

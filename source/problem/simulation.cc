@@ -30,12 +30,13 @@ namespace mortise
     is_zero(const StepSummary &step)
     {
       constexpr double rounding = 1e-10;
-      return std::all_of(
-        step.bodies.begin(), step.bodies.end(), [&](const BodySummary &body) {
-          return body.displacement_max &&
-                 body.displacement_max->value <=
-                   rounding * std::cbrt(body.volume);
-        });
+      return std::all_of(step.bodies.begin(),
+                         step.bodies.end(),
+                         [&](const BodySummary &body) {
+                           return body.displacement_max &&
+                                  body.displacement_max->value <=
+                                    rounding * std::cbrt(body.volume);
+                         });
     }
   } // namespace
 
@@ -128,17 +129,14 @@ namespace mortise
         context.log.line("    iteration " + std::to_string(iteration) +
                          "  residual " + RunLog::number(residual));
       };
-    solver = make_linear_solver(discretisation->linear_system(), options);
+    solver   = make_linear_solver(discretisation->linear_system(), options);
     preloads = std::make_unique<Preloads>(context,
                                           *discretisation,
                                           *solver,
                                           shortenings);
     if (discretisation->interfaces().have_contact())
-      contact = std::make_unique<ContactStep>(context,
-                                              *discretisation,
-                                              *solver,
-                                              *preloads,
-                                              std::move(pressing));
+      contact = std::make_unique<ContactStep>(
+        context, *discretisation, *solver, *preloads, std::move(pressing));
     // a factorisation gives one of many answers and does not tell
     if (options.method == SolverMethod::direct)
       discretisation->check_multipliers();
@@ -295,7 +293,7 @@ namespace mortise
       restore(restart);
     while (!steps.finished() && report.converged && unwritten.empty())
       step(writes);
-    summary.status = !report.converged   ? "not converged" :
+    summary.status = !report.converged ? "not converged" :
                      !steps.finished() ? "stopped" :
                                          "done";
     if (!anything_acts(context.parameters) && is_zero(summary.steps.back()))
@@ -335,7 +333,7 @@ namespace mortise
       throw InputError(
         describe(unwritten) + "\n" +
         (summary.status != "stopped" ? "" :
-         adaptivity ? "The run was stopped after cycle " +
+         adaptivity                  ? "The run was stopped after cycle " +
                         std::to_string(summary.steps.back().cycle) + "; " :
                       "The run was stopped at t = " +
                         RunLog::number(steps.time()) + "; ") +

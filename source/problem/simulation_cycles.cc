@@ -87,9 +87,9 @@ namespace mortise
         adaptivity.emplace(context);
         cycle(writes);
       }
-    summary.status = !report.converged     ? "not converged" :
+    summary.status = !report.converged                       ? "not converged" :
                      !unwritten.empty() && !steps.finished() ? "stopped" :
-                     adaptivity->reached() ? "done" :
+                     adaptivity->reached()                   ? "done" :
                                              "target not reached";
   }
 } // namespace mortise

@@ -64,20 +64,18 @@ namespace mortise
     std::vector<Violation> result;
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       {
-        const InterfaceParameters &given = interfaces.sides()[i];
-        const Violations           broken =
-          violation_energies(interfaces.all()[i],
-                             displacement,
-                             fields.tractions[i],
-                             {{offset_with(solved.data.offset(given),
-                                           solved.shortenings[i]),
-                               given.law == "contact" &&
-                                 given.mesh_gap == "real"},
-                              spring_stiffness(run.parameters, given)},
-                             run.comm);
+        const InterfaceParameters &given  = interfaces.sides()[i];
+        const Violations           broken = violation_energies(
+          interfaces.all()[i],
+          displacement,
+          fields.tractions[i],
+          {{offset_with(solved.data.offset(given), solved.shortenings[i]),
+                      given.law == "contact" && given.mesh_gap == "real"},
+                     spring_stiffness(run.parameters, given)},
+          run.comm);
         const InterfaceHandler &interface = *interfaces.all()[i].interface;
         const auto             &cells     = interface.slave().cells;
-        Violation               of{given.name, 0., given.slave.body, {}, {}, {}};
+        Violation of{given.name, 0., given.slave.body, {}, {}, {}};
         of.of_cells.resize(
           discretisation.bodies()[of.body]->triangulation().n_active_cells(),
           0.);
@@ -112,7 +110,8 @@ namespace mortise
   {
     std::vector<BodyData> data;
     for (const auto &body : discretisation.bodies())
-      data.push_back({solved.data.loads(*body), solved.data.dirichlet(*body), {}});
+      data.push_back(
+        {solved.data.loads(*body), solved.data.dirichlet(*body), {}});
     for (const Violation &of : interfaces)
       for (const auto &[body, tractions] : of.tractions)
         data[body].interfaces.push_back(&tractions);
@@ -156,9 +155,9 @@ namespace mortise
                 const StepFields     &fields,
                 StepSummary          &summary)
   {
-    const Bodies &bodies     = discretisation.bodies();
-    const auto   &interfaces = discretisation.interfaces().all();
-    const auto   &point      = run.parameters.output.moments_about;
+    const Bodies        &bodies     = discretisation.bodies();
+    const auto          &interfaces = discretisation.interfaces().all();
+    const auto          &point      = run.parameters.output.moments_about;
     const Tensor<1, dim> about({point[0], point[1], point[2]});
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
@@ -170,10 +169,10 @@ namespace mortise
       {
         const Resultants carried =
           resultants(interfaces[i], solved.solution.multiplier, run.comm);
-        InterfaceSummary &of  = summary.interfaces[i];
-        of.force              = components(carried.force);
-        of.moment             = components(
-          carried.moment - cross_product_3d(about, carried.force));
+        InterfaceSummary &of = summary.interfaces[i];
+        of.force             = components(carried.force);
+        of.moment =
+          components(carried.moment - cross_product_3d(about, carried.force));
         of.force_residual  = carried.force_residual;
         of.moment_residual = carried.moment_residual;
       }
@@ -203,10 +202,10 @@ namespace mortise
     summary.equilibrium = forces.equilibrium();
     for (const ResultantQuantity &quantity : run.parameters.output.resultants)
       {
-        const ForceAndMoment on_boundary = forces.on(
-          quantity.body,
-          bodies[quantity.body]->boundary_id(quantity.boundary, ""),
-          Point<dim>(about[0], about[1], about[2]));
+        const ForceAndMoment on_boundary =
+          forces.on(quantity.body,
+                    bodies[quantity.body]->boundary_id(quantity.boundary, ""),
+                    Point<dim>(about[0], about[1], about[2]));
         summary.quantities.emplace_back(quantity.name,
                                         components(on_boundary.force));
         summary.quantities.emplace_back(quantity.name + ", moment",

@@ -1,4 +1,5 @@
-// Displacements along other directions than the axes of the scene: add_supports().
+// Displacements along other directions than the axes of the scene:
+// add_supports().
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
 #include <mortise/base/rigid_motion.h>
@@ -17,15 +18,12 @@ namespace mortise
                  const std::string &boundary)
     {
       std::string name = body + " " + boundary;
-      const auto  is   = [&name](const auto &other) {
-        return other.name == name;
-      };
-      while (std::any_of(parameters.bodies.begin(),
-                         parameters.bodies.end(),
-                         is) ||
-             std::any_of(parameters.interfaces.begin(),
-                         parameters.interfaces.end(),
-                         is))
+      const auto is = [&name](const auto &other) { return other.name == name; };
+      while (
+        std::any_of(parameters.bodies.begin(), parameters.bodies.end(), is) ||
+        std::any_of(parameters.interfaces.begin(),
+                    parameters.interfaces.end(),
+                    is))
         name += "-";
       return name;
     }
@@ -39,12 +37,12 @@ namespace mortise
     {
       const std::string  &body = parameters.bodies[b].name;
       InterfaceParameters result;
-      result.name              = support_name(parameters, body, boundary);
-      result.slave             = {b, {boundary}};
-      result.master            = result.slave;
-      result.law               = "slide";
-      result.offset            = displacement;
-      result.is_support        = true;
+      result.name       = support_name(parameters, body, boundary);
+      result.slave      = {b, {boundary}};
+      result.master     = result.slave;
+      result.law        = "slide";
+      result.offset     = displacement;
+      result.is_support = true;
       result.displacement_path =
         "Body " + body + "/Boundary " + boundary + "/Displacement";
       return result;
@@ -59,7 +57,7 @@ namespace mortise
     {
       BoundaryParameters &boundary = parameters.bodies[b].boundaries[name];
       const Components    given    = *boundary.displacement;
-      const std::string path = "Body " + parameters.bodies[b].name +
+      const std::string   path     = "Body " + parameters.bodies[b].name +
                                "/Boundary " + name + "/Displacement";
       if (std::count(given.begin(), given.end(), "exact") > 0)
         parameters.fail(path,
@@ -93,9 +91,10 @@ namespace mortise
           const std::string path = "Body " + parameters.bodies[b].name +
                                    "/Boundary " + name + "/Displacement";
           if (rotated && !boundary.displacement)
-            parameters.fail(path + " axes",
-                            "axes for no components",
-                            "nothing without a Displacement of three components");
+            parameters.fail(
+              path + " axes",
+              "axes for no components",
+              "nothing without a Displacement of three components");
           if (rotated)
             add_rotated(parameters, b, name);
           if (boundary.normal_displacement)

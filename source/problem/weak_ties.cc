@@ -54,8 +54,8 @@ namespace mortise
             unit.emplace_back(projector.m(), 0.);
             for (unsigned int l = 0; l < resisted.size(); ++l)
               for (unsigned int i = 0; i < projector.m(); ++i)
-                unit.back()[i] += all.vectors[k][l] * resisted[l][i] /
-                                  std::sqrt(all.values[k]);
+                unit.back()[i] +=
+                  all.vectors[k][l] * resisted[l][i] / std::sqrt(all.values[k]);
           }
       return unit.empty() ? 1. :
                             spectrum(restricted(A.sum(), unit)).values.back();
@@ -105,7 +105,8 @@ namespace mortise
         result.add(0, 1, resistance_of(with, where, where, comm));
         return result;
       };
-      return !(smallest_ratio(resistance(tie), resistance(ideal)) > least_ratio);
+      return !(smallest_ratio(resistance(tie), resistance(ideal)) >
+               least_ratio);
     }
   } // namespace
 

@@ -85,8 +85,7 @@ namespace mortise
   {
     double total = 0.;
     for (unsigned int i = 0; i < rhs.pressure.locally_owned_size(); ++i)
-      total +=
-        std::abs(rhs.pressure.begin()[i] * state.pressure.begin()[i]);
+      total += std::abs(rhs.pressure.begin()[i] * state.pressure.begin()[i]);
     total = Utilities::MPI::sum(total, rhs.pressure.get_mpi_communicator());
     double net = rhs.pressure * state.pressure;
     if (rhs.multiplier.size() > 0)
@@ -107,7 +106,8 @@ namespace mortise
     // what a pressure on a free boundary would bring is h / L of this norm
     double norm = 0.;
     for (unsigned int i = 0; i < one.locally_owned_size(); ++i)
-      norm += one.begin()[i] * one.begin()[i] / residual.inverse_diagonal_p()[i];
+      norm +=
+        one.begin()[i] * one.begin()[i] / residual.inverse_diagonal_p()[i];
     norm                   = Utilities::MPI::sum(norm, system.communicator);
     double       left      = square(force, normal);
     const double rounding  = 1e-16 * norm,

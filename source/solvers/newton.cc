@@ -49,7 +49,7 @@ namespace mortise
                SystemVector           &x)
   {
     constexpr unsigned int easy_iterations = 5;
-    const double           target = options.tolerance * options.scale;
+    const double           target          = options.tolerance * options.scale;
     NewtonReport           report;
     Iterate                at{x, x, 0.};
     SystemVector           dx = x;

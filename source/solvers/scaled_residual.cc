@@ -24,8 +24,9 @@ namespace mortise
                      const Vector        &b,
                      const Epetra_Vector &weight)
     {
-      double        sum    = 0.;
-      const double *of_a = a.trilinos_vector()[0], *of_b = b.trilinos_vector()[0];
+      double        sum  = 0.;
+      const double *of_a = a.trilinos_vector()[0],
+                   *of_b = b.trilinos_vector()[0];
       for (int i = 0; i < weight.MyLength(); ++i)
         sum += of_a[i] * of_b[i] * weight[i];
       return sum;
@@ -37,14 +38,14 @@ namespace mortise
     , interface_present(system.owned_multiplier.size() > 0)
   {
     const SystemVector zero = system.zero_vector();
-    weight_u                = std::make_unique<Epetra_Vector>(
-      zero.displacement.trilinos_partitioner());
+    weight_u =
+      std::make_unique<Epetra_Vector>(zero.displacement.trilinos_partitioner());
     for (int i = 0; i < weight_u->MyLength(); ++i)
       (*weight_u)[i] = inverse(system.nodal->diagonal().local_element(i));
     if (system.mixed())
       {
-        weight_p = std::make_unique<Epetra_Vector>(
-          zero.pressure.trilinos_partitioner());
+        weight_p =
+          std::make_unique<Epetra_Vector>(zero.pressure.trilinos_partitioner());
         const auto &diagonal = system.nodal->pressure_norm_diagonal();
         for (int i = 0; i < weight_p->MyLength(); ++i)
           (*weight_p)[i] = inverse(diagonal.local_element(i));
@@ -55,7 +56,8 @@ namespace mortise
           system.coupling.diagonal_of_square(*weight_u));
         Epetra_Vector opening(weight_lambda->Map());
         if (system.has_springs())
-          system.spring_compliance.trilinos_matrix().ExtractDiagonalCopy(opening);
+          system.spring_compliance.trilinos_matrix().ExtractDiagonalCopy(
+            opening);
         for (int i = 0; i < weight_lambda->MyLength(); ++i)
           (*weight_lambda)[i] = inverse((*weight_lambda)[i] + opening[i]);
       }
@@ -108,7 +110,7 @@ namespace mortise
                             const SystemVector &x) const
   {
     SystemVector sizes = system.zero_vector();
-    const auto     abs   = [](Vector &to, const Vector &from) {
+    const auto   abs   = [](Vector &to, const Vector &from) {
       for (unsigned int i = 0; i < to.locally_owned_size(); ++i)
         to.begin()[i] = std::fabs(from.begin()[i]);
     };

@@ -2,8 +2,8 @@
 #include <deal.II/base/exceptions.h>
 
 #include <mortise/base/error.h>
-#include <mortise/solvers/krylov/condensed.h>
 #include <mortise/solvers/factorisation/direct.h>
+#include <mortise/solvers/krylov/condensed.h>
 #include <mortise/solvers/krylov/saddle_point.h>
 #include <mortise/solvers/solve.h>
 
@@ -19,8 +19,9 @@ namespace mortise
     /// see how it moves up to a contrast of 1e7 (tests/solvers/contrast.cc).
     constexpr double largest_contrast = 1e6;
     /// Bodies that springs hold, in double precision up to 1e10: fewer
-    /// iterations are lost than a factorisation costs. Of the saddle point method,
-    /// which makes residuals small and not energies, 36 at about 5e8 and more than 1000 at 5e9.
+    /// iterations are lost than a factorisation costs. Of the saddle point
+    /// method, which makes residuals small and not energies, 36 at about 5e8
+    /// and more than 1000 at 5e9.
     constexpr double largest_contrast_of_springs = 1e9;
   } // namespace
 
@@ -46,14 +47,13 @@ namespace mortise
   {
     if (asked != SolverMethod::automatic)
       {
-        const SolverChoice best =
-          choose_solver(SolverMethod::automatic, scene);
+        const SolverChoice best = choose_solver(SolverMethod::automatic, scene);
         return {asked,
                 "",
                 best.method != SolverMethod::direct || asked == best.method ?
                   "" :
-                  "Solver/Method = auto, which here is direct (" +
-                    best.reason + ")"};
+                  "Solver/Method = auto, which here is direct (" + best.reason +
+                    ")"};
       }
     if (scene.contrast > largest_contrast &&
         scene.n_displacements <= max_direct_dofs)
@@ -72,7 +72,8 @@ namespace mortise
   std::unique_ptr<LinearSolver>
   make_linear_solver(const BlockSystem &system, const SolverOptions &options)
   {
-    const bool definite = system.owned_multiplier.size() == 0 && !system.mixed();
+    const bool definite =
+      system.owned_multiplier.size() == 0 && !system.mixed();
     switch (options.method)
       {
         case SolverMethod::direct:

@@ -34,7 +34,9 @@ main()
   verdict("large change, residual stays",
           std::fabs(square_by_residual(5., 1., 1.) / 5. - 1.),
           1e-12);
-  verdict("falls by a twentieth", falls(1., 0.96) || falls(0., 0.) ? 1. : 0., 0.5);
+  verdict("falls by a twentieth",
+          falls(1., 0.96) || falls(0., 0.) ? 1. : 0.,
+          0.5);
   verdict("falls by more", falls(1., 0.94) ? 0. : 1., 0.5);
   verdict("doubt after one and two refinements",
           std::fabs(doubt_of_residuals(1) - 1.5) +

@@ -89,7 +89,8 @@ namespace
 int
 main()
 {
-  verdict(order_grid(10) == METIS_OK, "METIS orders without anyone who catches");
+  verdict(order_grid(10) == METIS_OK,
+          "METIS orders without anyone who catches");
   mortise::interruption::catch_signals();
   verdict(order_grid(10) == METIS_OK, "METIS orders with signals caught");
   for (const auto &[signal, name] :

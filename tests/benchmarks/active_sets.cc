@@ -50,17 +50,17 @@ namespace
             // what cannot change its volume goes out at one side
             const bool open = std::stod(given.at("nu")) >= 0.49;
             for (const std::string side : {"xmin", "xmax", "ymin", "ymax"})
-              settings.push_back(
-                "Body " + body + "/Boundary " + side + "/Displacement=" +
-                (open && side == "xmax" ? "-, -, -" :
-                 side[0] == 'x'         ? "0, -, -" :
-                                          "-, 0, -"));
+              settings.push_back("Body " + body + "/Boundary " + side +
+                                 "/Displacement=" +
+                                 (open && side == "xmax" ? "-, -, -" :
+                                  side[0] == 'x'         ? "0, -, -" :
+                                                           "-, 0, -"));
           }
       }
     settings.push_back("Exact solution/Displacement=");
-    settings.push_back(std::string("Solver/Method=") +
-                       (std::stod(given.at("nu")) < 0.49 ? "condensed" :
-                                                           "saddle point"));
+    settings.push_back(
+      std::string("Solver/Method=") +
+      (std::stod(given.at("nu")) < 0.49 ? "condensed" : "saddle point"));
     if (!sphere)
       {
         settings.push_back("Body lower/Boundary zmin/Displacement=-, -, 0");
@@ -125,13 +125,13 @@ int
 main(int argc, char *argv[])
 {
   Options                                given{{"scene", "sphere"},
-                {"p", "2"},
-                {"law", "slide"},
-                {"contrast", "1"},
-                {"fine", "0"},
-                {"n", "4"},
-                {"nu", "0.3"},
-                {"tolerance", "1e-8"}};
+                                               {"p", "2"},
+                                               {"law", "slide"},
+                                               {"contrast", "1"},
+                                               {"fine", "0"},
+                                               {"n", "4"},
+                                               {"nu", "0.3"},
+                                               {"tolerance", "1e-8"}};
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (int i = 1; i < argc; ++i)
     {

@@ -101,8 +101,8 @@ Physical Surface("low") = {5};
         lines.push_back(line);
       }
     heads.resize(heads.size() - 2);
-    std::size_t at = random() % 2 == 0 ? heads[random() % heads.size()] :
-                                         random() % lines.size();
+    std::size_t  at   = random() % 2 == 0 ? heads[random() % heads.size()] :
+                                            random() % lines.size();
     std::string &line = lines[at];
     switch (random() % 6)
       {
@@ -122,8 +122,18 @@ Physical Surface("low") = {5};
             for (std::string word; of_line >> word;)
               words.push_back(word);
             static const std::vector<std::string> numbers = {
-              "0", "1", "-1", "3", "7", "1000003", "2147483648", "4294967297",
-              "18446744073709551615", "x", "", "1e999"};
+              "0",
+              "1",
+              "-1",
+              "3",
+              "7",
+              "1000003",
+              "2147483648",
+              "4294967297",
+              "18446744073709551615",
+              "x",
+              "",
+              "1e999"};
             if (!words.empty())
               words[random() % words.size()] =
                 numbers[random() % numbers.size()];
@@ -143,14 +153,14 @@ Physical Surface("low") = {5};
   void
   check_lies(Report &report)
   {
-    const std::string whole = read_file(
-      write_mesh("broken_lies", cube, {4.1, false, 1, false, false}));
+    const std::string whole =
+      read_file(write_mesh("broken_lies", cube, {4.1, false, 1, false, false}));
     const std::string whole_2 = read_file(
       write_mesh("broken_lies_2", cube, {2.2, false, 1, false, false}));
-    const auto changed = [](const std::string  &text,
-                            const std::string  &section,
-                            const unsigned int  n,
-                            const std::string  &number) {
+    const auto changed = [](const std::string &text,
+                            const std::string &section,
+                            const unsigned int n,
+                            const std::string &number) {
       std::size_t at = text.find("$" + section) + section.size() + 2;
       for (unsigned int i = 0; i < n; ++i)
         at = text.find_first_of(" \n", at) + 1;
@@ -202,7 +212,8 @@ Physical Surface("low") = {5};
     for (unsigned int i = 0; i < 150; ++i)
       for (const std::string &one : {whole, whole_2})
         {
-          const std::string message = message_of(broken(with_lies(one, random)));
+          const std::string message =
+            message_of(broken(with_lies(one, random)));
           if (message != "(no error)" &&
               message.find("Mesh: the mesh file '") != 0)
             report(false, "one message", message);
@@ -385,10 +396,11 @@ Physical Surface("low") = {5};
             "a folded cell of second order",
             broken(mesh_text(nodes, elements)),
             "its curved sides fold, near (");
-    refused(report,
-            "what helps against it",
-            broken(mesh_text(nodes, elements)),
-            "(in gmsh: Mesh.HighOrderOptimize = 2 or a finer mesh; or first order, with Curved boundaries)");
+    refused(
+      report,
+      "what helps against it",
+      broken(mesh_text(nodes, elements)),
+      "(in gmsh: Mesh.HighOrderOptimize = 2 or a finer mesh; or first order, with Curved boundaries)");
   }
 
   /// Two cubes that share no nodes at x = 1, of volumes @p left and @p right,

@@ -41,10 +41,12 @@ Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 Transfinite Curve{1, 3} = )" +
-      text(0, 1) + "; Transfinite Curve{2, 4} = " + text(1, 1) + R"(;
+                  text(0, 1) + "; Transfinite Curve{2, 4} = " + text(1, 1) +
+                  R"(;
 Transfinite Surface{1};
 )") + (hexahedra ? "Recombine Surface{1};\n" : "") +
-      "core[] = Extrude{0, 0, 1}{ Surface{1}; Layers{" + text(2, 0) + "}; " + recombine + R"(};
+      "core[] = Extrude{0, 0, 1}{ Surface{1}; Layers{" + text(2, 0) + "}; " +
+      recombine + R"(};
 Physical Volume("cube") = {core[1]};
 Physical Surface("low") = {1};
 Physical Surface("high") = {core[0]};
@@ -209,8 +211,12 @@ main(int argc, char **argv)
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   Report                           report;
   // p4est permutes coarse cells, in another way for each of these
-  check_shape(report, "3 x 3 x 1 hexahedra of 27 nodes", bent_cube(true, false, {{3, 3, 1}}));
+  check_shape(report,
+              "3 x 3 x 1 hexahedra of 27 nodes",
+              bent_cube(true, false, {{3, 3, 1}}));
   // the map is of degree 2 in all, so that serendipity has it, too
-  check_shape(report, "2 x 3 x 4 hexahedra of 20 nodes", bent_cube(true, true, {{2, 3, 4}}));
+  check_shape(report,
+              "2 x 3 x 4 hexahedra of 20 nodes",
+              bent_cube(true, true, {{2, 3, 4}}));
   check_shape(report, "tetrahedra", bent_cube(false, false, {{2, 3, 2}}));
 }

@@ -1,5 +1,6 @@
-// Proves that the spaces of a body may be made again with other degrees: nothing
-// is left of the earlier ones, on hexahedra with hanging nodes and tetrahedra.
+// Proves that the spaces of a body may be made again with other degrees:
+// nothing is left of the earlier ones, on hexahedra with hanging nodes and
+// tetrahedra.
 #include <deal.II/base/mpi.h>
 
 #include <mortise/body/body.h>
@@ -52,7 +53,8 @@ namespace
   void
   check(const std::string &cells)
   {
-    Body again("body", 0, LinearElastic{1., 0.5, true}), once("body", 0, LinearElastic{1., 0.5, true});
+    Body again("body", 0, LinearElastic{1., 0.5, true}),
+      once("body", 0, LinearElastic{1., 0.5, true});
     for (Body *body : {&again, &once})
       body->create_mesh(shell(cells), MPI_COMM_WORLD, "");
     again.create_space(2, {}, "");
@@ -68,13 +70,13 @@ namespace
     // the second ball is inside the first one
     const Ball wide{{1., 0., 0.}, 0.9, 3}, narrow{{1., 0., 0.}, 0.2, 4};
     again.create_space(2, {{1, 5}}, "", {wide, narrow});
-    bool good = true;
+    bool                   good = true;
     std::set<unsigned int> found;
     for (const auto &cell : again.dof_handler.active_cell_iterators())
       {
         found.insert(again.degree(cell));
-        good = good && again.degree(cell) == (narrow.touches(cell) ? 4u :
-                                              wide.touches(cell)   ? 3u :
+        good = good && again.degree(cell) == (narrow.touches(cell)     ? 4u :
+                                              wide.touches(cell)       ? 3u :
                                               cell->material_id() == 1 ? 5u :
                                                                          2u);
       }

@@ -48,8 +48,7 @@ namespace
         active.push_back(s > 0.);
         turns.push_back(s > 0. && std::sqrt(s) - d / 2. / std::sqrt(s) < 0.);
       }
-    ContactEdge(strip.places, MPI_COMM_WORLD)
-      .extend(active, turns);
+    ContactEdge(strip.places, MPI_COMM_WORLD).extend(active, turns);
     double least = 1.;
     for (unsigned int i = 0; i < turns.size(); ++i)
       if (turns[i])
@@ -69,8 +68,7 @@ namespace
         turns.push_back(active[i] && pulls(i));
       }
     const std::vector<bool> before = turns;
-    ContactEdge(strip.places, MPI_COMM_WORLD)
-      .extend(active, turns);
+    ContactEdge(strip.places, MPI_COMM_WORLD).extend(active, turns);
     unsigned int n = 0;
     for (unsigned int i = 0; i < turns.size(); ++i)
       n += turns[i] != before[i] ? 1 : 0;

@@ -1,8 +1,8 @@
-// run MORTISE MPI_SCRIPT SCENE.prm: runs a scene as a user would and holds what comes out against the
-// expectations in its comment lines:
-//   # field: KIND OF SOURCE                          what the scene was drawn from
-//   # options --set "Body a/Degree=3"                further arguments of the program
-//   # ranks 3                                        1 without it
+// run MORTISE MPI_SCRIPT SCENE.prm: runs a scene as a user would and holds what
+// comes out against the expectations in its comment lines:
+//   # field: KIND OF SOURCE                          what the scene was drawn
+//   from # options --set "Body a/Degree=3"                further arguments of
+//   the program # ranks 3                                        1 without it
 //   # expect exit 2
 //   # expect message "TEXT"                          the program prints TEXT
 //   # expect no message "TEXT"
@@ -10,10 +10,10 @@
 //   # expect /JSON/POINTER = NUMBER relative NUMBER
 //   # expect /JSON/POINTER < NUMBER                  or >
 // where /steps/last is the last one of /steps.
-// Exit code 0 when all of them hold, 1 with a line for each that does not, 2 for an expectation that cannot be read.
+// Exit code 0 when all of them hold, 1 with a line for each that does not, 2
+// for an expectation that cannot be read.
 
 #include <nlohmann/json.hpp>
-
 #include <sys/wait.h>
 
 #include <cmath>
@@ -57,7 +57,8 @@ namespace
       else
         expectations.source |= line.rfind("# field: ", 0) == 0;
     if (!expectations.source || !exit_code)
-      throw std::runtime_error("needs a line '# field: ...' and a line '# expect exit ...'");
+      throw std::runtime_error(
+        "needs a line '# field: ...' and a line '# expect exit ...'");
     return expectations;
   }
 
@@ -80,8 +81,9 @@ namespace
     char    buffer[4096];
     for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
       outcome.printed.append(buffer, n);
-    const int status  = pclose(pipe);
-    outcome.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const int status = pclose(pipe);
+    outcome.exit_code =
+      WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     std::ifstream summary(output / "summary.json");
     if (summary)
       summary >> outcome.summary;
@@ -99,7 +101,9 @@ namespace
       {
         int code = -1;
         words >> code;
-        return outcome.exit_code == code ? "" : "exit code " + std::to_string(outcome.exit_code);
+        return outcome.exit_code == code ?
+                 "" :
+                 "exit code " + std::to_string(outcome.exit_code);
       }
     if (first == "message" || first == "no")
       {
@@ -107,30 +111,39 @@ namespace
         if (begin == end)
           throw std::runtime_error("'" + line + "' has no text in quotes");
         const bool found =
-          outcome.printed.find(line.substr(begin + 1, end - begin - 1)) != std::string::npos;
-        return found == (first == "message") ? "" : first == "no" ? "it is printed" : "it is not printed";
+          outcome.printed.find(line.substr(begin + 1, end - begin - 1)) !=
+          std::string::npos;
+        return found == (first == "message") ? "" :
+               first == "no"                 ? "it is printed" :
+                                               "it is not printed";
       }
     double            value = 0, tolerance = 0;
-    const std::size_t space = line.find_last_of(' ', line.find_first_of("=<>")); // names have spaces
-    first                   = line.substr(0, space);
+    const std::size_t space =
+      line.find_last_of(' ', line.find_first_of("=<>")); // names have spaces
+    first = line.substr(0, space);
     words.clear();
     words.str(space == std::string::npos ? "" : line.substr(space));
     words >> relation >> value;
     const bool equality = relation == "=";
     if (equality)
       words >> second >> tolerance;
-    if (!words || first[0] != '/' || (equality && second != "within" && second != "relative") ||
+    if (!words || first[0] != '/' ||
+        (equality && second != "within" && second != "relative") ||
         (!equality && relation != "<" && relation != ">"))
       throw std::runtime_error("'" + line + "' is no expectation");
-    if (first.rfind("/steps/last/", 0) == 0 && outcome.summary.contains("steps"))
+    if (first.rfind("/steps/last/", 0) == 0 &&
+        outcome.summary.contains("steps"))
       first.replace(7, 4, std::to_string(outcome.summary["steps"].size() - 1));
     const nlohmann::json::json_pointer where(first);
-    if (!outcome.summary.contains(where) || !outcome.summary.at(where).is_number())
+    if (!outcome.summary.contains(where) ||
+        !outcome.summary.at(where).is_number())
       return "summary.json has no such number";
     const double got = outcome.summary.at(where);
     if (second == "relative")
       tolerance *= std::abs(value);
-    const bool holds = equality ? std::abs(got - value) <= tolerance : relation == "<" ? got < value : got > value;
+    const bool         holds = equality ? std::abs(got - value) <= tolerance :
+                               relation == "<" ? got < value :
+                                                 got > value;
     std::ostringstream text;
     text.precision(12);
     text << got;
@@ -146,21 +159,26 @@ main(int argc, char **argv)
       std::cerr << "run MORTISE MPI_SCRIPT SCENE.prm" << std::endl;
       return 2;
     }
-  const std::filesystem::path scene = argv[3], output = std::filesystem::absolute("field") / scene.stem();
+  const std::filesystem::path scene  = argv[3],
+                              output = std::filesystem::absolute("field") /
+                                       scene.stem();
   try
     {
       const Expectations expectations = read_expectations(scene);
-      std::string        command      = "cd '" + scene.parent_path().string() + "' && ";
+      std::string command = "cd '" + scene.parent_path().string() + "' && ";
       if (expectations.ranks > 1)
-        command += std::string("'") + argv[2] + "' " + std::to_string(expectations.ranks) + " ";
-      command += std::string("'") + argv[1] + "'" + expectations.options + " --output '" + output.string() + "' '" +
-                 scene.string() + "'";
+        command += std::string("'") + argv[2] + "' " +
+                   std::to_string(expectations.ranks) + " ";
+      command += std::string("'") + argv[1] + "'" + expectations.options +
+                 " --output '" + output.string() + "' '" + scene.string() + "'";
       const Outcome outcome = run(command, output);
       bool          good    = true;
       for (const std::string &line : expectations.lines)
         {
           const std::string got = difference(line, outcome);
-          std::cout << (got.empty() ? "OK  " + line : "FAILED  " + line + ": " + got) << std::endl;
+          std::cout << (got.empty() ? "OK  " + line :
+                                      "FAILED  " + line + ": " + got)
+                    << std::endl;
           good &= got.empty();
         }
       if (!good)
@@ -169,7 +187,8 @@ main(int argc, char **argv)
     }
   catch (const std::exception &error)
     {
-      std::cout << "FAILED  " << scene.string() << ": " << error.what() << std::endl;
+      std::cout << "FAILED  " << scene.string() << ": " << error.what()
+                << std::endl;
       return 2;
     }
 }

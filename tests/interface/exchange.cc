@@ -70,7 +70,7 @@ namespace
                        const PairResult        &pair,
                        const IntegrationPoints &points) {
         values.insert(values.end(),
-                      {double(slave.id),
+                               {double(slave.id),
                        double(master.id),
                        pair.area,
                        double(points.size())});

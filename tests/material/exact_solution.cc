@@ -42,7 +42,7 @@ namespace
   {
     const LinearElastic material{1000., nu};
     const LameSolution  two(geometry,
-                           {{1.5, 2., material}, {1., 1.5, material}},
+                            {{1.5, 2., material}, {1., 1.5, material}},
                            1.);
     const LameSolution  one(geometry, {{1., 2., material}}, 1.);
     double              error = 0.;
@@ -126,7 +126,7 @@ namespace
                                                   {1., 0.45},
                                                   {30., -0.3}};
     const LameSolution               solution(geometry,
-                                {{1., 1.5, materials[0]},
+                                              {{1., 1.5, materials[0]},
                                                {1.5, 2., materials[1]},
                                                {2., 2.2, materials[2]}},
                                 1.,

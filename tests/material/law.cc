@@ -31,9 +31,9 @@ namespace
 
   const LinearElastic hooke{10., 0.3};
   const Orthotropic   wood{{{10., 1., 0.5}},
-                         {{0.35, 0.6, 0.02}},
-                         {{0.7, 0.05, 0.8}},
-                         {{20., -35., 70.}}};
+                           {{0.35, 0.6, 0.02}},
+                           {{0.7, 0.05, 0.8}},
+                           {{20., -35., 70.}}};
 
   std::mt19937 generator(7);
 
@@ -160,9 +160,9 @@ namespace
     const double E = hooke.young_modulus, nu = hooke.poisson_ratio,
                  G = hooke.lame_mu();
     const Orthotropic  same{{{E, E, E}},
-                           {{nu, nu, nu}},
-                           {{G, G, G}},
-                           {{20., 30., 40.}}};
+                            {{nu, nu, nu}},
+                            {{G, G, G}},
+                            {{20., 30., 40.}}};
     const Tensor<2, 3> gradient = random_gradient();
     const auto         expected = Material(hooke).stress(gradient);
     at_most("isotropic constants: Hooke's stress",

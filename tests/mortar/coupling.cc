@@ -76,8 +76,8 @@ namespace mortise::testing
             1e-13);
     const auto balance =
       resultants(coupling,
-                       random(tied.scene.owned_multiplier, tied.scene.comm),
-                       tied.scene.comm);
+                 random(tied.scene.owned_multiplier, tied.scene.comm),
+                 tied.scene.comm);
     verdict(what + ": force 1e-13", balance.force_residual, 1e-13);
     verdict(what + ": moment 1e-13", balance.moment_residual, 1e-13);
     check_work(what, tied, slave.degree);
@@ -359,9 +359,8 @@ namespace mortise::testing
               errors.push_back(transfer.linear_completeness);
               const auto balance =
                 resultants(tied.scene.coupling(),
-                                 random(tied.scene.owned_multiplier,
-                                        tied.scene.comm),
-                                 tied.scene.comm);
+                           random(tied.scene.owned_multiplier, tied.scene.comm),
+                           tied.scene.comm);
               verdict(mesh + ": force 1e-13", balance.force_residual, 1e-13);
               verdict(mesh + ": moment within the gap",
                       balance.moment_residual,

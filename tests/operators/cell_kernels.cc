@@ -1,7 +1,7 @@
 // Proves that the matrices and loads of cells are the textbook sums by
 // FEValues, to 1e-12 of the largest entry: hexahedra and tetrahedra, affine,
-// straight and curved, p up to 8, isotropic and orthotropic; that the matrices are
-// symmetric and have rigid motions in their kernel.
+// straight and curved, p up to 8, isotropic and orthotropic; that the matrices
+// are symmetric and have rigid motions in their kernel.
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/cells/load_kernel.h>
@@ -201,7 +201,8 @@ namespace mortise::testing
         CellKernel(body, fe).compute(cell, K);
         FullMatrix<double> difference(K);
         difference.add(
-          -1., textbook_matrix(body.material, fe, values, values.dofs_per_cell));
+          -1.,
+          textbook_matrix(body.material, fe, values, values.dofs_per_cell));
         in_matrix   = std::max(in_matrix, largest(difference) / largest(K));
         in_symmetry = std::max(in_symmetry, asymmetry(K));
         in_motions  = std::max(in_motions, kernel_defect(body, cell, K));
@@ -216,9 +217,9 @@ namespace mortise::testing
         for_load.reinit(iterator);
         dealii::Vector<double> f = textbook_load(fe, for_load);
         f -= LoadKernel(body, fe).compute(cell, loads);
-        in_load = std::max(in_load,
-                           f.linfty_norm() /
-                             textbook_load(fe, for_load).linfty_norm());
+        in_load =
+          std::max(in_load,
+                   f.linfty_norm() / textbook_load(fe, for_load).linfty_norm());
       }
     const std::string what = name + ", p = " + std::to_string(degree) + ": ";
     verdict(what + "matrix 1e-12", in_matrix, 1e-12);

@@ -93,7 +93,8 @@ namespace mortise::testing
   std::vector<BodyVector>
   make_function(const NodalScene &scene, const unsigned int seed)
   {
-    mortise::Vector u(scene.fields.displacement.numbering.owned(), MPI_COMM_WORLD);
+    mortise::Vector u(scene.fields.displacement.numbering.owned(),
+                      MPI_COMM_WORLD);
     for (const auto i : scene.fields.displacement.numbering.owned())
       u(i) = random_number(seed, i);
     u.compress(VectorOperation::insert);
@@ -279,8 +280,8 @@ namespace mortise::testing
   void
   check_vertices(const std::string &name, const NodalScene &scene)
   {
-    const NodalLevel               &level = scene.levels().back();
-    const LevelOperator<double>     K(level, false);
+    const NodalLevel                &level = scene.levels().back();
+    const LevelOperator<double>      K(level, false);
     const NodalBlockOperator<double> vertices(
       assemble_vertex_matrix(level).blocks);
     const auto          u = random_values(level, 1);

@@ -55,14 +55,13 @@ namespace mortise::testing
         pointers.push_back(body.get());
       NodalSpaces spaces = make_nodal_spaces(pointers, MPI_COMM_WORLD);
       const auto  side   = [&](const unsigned int b) {
-        return extract_surface(
-          *pointers[b],
-          boundary_faces(*pointers[b],
-                         pointers[b]->boundary_id(b == 0 ? "zmax" : "zmin",
-                                                  "")),
-          scene.fields.displacement.numbering,
-          scene.fields.displacement.constraints,
-          spaces);
+        return extract_surface(*pointers[b],
+                               boundary_faces(*pointers[b],
+                                              pointers[b]->boundary_id(
+                                                b == 0 ? "zmax" : "zmin", "")),
+                               scene.fields.displacement.numbering,
+                               scene.fields.displacement.constraints,
+                               spaces);
       };
       couplings.emplace_back();
       couplings[0].interface =

@@ -22,11 +22,11 @@ namespace mortise::testing
     dealii::DoFTools::make_zero_boundary_constraints(body.dof_handler,
                                                      1,
                                                      constraints);
-    dealii::DoFTools::make_zero_boundary_constraints(
-      body.dof_handler,
-      3,
-      constraints,
-      dealii::ComponentMask({false, true, false}));
+    dealii::DoFTools::make_zero_boundary_constraints(body.dof_handler,
+                                                     3,
+                                                     constraints,
+                                                     dealii::ComponentMask(
+                                                       {false, true, false}));
   }
 
   class NodalScene

@@ -55,9 +55,7 @@ namespace mortise::testing
     for (const std::string &kind : kinds)
       meshes.push_back(mesh(kind));
     return NodalScene(
-      meshes,
-      [](Body &body) { body.create_space(1, {}, ""); },
-      hold_two_faces);
+      meshes, [](Body &body) { body.create_space(1, {}, ""); }, hold_two_faces);
   }
 
   /// The same on every number of ranks as far as norms go.

@@ -170,9 +170,8 @@ namespace
       change(start, result.size());
     if (start_of_values(result) != start || random() % 10 == 0)
       return with_checksum(result);
-    const std::size_t ranks =
-      Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    std::size_t begin = start;
+    const std::size_t ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    std::size_t       begin = start;
     for (std::size_t r = 0; r < ranks; ++r)
       {
         const std::size_t part = start - 16 * (ranks - r);
@@ -203,8 +202,8 @@ namespace
                           MPI_COMM_WORLD);
         });
         n_refused += message != "(no error)";
-        n_other += message != "(no error)" &&
-                   message.find("The checkpoint \"") != 0;
+        n_other +=
+          message != "(no error)" && message.find("The checkpoint \"") != 0;
       }
     // the rest has another text, or other values of dofs
     verdict("of 400 files that lie half are refused", n_refused < 200, 0);
@@ -355,14 +354,13 @@ namespace
                    other.bodies[block].mesh.translate[1] = 1e-8;
                  },
                  {"body \"block\" has another geometry"});
-    check_change(
-      given,
-      "the same mesh with cells in another order",
-      [](Given &other) {
-        other.bodies[block].mesh.file =
-          renumbered(other.bodies[block].mesh.file);
-      },
-      {"(no error)"});
+    check_change(given,
+                 "the same mesh with cells in another order",
+                 [](Given &other) {
+                   other.bodies[block].mesh.file =
+                     renumbered(other.bodies[block].mesh.file);
+                 },
+                 {"(no error)"});
     check_change(
       given,
       "a body missing",

@@ -1,6 +1,7 @@
-// Proves that the largest displacement and the largest von Mises stress are found with their places, at
-// corners and edges too, on any number of ranks, the same place of many; that stresses which jump
-// between cells are averaged and the jump is told; and that volumes are exact on straight and curved
+// Proves that the largest displacement and the largest von Mises stress are
+// found with their places, at corners and edges too, on any number of ranks,
+// the same place of many; that stresses which jump between cells are averaged
+// and the jump is told; and that volumes are exact on straight and curved
 // cells.
 #include <mortar/tied_scene.h>
 #include <mortise/operators/body_volume.h>
@@ -42,21 +43,26 @@ namespace mortise::testing
     return at.size() == 3 ? expected.distance({at[0], at[1], at[2]}) : 1e9;
   }
 
-  /// Pure bending: sigma_xx = E z alone, the largest on the whole face z = 1, of which (0, 0, 1) is the
-  /// first.
+  /// Pure bending: sigma_xx = E z alone, the largest on the whole face z = 1,
+  /// of which (0, 0, 1) is the first.
   void
-  check_bending(const std::string &what, const bool tetrahedra, const unsigned int p)
+  check_bending(const std::string &what,
+                const bool         tetrahedra,
+                const unsigned int p)
   {
     const auto body =
       make_body(box_mesh({0, 0, 0, 3, 1, 1}, {3, 2, 2}, tetrahedra), p);
     const Extremes found =
       extremes_of(*body, [](const unsigned int c, const Point<dim> &x) {
-        return c == 0 ? x[0] * x[2] :
-               c == 1 ? -ratio * x[1] * x[2] :
-                        -0.5 * x[0] * x[0] -
-                          0.5 * ratio * (x[2] * x[2] - x[1] * x[1]);
+        return c == 0 ?
+                 x[0] * x[2] :
+               c == 1 ?
+                 -ratio * x[1] * x[2] :
+                 -0.5 * x[0] * x[0] - 0.5 * ratio * (x[2] * x[2] - x[1] * x[1]);
       });
-    verdict(what + ": stress", std::fabs(found.von_mises.value - modulus), 1e-9);
+    verdict(what + ": stress",
+            std::fabs(found.von_mises.value - modulus),
+            1e-9);
     verdict(what + ": its place",
             distance(found.von_mises.at, {0, 0, 1}),
             1e-12);
@@ -78,7 +84,7 @@ namespace mortise::testing
   void
   check_jump()
   {
-    const auto     body  = make_body(box_mesh({0, 0, 0, 2, 1, 1}, {2, 1, 1}), 1);
+    const auto     body = make_body(box_mesh({0, 0, 0, 2, 1, 1}, {2, 1, 1}), 1);
     const Extremes found =
       extremes_of(*body, [](const unsigned int c, const Point<dim> &x) {
         return c > 0 ? 0. : x[0] < 1. ? x[0] : 3. * x[0] - 2.;
@@ -96,7 +102,7 @@ namespace mortise::testing
     verdict("two cells: jump",
             std::fabs(found.von_mises.jump.value_or(0.) - 2. * two_mu),
             1e-12);
-    const auto     one  = make_body(box_mesh({0, 0, 0, 1, 1, 1}, {1, 1, 1}), 2);
+    const auto     one = make_body(box_mesh({0, 0, 0, 1, 1, 1}, {1, 1, 1}), 2);
     const Extremes alone =
       extremes_of(*one, [](const unsigned int, const Point<dim> &x) {
         return x[0] * x[0];

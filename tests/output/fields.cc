@@ -72,11 +72,9 @@ namespace mortise::testing
         const unsigned int type = file.types[c];
         if (type < 69)
           continue; // of degree 1: has only corners
-        const auto        &cell   = file.cells[c];
+        const auto        &cell    = file.cells[c];
         const bool         simplex = type == 69 || type == 71;
-        const unsigned int along[] = {1,
-                                      simplex ? 2u : 3u,
-                                      simplex ? 3u : 4u};
+        const unsigned int along[] = {1, simplex ? 2u : 3u, simplex ? 3u : 4u};
         unsigned int       degree  = 2;
         while (vtk_nodes(type, degree).size() < cell.size())
           ++degree;
@@ -220,7 +218,7 @@ namespace mortise::testing
   {
     const unsigned int degree = degree_of_field > 0 ? degree_of_field : p;
     const Written together(mesh, p, by_region, mixed, degree, MPI_COMM_WORLD);
-    const Body   &body   = together.body;
+    const Body   &body = together.body;
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         const Written    one(mesh, p, by_region, mixed, degree, MPI_COMM_SELF);
@@ -368,8 +366,7 @@ namespace mortise::testing
                     file,
                     alone,
                     {tetrahedra ? 12u : 6u,
-                     tetrahedra ? 6 * (p + 1) * (p + 2) :
-                                  6 * (p + 1) * (p + 1),
+                     tetrahedra ? 6 * (p + 1) * (p + 2) : 6 * (p + 1) * (p + 1),
                      p > 1 ? (tetrahedra ? 69u : 70u) : (tetrahedra ? 5u : 9u),
                      1.,
                      "traction gap displacement"});
@@ -428,7 +425,7 @@ namespace mortise::testing
         const QGauss<2>  gauss(3);
         for (unsigned int q = 0; q < gauss.size(); ++q)
           {
-            const Point<dim> x(0.3 + 0.7 * gauss.point(q)[0],
+            const Point<dim>     x(0.3 + 0.7 * gauss.point(q)[0],
                                0.05 + 0.85 * gauss.point(q)[1],
                                1.);
             const Tensor<1, dim> t =
@@ -436,12 +433,14 @@ namespace mortise::testing
             force += t;
             moment += cross_product_3d(x, t);
           }
-        verdict(what + ": force", (got.force - force).norm() / force.norm(), 1e-7);
+        verdict(what + ": force",
+                (got.force - force).norm() / force.norm(),
+                1e-7);
         verdict(what + ": moment",
                 (got.moment - moment).norm() / moment.norm(),
                 1e-7);
-        double covered = 0.;
-        unsigned int n_none = 0;
+        double       covered = 0.;
+        unsigned int n_none  = 0;
         for (unsigned int c = 0; c < file.cells.size(); ++c)
           {
             covered += file.data.at("covered")[c][0] * size_of(file, c);

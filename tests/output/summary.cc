@@ -64,7 +64,7 @@ namespace
     body.displacement_max = PeakSummary{0.125, {1., 2., 3.}};
     body.von_mises_max    = StressPeakSummary{{7., {4., 5., 6.}}, 6.5, 1. / 3.};
     step.bodies           = {body, BodySummary()};
-    step.dofs = {10, 11, 12, 33};
+    step.dofs             = {10, 11, 12, 33};
     InterfaceSummary interface;
     interface.name                      = "glue";
     interface.slave_area                = 0.1 + 0.2;
@@ -75,10 +75,10 @@ namespace
     interface.moment_residual = 1. / 3.;
     interface.linear_completeness_error = 0.;
     step.interfaces.push_back(interface);
-    step.solver     = SolverSummary{"direct", "none", 1, 1e-16, {}, {}};
+    step.solver      = SolverSummary{"direct", "none", 1, 1e-16, {}, {}};
     step.equilibrium = EquilibriumSummary{{1.}, {-1.}, {0.}};
-    step.errors     = ErrorSummary{1e-3, 2e-3, 3e-3, {}, {}};
-    step.quantities = {{"z first", {1., 2., 3.}}, {"a second", {4.}}};
+    step.errors      = ErrorSummary{1e-3, 2e-3, 3e-3, {}, {}};
+    step.quantities  = {{"z first", {1., 2., 3.}}, {"a second", {4.}}};
     summary.steps.push_back(step);
     return summary;
   }
@@ -94,16 +94,16 @@ namespace
                json["program"],
                "name version dealii ranks build_type");
     const Json &step = json["steps"][0];
-    check_keys("a step",
-               step,
-               "step cycle bodies dofs interfaces solver equilibrium errors quantities");
-    check_keys("equilibrium",
-               step["equilibrium"],
-               "applied reactions sum");
-    check_keys("a body",
-               step["bodies"][0],
-               "name shape cells degree_min degree_max dofs material volume mass "
-               "displacement_max von_mises_max");
+    check_keys(
+      "a step",
+      step,
+      "step cycle bodies dofs interfaces solver equilibrium errors quantities");
+    check_keys("equilibrium", step["equilibrium"], "applied reactions sum");
+    check_keys(
+      "a body",
+      step["bodies"][0],
+      "name shape cells degree_min degree_max dofs material volume mass "
+      "displacement_max von_mises_max");
     check_keys("a body without mass that was not solved",
                step["bodies"][1],
                "name shape cells degree_min degree_max dofs material volume");

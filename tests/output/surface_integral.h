@@ -1,5 +1,5 @@
-// Integrals over the Lagrange cells of surfaces that a VTU file holds, by what VTK says of
-// them alone.
+// Integrals over the Lagrange cells of surfaces that a VTU file holds, by what
+// VTK says of them alone.
 #pragma once
 
 #include <deal.II/base/quadrature_lib.h>
@@ -10,7 +10,8 @@
 
 namespace mortise::testing
 {
-  /// prod_k (n t - k) / (k + 1) over k < m: one at t = m / n, zero at smaller k / n; and its slope.
+  /// prod_k (n t - k) / (k + 1) over k < m: one at t = m / n, zero at smaller k
+  /// / n; and its slope.
   inline std::array<double, 2>
   rising_product(const unsigned int n, const unsigned int m, const double t)
   {
@@ -59,7 +60,7 @@ namespace mortise::testing
   void
   for_each_surface_point(const VtuContent &file, const Visit &visit)
   {
-    constexpr unsigned int n_gauss = 20;
+    constexpr unsigned int  n_gauss = 20;
     const dealii::QGauss<2> gauss(n_gauss);
     for (unsigned int cell = 0; cell < file.cells.size(); ++cell)
       {
@@ -72,10 +73,13 @@ namespace mortise::testing
           ++n;
         const auto nodes =
           n > 1    ? vtk_nodes(type, n) :
-          triangle ? std::vector<std::array<unsigned int, 3>>{
-                       {{0, 0, 0}}, {{1, 0, 0}}, {{0, 1, 0}}} :
-                     std::vector<std::array<unsigned int, 3>>{
-                       {{0, 0, 0}}, {{1, 0, 0}}, {{1, 1, 0}}, {{0, 1, 0}}};
+          triangle ? std::vector<std::array<unsigned int, 3>>{{{0, 0, 0}},
+                                                              {{1, 0, 0}},
+                                                              {{0, 1, 0}}} :
+                     std::vector<std::array<unsigned int, 3>>{{{0, 0, 0}},
+                                                              {{1, 0, 0}},
+                                                              {{1, 1, 0}},
+                                                              {{0, 1, 0}}};
         for (unsigned int q = 0; q < gauss.size(); ++q)
           {
             dealii::Point<2> xi     = gauss.point(q);
@@ -85,8 +89,8 @@ namespace mortise::testing
                 weight *= 1. - xi[1];
                 xi[0] *= 1. - xi[1];
               }
-            std::vector<double>                    values;
-            dealii::Point<3>                       x;
+            std::vector<double>                 values;
+            dealii::Point<3>                    x;
             std::array<dealii::Tensor<1, 3>, 2> slope;
             for (unsigned int i = 0; i < nodes.size(); ++i)
               {
@@ -99,8 +103,7 @@ namespace mortise::testing
             visit(cell,
                   values,
                   x,
-                  weight *
-                    dealii::cross_product_3d(slope[0], slope[1]).norm());
+                  weight * dealii::cross_product_3d(slope[0], slope[1]).norm());
           }
       }
   }
@@ -117,7 +120,7 @@ namespace mortise::testing
   surface_integrals(const VtuContent &file, const std::string &name)
   {
     SurfaceIntegrals result;
-    const auto      &field = file.data.at(name);
+    const auto      &field     = file.data.at(name);
     const auto       is_number = [&](const unsigned int cell) {
       return !std::isnan(field[file.cells[cell][0]][0]);
     };

@@ -1,6 +1,7 @@
 // The nodes of VTK's Lagrange cells as VTK 9.7 itself tells them
-// (vtkLagrangeTriangle, ...Quadrilateral, ...Tetra, ...Hexahedron: GetParametricCoords() times the
-// degree): three digits a node, in the order of VTU files from version 2.2 on.
+// (vtkLagrangeTriangle, ...Quadrilateral, ...Tetra, ...Hexahedron:
+// GetParametricCoords() times the degree): three digits a node, in the order of
+// VTU files from version 2.2 on.
 #pragma once
 
 #include <algorithm>
@@ -12,23 +13,18 @@
 
 namespace mortise::testing
 {
-  /// By type of cell and degree. Of hexahedra in VTU files of version 1.0, the last two edges
-  /// are exchanged: so vtkUpdateCellsV8toV9.h reads them.
+  /// By type of cell and degree. Of hexahedra in VTU files of version 1.0, the
+  /// last two edges are exchanged: so vtkUpdateCellsV8toV9.h reads them.
   inline const std::map<std::pair<unsigned int, unsigned int>, std::string> vtk_node_digits = {
-    {{69, 2},
-     "000200020100110010"},
-    {{69, 3},
-     "000300030100200210120020010110"},
-    {{69, 4},
-     "000400040100200300310220130030020010110210120"},
+    {{69, 2}, "000200020100110010"},
+    {{69, 3}, "000300030100200210120020010110"},
+    {{69, 4}, "000400040100200300310220130030020010110210120"},
     {{69, 5},
      "000500050100200300400410320230140040030020010110310130210220120"},
     {{69, 6},
      "000600060100200300400500510420330240150050040030020010110410140210310320230130120220"},
-    {{70, 2},
-     "000200220020100210120010110"},
-    {{70, 3},
-     "000300330030100200310320130230010020110210120220"},
+    {{70, 2}, "000200220020100210120010110"},
+    {{70, 3}, "000300330030100200310320130230010020110210120220"},
     {{70, 4},
      "000400440040100200300410420430140240340010020030110210310120220320130230330"},
     {{70, 5},
@@ -37,10 +33,8 @@ namespace mortise::testing
     {{70, 6},
      "000600660060100200300400500610620630640650160260360460560010020030040050110210310410"
      "510120220320420520130230330430530140240340440540150250350450550"},
-    {{71, 2},
-     "000200020002100110010001101011"},
-    {{71, 3},
-     "000300030003100200210120020010001002201102021012101111011110"},
+    {{71, 2}, "000200020002100110010001101011"},
+    {{71, 3}, "000300030003100200210120020010001002201102021012101111011110"},
     {{71, 4},
      "000400040004100200300310220130030020010001002003301202103031022013101201102121112211"
      "011012021110120210111"},
@@ -91,10 +85,12 @@ namespace mortise::testing
   inline std::vector<std::array<unsigned int, 3>>
   vtk_nodes(const unsigned int type, const unsigned int degree)
   {
-    const std::string                       &digits = vtk_node_digits.at({type, degree});
+    const std::string &digits = vtk_node_digits.at({type, degree});
     std::vector<std::array<unsigned int, 3>> nodes;
     for (unsigned int i = 0; i < digits.size(); i += 3)
-      nodes.push_back({{unsigned(digits[i] - '0'), unsigned(digits[i + 1] - '0'), unsigned(digits[i + 2] - '0')}});
+      nodes.push_back({{unsigned(digits[i] - '0'),
+                        unsigned(digits[i + 1] - '0'),
+                        unsigned(digits[i + 2] - '0')}});
     if (type == 72)
       {
         const auto third = nodes.begin() + 8 + 10 * (degree - 1);

@@ -64,8 +64,8 @@ namespace mortise::testing
         std::memcpy(&value, &bytes.at(4 * i), 4);
         return value;
       };
-      const std::size_t begin = text.find_first_not_of(" \n");
-      const std::size_t end   = text.find_last_not_of(" \n") + 1;
+      const std::size_t   begin = text.find_first_not_of(" \n");
+      const std::size_t   end   = text.find_last_not_of(" \n") + 1;
       const std::uint32_t n_blocks =
         number(dealii::Utilities::decode_base64(text.substr(begin, 8)), 0);
       const std::size_t header_size = (4 * (3 + n_blocks) + 2) / 3 * 4;
@@ -158,8 +158,8 @@ namespace mortise::testing
       for (std::size_t at = text.find("<DataArray "); at != std::string::npos;
            at             = text.find("<DataArray ", at + 1))
         {
-                      const std::size_t begin = text.find('>', at) + 1;
-                      add_array(text.substr(at, begin - at),
+          const std::size_t begin = text.find('>', at) + 1;
+          add_array(text.substr(at, begin - at),
                     text.substr(begin, text.find('<', begin) - begin),
                     at > text.find("<CellData"));
         }

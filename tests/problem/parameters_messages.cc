@@ -324,11 +324,12 @@ namespace
                "3: 4",
                "3: 9",
                {"Degree by region (line 7", "degree 9", "from 1 to 8"});
-    check_edit("no Young's modulus",
-               "set Young modulus = 10",
-               "",
-               {"Body inner/Material/Young modulus: got nothing with Law = linear elastic",
-                "allowed: a positive number (force per area)"});
+    check_edit(
+      "no Young's modulus",
+      "set Young modulus = 10",
+      "",
+      {"Body inner/Material/Young modulus: got nothing with Law = linear elastic",
+       "allowed: a positive number (force per area)"});
     check_edit("a negative Young's modulus",
                "Young modulus = 10",
                "Young modulus = -10",

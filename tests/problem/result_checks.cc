@@ -26,7 +26,8 @@ namespace
     step.bodies.resize(1);
     step.bodies[0].name             = "block";
     step.bodies[0].displacement_max = PeakSummary{0., {0., 0., 0.}};
-    step.bodies[0].von_mises_max    = StressPeakSummary{{0., {0., 0., 0.}}, 0., {}};
+    step.bodies[0].von_mises_max =
+      StressPeakSummary{{0., {0., 0., 0.}}, 0., {}};
     step.interfaces.resize(2);
     for (InterfaceSummary &interface : step.interfaces)
       {
@@ -51,34 +52,33 @@ namespace
                  inf = std::numeric_limits<double>::infinity();
     const std::vector<
       std::pair<std::string, std::function<void(StepSummary &)>>>
-      places = {{"relative residual = nan",
-                 [&](StepSummary &s) { s.solver->relative_residual = nan; }},
-                {"body block, volume = inf",
-                 [&](StepSummary &s) { s.bodies[0].volume = inf; }},
-                {"body block, largest displacement = nan",
-                 [&](StepSummary &s) { s.bodies[0].displacement_max->value = nan; }},
-                {"body block, largest von Mises stress = inf",
-                 [&](StepSummary &s) { s.bodies[0].von_mises_max->value = inf; }},
-                {"L2 error of the displacement = inf",
-                 [&](StepSummary &s) { s.errors->displacement_l2 = inf; }},
-                {"H1 error of the displacement = inf",
-                 [&](StepSummary &s) { s.errors->displacement_h1 = inf; }},
-                {"error in energy = inf",
-                 [&](StepSummary &s) { s.errors->energy = inf; }},
-                {"L2 error of the pressure = inf",
-                 [&](StepSummary &s) { s.errors->pressure_l2 = inf; }},
-                {"L2 error of the multiplier = nan",
-                 [&](StepSummary &s) { s.errors->multiplier_l2 = nan; }},
-                {"interface glue, slave area = inf",
-                 [&](StepSummary &s) { s.interfaces[1].slave_area = inf; }},
-                {"interface glue, force residual = nan",
-                 [&](StepSummary &s) { s.interfaces[1].force_residual = nan; }},
-                {"interface glue, moment residual = nan",
-                 [&](StepSummary &s) {
-                   s.interfaces[1].moment_residual = nan;
-                 }},
-                {"tip = -inf",
-                 [&](StepSummary &s) { s.quantities[0].second[2] = -inf; }}};
+      places = {
+        {"relative residual = nan",
+         [&](StepSummary &s) { s.solver->relative_residual = nan; }},
+        {"body block, volume = inf",
+         [&](StepSummary &s) { s.bodies[0].volume = inf; }},
+        {"body block, largest displacement = nan",
+         [&](StepSummary &s) { s.bodies[0].displacement_max->value = nan; }},
+        {"body block, largest von Mises stress = inf",
+         [&](StepSummary &s) { s.bodies[0].von_mises_max->value = inf; }},
+        {"L2 error of the displacement = inf",
+         [&](StepSummary &s) { s.errors->displacement_l2 = inf; }},
+        {"H1 error of the displacement = inf",
+         [&](StepSummary &s) { s.errors->displacement_h1 = inf; }},
+        {"error in energy = inf",
+         [&](StepSummary &s) { s.errors->energy = inf; }},
+        {"L2 error of the pressure = inf",
+         [&](StepSummary &s) { s.errors->pressure_l2 = inf; }},
+        {"L2 error of the multiplier = nan",
+         [&](StepSummary &s) { s.errors->multiplier_l2 = nan; }},
+        {"interface glue, slave area = inf",
+         [&](StepSummary &s) { s.interfaces[1].slave_area = inf; }},
+        {"interface glue, force residual = nan",
+         [&](StepSummary &s) { s.interfaces[1].force_residual = nan; }},
+        {"interface glue, moment residual = nan",
+         [&](StepSummary &s) { s.interfaces[1].moment_residual = nan; }},
+        {"tip = -inf",
+         [&](StepSummary &s) { s.quantities[0].second[2] = -inf; }}};
     for (const auto &[expected, spoil] : places)
       {
         StepSummary step = results();
@@ -146,7 +146,8 @@ namespace
     verdict(has(text, "1001 sets") && !has(text, "Max iterations"),
             "sets without end",
             text);
-    verdict(has(not_converged(report, 1e-10, 0, ""), "Raise Solver/Max iterations"),
+    verdict(has(not_converged(report, 1e-10, 0, ""),
+                "Raise Solver/Max iterations"),
             "too few iterations");
     report.method = "saddle point";
     const SceneSize on_soft_springs{1000, false, 1., 1e10};

@@ -1,7 +1,7 @@
 // Proves that what the driver keeps in a checkpoint comes back as it was, and
-// that a text with a right checksum and wrong contents is refused with a message
-// on the checkpoint or on a parameter: it never crashes and never takes memory
-// for what it only claims to hold.
+// that a text with a right checksum and wrong contents is refused with a
+// message on the checkpoint or on a parameter: it never crashes and never takes
+// memory for what it only claims to hold.
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
@@ -123,9 +123,9 @@ end
           break;
         default:
           {
-            const std::uint64_t number =
-              random() % 2 == 0 ? std::uint64_t(1) << (random() % 64) :
-                                  -1 - std::uint64_t(random() % 3);
+            const std::uint64_t number = random() % 2 == 0 ?
+                                           std::uint64_t(1) << (random() % 64) :
+                                           -1 - std::uint64_t(random() % 3);
             std::memcpy(&bytes[at],
                         &number,
                         std::min<std::size_t>(bytes.size() - at,
@@ -139,13 +139,23 @@ end
   std::string
   with_changed_value(std::string text, std::mt19937 &random)
   {
-    static const std::vector<std::string> values = {
-      "null", "true", "-1", "0", "7", "1e300", "4294967296", "0.5", "\"\"",
-      "\"x\"", "[]", "{}", "[[1]]", "18446744073709551615"};
-    const std::size_t begin =
+    static const std::vector<std::string> values = {"null",
+                                                    "true",
+                                                    "-1",
+                                                    "0",
+                                                    "7",
+                                                    "1e300",
+                                                    "4294967296",
+                                                    "0.5",
+                                                    "\"\"",
+                                                    "\"x\"",
+                                                    "[]",
+                                                    "{}",
+                                                    "[[1]]",
+                                                    "18446744073709551615"};
+    const std::size_t                     begin =
       text.find_first_of(":,[", random() % (text.size() - 2)) + 1;
-    const std::size_t end =
-      begin == 0 ? 0 : text.find_first_of(",]}:", begin);
+    const std::size_t end = begin == 0 ? 0 : text.find_first_of(",]}:", begin);
     if (begin > 0 && end != std::string::npos)
       text.replace(begin, end - begin, values[random() % values.size()]);
     return text;
@@ -168,9 +178,9 @@ end
   std::string
   with_changed_cycles(std::string text, std::mt19937 &random)
   {
-    const Place place   = cycles(text);
-    const auto  decoded = Utilities::decode_base64(
-      text.substr(place.begin, place.size));
+    const Place place = cycles(text);
+    const auto  decoded =
+      Utilities::decode_base64(text.substr(place.begin, place.size));
     const std::string bytes =
       with_changed_bytes(std::string(decoded.begin(), decoded.end()), random);
     return text.replace(place.begin,
@@ -246,7 +256,7 @@ main(int argc, char **argv)
   refused("a time that is not finite",
           changed("\"time\":", "\"time\":null,\"t\":"),
           "it has reached the time");
-  std::string text = good;
+  std::string text         = good;
   text[cycles(good).begin] = '*';
   refused("cycles that are no base64", text, "characters that are none");
   const Place place = cycles(good);

@@ -107,7 +107,7 @@ namespace
       make_linear_solver(discretisation.linear_system(), options);
     SystemVector x, z;
     solver->solve(scene.load.rhs, x);
-    const auto   u     = discretisation.solutions(scene.load, x);
+    const auto           u      = discretisation.solutions(scene.load, x);
     const SolvedStep     solved = scene.solved(x);
     const BoundaryForces forces(discretisation, solved, u);
     const double         value =
@@ -124,9 +124,11 @@ namespace
         result += a.multiplier * b.multiplier;
       return result;
     };
-    double loads = 0.; // where the function of a reaction is, which are no part of it
+    double loads =
+      0.; // where the function of a reaction is, which are no part of it
     for (unsigned int i = 0; i < derivative.lift.locally_owned_size(); ++i)
-      loads += derivative.lift.begin()[i] * scene.load.external.local_element(i);
+      loads +=
+        derivative.lift.begin()[i] * scene.load.external.local_element(i);
     loads = dealii::Utilities::MPI::sum(loads, comm);
     verdict(what + ": derivative",
             std::fabs((product(derivative.rhs, x) - loads) / value - 1.),
@@ -140,7 +142,8 @@ namespace
   check_duals()
   {
     const Settings cubic = {"Body inner/Degree=3", "Body outer/Degree=2"};
-    for (const std::string name : {"bore, x", "inside, y", "pull, x", "tied, y"})
+    for (const std::string name :
+         {"bore, x", "inside, y", "pull, x", "tied, y"})
       {
         const Settings of = shells + target(name, 1e-3);
         check_dual(name, two_layers(true), of + cubic);

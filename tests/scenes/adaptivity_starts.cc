@@ -77,7 +77,7 @@ namespace
   void
   check_corners()
   {
-    std::string    fichera  = text_of("prm/fichera.prm");
+    std::string    fichera   = text_of("prm/fichera.prm");
     const Settings of_corner = {"Body upper/Mesh/File=" +
                                 (top / "meshes/l_shape.msh").string()};
     const Settings seven     = {"Body lower/Mesh/Subdivisions=2, 2, 1",
@@ -126,21 +126,22 @@ namespace
           target(0.2) +
             Settings{"Exact solution/Displacement=0.01*sin(4*pi*x); 0; 0"},
           true);
-    const std::string two =
-      tied("lower, upper", "upper: zmin", "lower: zmax") +
-      box("lower",
-          "0, 0, 0, 1, 2, 0.33333333333333331",
-          "xmax ymin",
-          "xmin ymax zmin") +
-      box("upper", "0, 0, 0.33333333333333331, 1, 2, 1", all.substr(0, 19) + " zmax", "");
+    const std::string two = tied("lower, upper", "upper: zmin", "lower: zmax") +
+                            box("lower",
+                                "0, 0, 0, 1, 2, 0.33333333333333331",
+                                "xmax ymin",
+                                "xmin ymax zmin") +
+                            box("upper",
+                                "0, 0, 0.33333333333333331, 1, 2, 1",
+                                all.substr(0, 19) + " zmax",
+                                "");
     check("a bump between the points of cells",
           two,
-          target(0.3) +
-            Settings{"Body lower/Mesh/Subdivisions=1, 3, 3",
-                     "Body upper/Mesh/Subdivisions=1, 2, 2",
-                     "Exact solution/Displacement=0.01*x; "
-                     "0.01*exp(-((x-0.765778)^2+(y-0.858489)^2+"
-                     "(z-0.823148)^2)/0.04); 0"},
+          target(0.3) + Settings{"Body lower/Mesh/Subdivisions=1, 3, 3",
+                                 "Body upper/Mesh/Subdivisions=1, 2, 2",
+                                 "Exact solution/Displacement=0.01*x; "
+                                 "0.01*exp(-((x-0.765778)^2+(y-0.858489)^2+"
+                                 "(z-0.823148)^2)/0.04); 0"},
           true);
     check("degrees one and six side by side",
           two,
@@ -166,7 +167,9 @@ namespace
                               const std::string &text,
                               const Settings    &settings) {
       const auto steps = run_scene(text, field + target(1e-3) + settings).steps;
-      verdict(what + ": estimate 1e-8", *steps.back().adaptivity->estimate, 1e-8);
+      verdict(what + ": estimate 1e-8",
+              *steps.back().adaptivity->estimate,
+              1e-8);
     };
     const std::string one = one_body("xmin");
     estimate("linear stress, hanging nodes",

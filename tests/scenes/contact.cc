@@ -165,13 +165,14 @@ namespace
       "Steps/End time=1"};
     for (const unsigned int p : {2, 4, 7})
       {
-        const std::string of = ", degree " + std::to_string(p);
-        const auto        steps =
-          run_scene(two_blocks(),
-                    contact + degrees("lower", "upper", p) + tipped +
-                      Settings{"Steps/Step=0.25"})
-            .steps;
-        verdict("tipped" + of + ": active sets", *steps[0].solver->active_sets, 4);
+        const std::string of    = ", degree " + std::to_string(p);
+        const auto        steps = run_scene(two_blocks(),
+                                     contact + degrees("lower", "upper", p) +
+                                       tipped + Settings{"Steps/Step=0.25"})
+                             .steps;
+        verdict("tipped" + of + ": active sets",
+                *steps[0].solver->active_sets,
+                4);
         for (unsigned int k = 1; k < steps.size(); ++k)
           verdict("tipped further" + of + ": iterations of all",
                   *steps[k].solver->linear_iterations,
@@ -182,13 +183,15 @@ namespace
                           1.),
                 1e-8);
       }
-    const auto low = run_scene(
-      two_blocks(),
-      contact + degrees("lower", "upper", 5) + tipped +
-        Settings{"Steps/Step=1",
-                 "Body lower/Degree near=0.6, 0.5, 1, 0.2, 2; 0.6, 0, 0.9, 0.2, 1",
-                 "Body upper/Degree near=0.6, 0.5, 1, 0.2, 2"})
-                       .steps.back();
+    const auto low =
+      run_scene(
+        two_blocks(),
+        contact + degrees("lower", "upper", 5) + tipped +
+          Settings{
+            "Steps/Step=1",
+            "Body lower/Degree near=0.6, 0.5, 1, 0.2, 2; 0.6, 0, 0.9, 0.2, 1",
+            "Body upper/Degree near=0.6, 0.5, 1, 0.2, 2"})
+        .steps.back();
     verdict("tipped, low degrees at the edge: lowest",
             std::fabs(double(low.bodies[0].degree_min) - 1.) +
               std::fabs(double(low.bodies[1].degree_min) - 2.),
@@ -233,10 +236,12 @@ namespace
                       "Body upper/Boundary zmax/Displacement=0, 0, -0.01",
                       "Body upper/Boundary xmin/Displacement=",
                       "Body upper/Boundary ymin/Displacement=",
-                      "Body lower/Mesh/Subdivisions=3, " + std::to_string(n) + ", 2"};
+                      "Body lower/Mesh/Subdivisions=3, " + std::to_string(n) +
+                        ", 2"};
     };
     std::vector<std::string> warnings;
-    const Summary coarse = run_scene(two_blocks(), settings(3), MPI_COMM_WORLD, &warnings);
+    const Summary            coarse =
+      run_scene(two_blocks(), settings(3), MPI_COMM_WORLD, &warnings);
     verdict("an edge on a face: nothing presses",
             contact_of(coarse.steps.back()).active,
             0);

@@ -15,9 +15,9 @@ namespace
   /// Two square plates of length 1, the upper one at x, y.
   struct Plates
   {
-    std::string             name;
-    double                  x, y;
-    std::array<double, 2>   thickness;
+    std::string                name;
+    double                     x, y;
+    std::array<double, 2>      thickness;
     std::array<std::string, 2> cells, degree; ///< cells are halved once
   };
 
@@ -86,10 +86,24 @@ int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::vector<Plates> all = {
-    {"one cell below three", 0., 0.47, {{0.03, 0.02}}, {{"1, 1, 1", "3, 1, 2"}}, {{"1", "2"}}},
-    {"two cells below three", -0.46, 0.56, {{0.02, 0.03}}, {{"1, 2, 1", "3, 1, 1"}}, {{"2", "3"}}},
-    {"a corner", 0.6, 0.8, {{0.05, 0.03}}, {{"1, 1, 1", "2, 2, 1"}}, {{"1", "1"}}}};
+  const std::vector<Plates>                all = {{"one cell below three",
+                                                   0.,
+                                                   0.47,
+                                                   {{0.03, 0.02}},
+                                                   {{"1, 1, 1", "3, 1, 2"}},
+                                                   {{"1", "2"}}},
+                                                  {"two cells below three",
+                                                   -0.46,
+                                                   0.56,
+                                                   {{0.02, 0.03}},
+                                                   {{"1, 2, 1", "3, 1, 1"}},
+                                                   {{"2", "3"}}},
+                                                  {"a corner",
+                                                   0.6,
+                                                   0.8,
+                                                   {{0.05, 0.03}},
+                                                   {{"1, 1, 1", "2, 2, 1"}},
+                                                   {{"1", "1"}}}};
   for (const std::string law : {"slide", "contact"})
     for (const std::string method : {"condensed", "saddle point"})
       for (const Plates &plates : all)

@@ -56,11 +56,10 @@ namespace
                          "Body corner/Mesh/Refine near=" + near,
                          "Solver/Tolerance=1e-13"};
     for (const std::string name : {"slab", "corner", "cube"})
-      settings.push_back("Body " + name +
-                         "/Degree=" + std::to_string(degree));
+      settings.push_back("Body " + name + "/Degree=" + std::to_string(degree));
     const Summary     summary = run_scene(scene(law), settings);
-    const std::string what    = law + ", degree " + std::to_string(degree) +
-                             ", halved near " + near;
+    const std::string what =
+      law + ", degree " + std::to_string(degree) + ", halved near " + near;
     exact_verdicts(what, *summary.steps.back().errors);
   }
 } // namespace
@@ -69,9 +68,9 @@ int
 main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const std::string cubic = "0.01*x^3 + 0.02*x*y*z - 0.03*y*z^2; "
-                            "0.005*x*y^2 - 0.01*x*z^2 + 0.02*z^3; "
-                            "0.03*x*z^2 + 0.01*x*y*z - 0.02*y^3",
+  const std::string cubic   = "0.01*x^3 + 0.02*x*y*z - 0.03*y*z^2; "
+                              "0.005*x*y^2 - 0.01*x*z^2 + 0.02*z^3; "
+                              "0.03*x*z^2 + 0.01*x*y*z - 0.02*y^3",
                     pressed = "-0.01*x; -0.01*y; -0.01*z";
   for (const unsigned int p : {3, 4})
     for (const std::string near :

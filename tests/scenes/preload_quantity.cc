@@ -1,7 +1,7 @@
 // Proves that the dual problem of a quantity sees the shortening of interfaces
-// that carry a given force: it carries none there, its own shortening is the share
-// of the force in the quantity, and estimates of bolted scenes are right. The same
-// on any number of ranks.
+// that carry a given force: it carries none there, its own shortening is the
+// share of the force in the quantity, and estimates of bolted scenes are right.
+// The same on any number of ranks.
 #include <mortise/problem/preloads.h>
 #include <mortise/problem/quantity.h>
 
@@ -49,7 +49,8 @@ namespace
   {
     return "set Bodies = bolt, block\nset Interfaces = joint\n" +
            bar("bolt", "0, 0, 0, 1, 1, 2", "1, 1, 2", 1000., "zmax", clamped) +
-           bar("block", "-1, -1, -1, 2, 2, 0", "3, 3, 1", 500., "zmin", clamped) +
+           bar(
+             "block", "-1, -1, -1, 2, 2, 0", "3, 3, 1", 500., "zmin", clamped) +
            tie("joint", "bolt: zmin", "block: zmax", "3") +
            "subsection Output\n  set Points = tip: bolt: 0.5, 0.5, 1\nend\n";
   }
@@ -65,7 +66,12 @@ namespace
                1000.,
                "xmax",
                "Traction = 0; 0; -0.02") +
-           bar("spacer", "0, 0, -1, 0.6, 1, 0", "1, 1, 1", 500., "zmin", clamped) +
+           bar("spacer",
+               "0, 0, -1, 0.6, 1, 0",
+               "1, 1, 1",
+               500.,
+               "zmin",
+               clamped) +
            bar("bolt",
                "1, 0.25, -2, 1.5, 0.75, 0",
                "1, 1, 2",
@@ -85,20 +91,21 @@ namespace
     return a.displacement * b.displacement + a.multiplier * b.multiplier;
   }
 
-  /// With A x = b + d w and A z = j + e w, w . x = -F and w . z = 0: the quantity is j . x = z . b + e F.
+  /// With A x = b + d w and A z = j + e w, w . x = -F and w . z = 0: the
+  /// quantity is j . x = z . b + e F.
   void
   check_dual(const std::string &what,
              const std::string &text,
              const Settings    &settings)
   {
     const MPI_Comm         comm = MPI_COMM_WORLD;
-    const EquationsOfScene scene(
-      text,
-      settings + Settings{"Solver/Tolerance=1e-12",
-                          "Adaptivity/Target error=0.1"},
-      comm);
-    const auto   &discretisation = scene.discretisation;
-    SolverOptions options;
+    const EquationsOfScene scene(text,
+                                 settings +
+                                   Settings{"Solver/Tolerance=1e-12",
+                                            "Adaptivity/Target error=0.1"},
+                                 comm);
+    const auto            &discretisation = scene.discretisation;
+    SolverOptions          options;
     options.method    = discretisation.choice().method;
     options.tolerance = 1e-12;
     const auto solver =
@@ -109,9 +116,9 @@ namespace
     SystemVector x;
     preloads.begin(scene.fields(), load);
     preloads.solve(false, load, x);
-    const auto   derivative =
+    const auto derivative =
       Quantity::given(scene.given())->derivative(discretisation);
-    SystemVector rhs = derivative.rhs, z;
+    SystemVector rhs    = derivative.rhs, z;
     SolveReport  report = solver->solve(rhs, z);
     preloads.release(rhs, z, report);
     verdict(what + ": converged", report.converged ? 0. : 1., 0.);

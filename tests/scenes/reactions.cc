@@ -57,7 +57,8 @@ namespace
   const std::vector<std::string> faces =
     {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
 
-  /// Stress of u = (x^2 + y z, x y + z^2 / 2, z^2 - x z) / 10 in the bodies of scenes.h.
+  /// Stress of u = (x^2 + y z, x y + z^2 / 2, z^2 - x z) / 10 in the bodies of
+  /// scenes.h.
   dealii::SymmetricTensor<2, 3>
   quadratic_stress(const dealii::Point<3> &x)
   {
@@ -79,7 +80,7 @@ namespace
               const unsigned int      f,
               const dealii::Point<3> &about)
   {
-    const unsigned int     d = f / 2, a = (d + 1) % 3, b = (d + 2) % 3;
+    const unsigned int      d = f / 2, a = (d + 1) % 3, b = (d + 2) % 3;
     const dealii::QGauss<2> rule(3);
     std::array<Vector3, 2>  result;
     for (unsigned int q = 0; q < rule.size(); ++q)
@@ -89,7 +90,7 @@ namespace
         x[a] = low[a] + rule.point(q)[0] * (high[a] - low[a]);
         x[b] = low[b] + rule.point(q)[1] * (high[b] - low[b]);
         Vector3 normal;
-        normal[d] = f % 2 == 0 ? -1. : 1.;
+        normal[d]           = f % 2 == 0 ? -1. : 1.;
         const Vector3 force = quadratic_stress(x) * normal * rule.weight(q) *
                               (high[a] - low[a]) * (high[b] - low[b]);
         result[0] += force;
@@ -118,14 +119,13 @@ namespace
       for (unsigned int f = 0; f < 6; ++f)
         {
           const double bottom = body == "lower" ? 0. : 0.5;
-          const auto   exact  = exact_force({0., 0., bottom},
-                                         {1., 1., bottom + 0.5},
-                                         f,
-                                         about);
+          const auto   exact =
+            exact_force({0., 0., bottom}, {1., 1., bottom + 0.5}, f, about);
           const std::string name = faces[f] + " of " + body;
-          force  = std::max(force, (quantity(step, name) - exact[0]).norm());
-          moment = std::max(
-            moment, (quantity(step, name + ", moment") - exact[1]).norm());
+          force = std::max(force, (quantity(step, name) - exact[0]).norm());
+          moment =
+            std::max(moment,
+                     (quantity(step, name + ", moment") - exact[1]).norm());
         }
     verdict(what + ": forces of 100 1e-7", force, 1e-7);
     verdict(what + ": moments 3e-7", moment, 3e-7);
@@ -176,8 +176,8 @@ namespace
   {
     const Settings coarse = {"Body inner/Mesh/Subdivisions=2, 1",
                              "Body outer/Mesh/Subdivisions=3, 1"};
-    const std::vector<std::string> sphere =
-      {"inside", "outside", "xmin", "ymin", "zmin"};
+    const std::vector<std::string> sphere = {
+      "inside", "outside", "xmin", "ymin", "zmin"};
     const auto check = [&](const std::string &what, const Settings &settings) {
       check_balance(what, two_layers(true), coarse + settings, sphere);
     };
@@ -272,9 +272,7 @@ namespace
                            "Output/Moments about=0.5, 0.5, 1"})
         .steps.back();
     const Vector3 force({10., 0., 4.}), moment({0., 10., 0.});
-    verdict("foot: force 1e-9",
-            (quantity(step, "foot") + force).norm(),
-            1e-9);
+    verdict("foot: force 1e-9", (quantity(step, "foot") + force).norm(), 1e-9);
     verdict("foot: moment 1e-9",
             (quantity(step, "foot, moment") + moment).norm(),
             1e-9);

@@ -1,8 +1,8 @@
 // Proves that what holds thin bodies is told from what leaves them free, where
-// sliding interfaces and supports on short edges hold them: plates of a hundredth
-// and a thousandth of their length come out right or are refused with the motion
-// that is free, hexahedra and tetrahedra; so are short and long tubes that slide
-// along each other.
+// sliding interfaces and supports on short edges hold them: plates of a
+// hundredth and a thousandth of their length come out right or are refused with
+// the motion that is free, hexahedra and tetrahedra; so are short and long
+// tubes that slide along each other.
 #include "scene.h"
 #include "scenes.h"
 
@@ -26,8 +26,8 @@ namespace
         const Form        &form,
         const std::string &boundaries)
   {
-    return "subsection Body " + name + "\n  set Degree = " +
-           std::to_string(form.degree) +
+    return "subsection Body " + name +
+           "\n  set Degree = " + std::to_string(form.degree) +
            "\n  subsection Mesh\n    set Source = box\n    set Extent = " +
            extent + "\n    set Subdivisions = " + subdivisions +
            "\n    set Cells = " + form.cells +
@@ -58,8 +58,10 @@ namespace
            const std::string         &point,
            const std::vector<double> &expected)
   {
-    const auto got =
-      run_scene(text, {"Output/Points=at: " + point}).steps.back().quantities[0].second;
+    const auto got = run_scene(text, {"Output/Points=at: " + point})
+                       .steps.back()
+                       .quantities[0]
+                       .second;
     double difference = 0., size = 0.;
     for (unsigned int c = 0; c < 3; ++c)
       {
@@ -75,11 +77,12 @@ namespace
     return side("xmin", "Displacement = 0, 0, 0");
   }
 
-  /// One on the other, both clamped at an edge: the upper one is pulled, or both bend, each about its middle.
+  /// One on the other, both clamped at an edge: the upper one is pulled, or
+  /// both bend, each about its middle.
   void
   check_clamped(const std::string &what, const double h, const Form &form)
   {
-    const std::string H = number(h);
+    const std::string H     = number(h);
     const auto        scene = [&](const std::string &of_lower,
                            const std::string &of_upper) {
       return sliding("lower, upper", "lower: zmax", "upper: zmin") +
@@ -99,33 +102,32 @@ namespace
              "upper: 1, 0.5, " + number(1.5 * h),
              {1. / E, 0., 0.});
     if (form.degree > 1)
-      check_at(what + ", bent",
-               scene(side("xmax", "Traction = z - " + number(0.5 * h) + "; 0; 0"),
-                     side("xmax",
-                          "Traction = z - " + number(1.5 * h) + "; 0; 0")),
-               "upper: 1, 0.5, " + number(1.5 * h),
-               {0., 0., -0.5 / E});
+      check_at(
+        what + ", bent",
+        scene(side("xmax", "Traction = z - " + number(0.5 * h) + "; 0; 0"),
+              side("xmax", "Traction = z - " + number(1.5 * h) + "; 0; 0")),
+        "upper: 1, 0.5, " + number(1.5 * h),
+        {0., 0., -0.5 / E});
   }
 
-  /// In line: the rim of one alone keeps the other from turning about its held edge.
+  /// In line: the rim of one alone keeps the other from turning about its held
+  /// edge.
   void
   check_rims(const std::string &what, const double h, const Form &form)
   {
-    check_at(what + ", in line",
-             sliding("left, right", "left: xmax", "right: xmin") +
-               plate("left",
-                     "-1, 0, 0, 0, 1, " + number(h),
-                     "3, 3, 1",
-                     form,
-                     clamped()) +
-               plate("right",
-                     "0, 0, 0, 1, 1, " + number(h),
-                     "4, 2, 1",
-                     form,
-                     side("xmax",
-                          "Displacement = -, 0, 0\n    set Traction = -1; 0; 0")),
-             "right: 1, 0.5, " + number(0.5 * h),
-             {-2. / E, 0., 0.});
+    check_at(
+      what + ", in line",
+      sliding("left, right", "left: xmax", "right: xmin") +
+        plate(
+          "left", "-1, 0, 0, 0, 1, " + number(h), "3, 3, 1", form, clamped()) +
+        plate("right",
+              "0, 0, 0, 1, 1, " + number(h),
+              "4, 2, 1",
+              form,
+              side("xmax",
+                   "Displacement = -, 0, 0\n    set Traction = -1; 0; 0")),
+      "right: 1, 0.5, " + number(0.5 * h),
+      {-2. / E, 0., 0.});
   }
 
   /// The upper one is held along y only.
@@ -152,20 +154,22 @@ namespace
   void
   check_tubes(const std::string &what, const double length, const Form &form)
   {
-    std::string text = sliding("inner, outer", "inner: outside", "outer: inside");
+    std::string text =
+      sliding("inner, outer", "inner: outside", "outer: inside");
     for (const std::string name : {"inner", "outer"})
-      text += "subsection Body " + name + "\n  set Degree = " +
-              std::to_string(form.degree) +
-              "\n  subsection Mesh\n    set Source = cylinder sector\n"
-              "    set Extent = " +
-              (name == "inner" ? "1, 2, " : "2, 3, ") + number(length) +
-              "\n    set Subdivisions = " + (name == "inner" ? "4" : "5") +
-              ", 1, 2\n    set Cells = " + form.cells +
-              "\n  end\n  subsection Material\n    set Young modulus = 1000\n  end\n" +
-              side("xmin", "Displacement = 0, -, -") +
-              side("ymin", "Displacement = -, 0, -") +
-              (name == "inner" ? "" : side("zmin", "Displacement = -, -, 0")) +
-              "end\n";
+      text +=
+        "subsection Body " + name +
+        "\n  set Degree = " + std::to_string(form.degree) +
+        "\n  subsection Mesh\n    set Source = cylinder sector\n"
+        "    set Extent = " +
+        (name == "inner" ? "1, 2, " : "2, 3, ") + number(length) +
+        "\n    set Subdivisions = " + (name == "inner" ? "4" : "5") +
+        ", 1, 2\n    set Cells = " + form.cells +
+        "\n  end\n  subsection Material\n    set Young modulus = 1000\n  end\n" +
+        side("xmin", "Displacement = 0, -, -") +
+        side("ymin", "Displacement = -, 0, -") +
+        (name == "inner" ? "" : side("zmin", "Displacement = -, -, 0")) +
+        "end\n";
     check_message(what + ", a tube in another one",
                   text,
                   {},

@@ -58,7 +58,10 @@ namespace
       inverse_diagonal[i] = 1. / (1. + i % 7);
     Epetra_Vector scale = all.diagonal_of_square(inverse_diagonal);
     scale.Reciprocal(scale);
-    return find_dependent_multipliers(all, inverse_diagonal, scale, SparseMatrix())
+    return find_dependent_multipliers(all,
+                                      inverse_diagonal,
+                                      scale,
+                                      SparseMatrix())
       .size();
   }
 } // namespace

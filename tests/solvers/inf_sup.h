@@ -233,12 +233,11 @@ namespace mortise::testing
   {
     const dealii::types::global_dof_index n_u = u.numbering.size(),
                                           n_p = p.numbering.size();
-    dealii::FullMatrix<double>            K;
-    dealii::DynamicSparsityPattern        all(n_u + n_p, n_u + n_p);
+    dealii::FullMatrix<double>     K;
+    dealii::DynamicSparsityPattern all(n_u + n_p, n_u + n_p);
     // both fields with one set of constraints, pressures last
     dealii::AffineConstraints<double> constraints;
-    for (const auto &[field, first] :
-         std::initializer_list<
+    for (const auto &[field, first] : std::initializer_list<
            std::pair<const SceneField *, dealii::types::global_dof_index>>{
            {&u, 0}, {&p, n_u}})
       for (const auto &line : field->constraints.get_lines())
@@ -343,7 +342,7 @@ namespace mortise::testing
                                            system.divergence,
                                            free,
                                            places(u.numbering.size(), all));
-    DenseMatrix M(free.size(), free.size());
+    DenseMatrix       M(free.size(), free.size());
     add_dense(system.mass, free, M);
 
     const auto     values = generalized_eigenvalues(S, M);

@@ -90,7 +90,8 @@ namespace mortise::testing
           all.resize(fe.n_dofs_per_cell());
           cell->get_dof_indices(all);
           dofs.clear();
-          for (unsigned int i = 0; i < fe.base_element(0).n_dofs_per_cell(); ++i)
+          for (unsigned int i = 0; i < fe.base_element(0).n_dofs_per_cell();
+               ++i)
             dofs.push_back(all[fe.component_to_system_index(c, i)]);
           visit(cell);
         }
@@ -107,7 +108,7 @@ namespace mortise::testing
              sparsity,
              MPI_COMM_WORLD,
              true);
-    ScalarKernel       kernel(body);
+    ScalarKernel kernel(body);
     for_each_cell([&](const auto &cell) {
       constraints.distribute_local_to_global(kernel.compute(cell), dofs, A);
     });
@@ -186,10 +187,11 @@ namespace mortise::testing
     {
       const auto scene   = scene_constraints(numbering, open);
       const auto surface = [&](const unsigned int b, const std::string &name) {
-        return extract_surface(*bodies[b],
-                               boundary_faces(*bodies[b], bodies[b]->boundary_id(name, "inf-sup")),
-                               numbering,
-                               scene);
+        return extract_surface(
+          *bodies[b],
+          boundary_faces(*bodies[b], bodies[b]->boundary_id(name, "inf-sup")),
+          numbering,
+          scene);
       };
       couplings.emplace_back();
       Coupling &coupling = couplings.back();

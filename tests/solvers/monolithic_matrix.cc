@@ -1,7 +1,7 @@
-// Proves that the matrix of the direct solver is the operator that residuals are
-// computed with, on every number of ranks: hexahedra and tetrahedra, hanging
-// nodes, several degrees, mixed form, ties, what slides, springs, and a part of
-// the multipliers.
+// Proves that the matrix of the direct solver is the operator that residuals
+// are computed with, on every number of ranks: hexahedra and tetrahedra,
+// hanging nodes, several degrees, mixed form, ties, what slides, springs, and a
+// part of the multipliers.
 #include <mortise/solvers/factorisation/monolithic_matrix.h>
 
 #include <cmath>
@@ -51,7 +51,7 @@ namespace
         const Settings    &settings,
         const bool         half = false)
   {
-    EquationsOfScene equations(text,
+    EquationsOfScene   equations(text,
                                settings + Settings{"Solver/Method=direct"},
                                MPI_COMM_WORLD);
     const BlockSystem &system = equations.discretisation.linear_system();
@@ -95,28 +95,31 @@ main(int argc, char *argv[])
   const auto both = [](const std::string &setting) {
     return Settings{"Body inner/" + setting, "Body outer/" + setting};
   };
-  const Settings meshes  = {"Body inner/Mesh/Subdivisions=2, 1",
-                            "Body outer/Mesh/Subdivisions=3, 1"},
-                 refined = {"Body outer/Mesh/Refine near=2, 0, 0, 0.8, 1"},
-                 shapes  = both("Mesh/Cells=tetrahedra");
+  const Settings meshes    = {"Body inner/Mesh/Subdivisions=2, 1",
+                              "Body outer/Mesh/Subdivisions=3, 1"},
+                 refined   = {"Body outer/Mesh/Refine near=2, 0, 0, 0.8, 1"},
+                 shapes    = both("Mesh/Cells=tetrahedra");
   const std::string sphere = two_layers(true);
   for (const unsigned int p : {1, 2, 4})
     {
-      const Settings degree = meshes + both("Degree=" + std::to_string(p));
-      const std::string name = ", p = " + std::to_string(p);
+      const Settings    degree = meshes + both("Degree=" + std::to_string(p));
+      const std::string name   = ", p = " + std::to_string(p);
       check("hexahedra" + name, sphere, degree);
       check("hanging nodes" + name, sphere, degree + refined);
       check("tetrahedra" + name, sphere, degree + shapes);
       if (p == 1)
         continue;
-      const Settings mixed = degree + both("Formulation=mixed") +
-                             both("Material/Poisson ratio=0.5");
+      const Settings mixed =
+        degree + both("Formulation=mixed") + both("Material/Poisson ratio=0.5");
       check("mixed form, hanging nodes" + name, sphere, mixed + refined);
       check("mixed form, tetrahedra" + name, sphere, mixed + shapes);
     }
   const Settings p_2 = meshes + both("Degree=2");
   check("slide", sphere, p_2 + Settings{"Interface glue/Law=slide"});
-  check("slide, a half", sphere, p_2 + Settings{"Interface glue/Law=slide"}, true);
+  check("slide, a half",
+        sphere,
+        p_2 + Settings{"Interface glue/Law=slide"},
+        true);
   check("tie, a half", sphere, p_2, true);
   check("spring",
         sphere,

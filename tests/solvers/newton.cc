@@ -80,9 +80,9 @@ namespace
   {
     Scalars       s{[](const double x) { return x + x * x * x; },
               [](const double x) { return 1. + 3. * x * x; },
-              {2., 10., -30.},
-              {},
-              {}};
+                    {2., 10., -30.},
+                    {},
+                    {}};
     SystemVector  x = s.start(0.5);
     NewtonOptions options;
     options.tolerance          = 1e-13;
@@ -113,9 +113,9 @@ namespace
     // full increments from 3 on diverge
     Scalars            s{[](const double x) { return std::atan(x); },
               [](const double x) { return 1. / (1. + x * x); },
-              {0.1, 0.},
-              {},
-              {}};
+                         {0.1, 0.},
+                         {},
+                         {}};
     SystemVector       x      = s.start(3.);
     const NewtonReport report = solve_newton(s.problem(), NewtonOptions(), x);
     verdict(report.converged && !report.easy &&
@@ -139,9 +139,9 @@ namespace
   {
     Scalars      s{[](const double x) { return x * x; },
               [](const double x) { return 2. * x; },
-              {-1.},
-              {},
-              {}};
+                   {-1.},
+                   {},
+                   {}};
     SystemVector x      = s.start(1.);
     NewtonReport report = solve_newton(s.problem(), NewtonOptions(), x);
     verdict(!report.converged && report.relative_residual >= 1. &&

@@ -14,7 +14,8 @@ namespace mortise
   /// Of that, or of what earlier refinements have shown, after the next one.
   constexpr double kept_of_earlier_cycles = 0.8 * 0.8;
 
-  /// By which the root may be too small, since it is not the same everywhere: half as large again, and less,
+  /// By which the root may be too small, since it is not the same everywhere:
+  /// half as large again, and less,
   /// down to a sixth, where more than two refinements in a row have shown it, @p n_seen with the last one.
   double
   doubt_of_residuals(unsigned int n_seen);

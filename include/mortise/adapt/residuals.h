@@ -23,13 +23,15 @@ namespace mortise
 
   struct Residuals
   {
-    /// That go as the squares of errors in the energy norm: with the modulus E, the size h and the degree p of
-    /// a cell (h / (pi p))^2 f^2 / E of the force f that is missing per volume, and h / p t^2 / E of the traction t that is
-    /// missing on faces, of which each of two cells has half; E times the square of what is missing of the dilatation
-    /// in mixed form.
+    /// That go as the squares of errors in the energy norm: with the modulus E,
+    /// the size h and the degree p of a cell (h / (pi p))^2 f^2 / E of the
+    /// force f that is missing per volume, and h / p t^2 / E of the traction t
+    /// that is missing on faces, of which each of two cells has half; E times
+    /// the square of what is missing of the dilatation in mixed form.
     NumbersByCell equations;
-    /// The energy it takes to close what is missing of prescribed displacements: that of a half-space with the
-    /// wave number pi p / h, twice.
+    /// The energy it takes to close what is missing of prescribed
+    /// displacements: that of a half-space with the wave number pi p / h,
+    /// twice.
     NumbersByCell conditions;
   };
 

@@ -49,16 +49,17 @@ namespace mortise
     prepare_hexahedra();
     void
     prepare_tetrahedra();
-    /// Derivatives along the axes of the unit cell at rule(), one axis below the other; a column for each component.
+    /// Derivatives along the axes of the unit cell at rule(), one axis below
+    /// the other; a column for each component.
     dealii::FullMatrix<double>
     slopes(const std::vector<Stress> &stresses) const;
 
-    const dealii::FiniteElement<dim>   &element;
-    const bool                          simplex;
-    std::vector<dealii::Point<1>>       line; ///< of hexahedra, nodes()
-    std::array<LineTable, dim>          to_rule;
-    std::vector<std::vector<double>>    ends; ///< values at 0 and 1
-    dealii::FullMatrix<double>          projection; ///< of tetrahedra
-    dealii::FullMatrix<double>          derivatives; ///< likewise, slopes() from values
+    const dealii::FiniteElement<dim> &element;
+    const bool                        simplex;
+    std::vector<dealii::Point<1>>     line; ///< of hexahedra, nodes()
+    std::array<LineTable, dim>        to_rule;
+    std::vector<std::vector<double>>  ends;       ///< values at 0 and 1
+    dealii::FullMatrix<double>        projection; ///< of tetrahedra
+    dealii::FullMatrix<double> derivatives; ///< likewise, slopes() from values
   };
 } // namespace mortise

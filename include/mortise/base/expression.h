@@ -1,5 +1,6 @@
 // Expressions in x, y, z with exact first and second derivatives; the time t in
-// them has a value from the start. It never differentiates by finite differences.
+// them has a value from the start. It never differentiates by finite
+// differences.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -15,8 +16,8 @@ namespace mortise
   /// A scalar expression of the position. Grammar, from weak to strong binding:
   ///   c ? a : b    ||    &&    < <= > >= == !=    + -    * /    unary + - ! ^
   ///   (right to left)
-  /// with numbers, parentheses, the variables x, y, z, the time t, the constant pi and the
-  /// functions
+  /// with numbers, parentheses, the variables x, y, z, the time t, the constant
+  /// pi and the functions
   ///   sin cos tan asin acos atan sinh cosh tanh exp log sqrt abs   (one
   ///   argument) atan2 min max pow (two)   if(condition, then, else) (three;
   ///   the branch not taken may be undefined).

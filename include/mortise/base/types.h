@@ -20,8 +20,8 @@ namespace mortise
   constexpr unsigned int min_degree = 1;
   constexpr unsigned int max_degree = 8;
 
-  using SparseMatrix    = dealii::TrilinosWrappers::SparseMatrix;
-  using Vector          = dealii::TrilinosWrappers::MPI::Vector;
+  using SparseMatrix = dealii::TrilinosWrappers::SparseMatrix;
+  using Vector       = dealii::TrilinosWrappers::MPI::Vector;
 
   /// Triangulation of one hexahedral body, distributed by p4est.
   using HexTriangulation = dealii::parallel::distributed::Triangulation<dim>;

@@ -10,7 +10,8 @@ namespace mortise
   struct Pieces
   {
     unsigned int n = 1;
-    /// By active cell index, for owned and ghost cells: from 0 on, the same on all ranks.
+    /// By active cell index, for owned and ghost cells: from 0 on, the same on
+    /// all ranks.
     std::vector<unsigned int> of_cell;
   };
 

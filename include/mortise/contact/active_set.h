@@ -85,9 +85,10 @@ namespace mortise
     fingerprint() const;
     /// Keeps pressures that press everywhere and whose complementary energy
     /// falls from set to set, so that none comes back. They are those of a set
-    /// where nothing pulls; then all gaps that overlap close. Where a set pulls,
-    /// they go towards its pressures until the first is zero, and what pulls and
-    /// is zero opens. Source: Lawson and Hanson (1974), several at a time as
+    /// where nothing pulls; then all gaps that overlap close. Where a set
+    /// pulls, they go towards its pressures until the first is zero, and what
+    /// pulls and is zero opens. Source: Lawson and Hanson (1974), several at a
+    /// time as
     /// far as it goes. @p before: the set of these multipliers; @p rounding: of pressures;
     /// @p turns: those that violate, then those to turn. Collective.
     void
@@ -101,7 +102,7 @@ namespace mortise
     dealii::types::global_dof_index first;
     MPI_Comm                        comm;
     std::vector<bool>               now, unclear;
-    std::set<std::uint64_t>         seen; ///< fingerprints
+    std::set<std::uint64_t>         seen;     ///< fingerprints
     std::uint64_t                   fewest;   ///< violations since the start
     unsigned int                    patience; ///< sets until there are fewer
     bool                            descending;

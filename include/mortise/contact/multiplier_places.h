@@ -27,8 +27,9 @@ namespace mortise
                  const std::vector<bool> &active,
                  MPI_Comm                 comm);
 
-    /// By owned multiplier of another discretisation: is the nearest one on its surface active? True for
-    /// those that are not of contact, and on surfaces that had none.
+    /// By owned multiplier of another discretisation: is the nearest one on its
+    /// surface active? True for those that are not of contact, and on surfaces
+    /// that had none.
     std::vector<bool>
     nearest(const MultiplierPlaces &places) const;
 

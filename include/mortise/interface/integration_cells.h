@@ -131,7 +131,7 @@ namespace mortise
     unsigned int n_points     = 0;
     unsigned int n_failures   = 0; ///< pairs with status failed
     double       max_gap      = 0;
-    double       gap_sum = 0, distance_sum = 0; ///< of gaps and magnitudes, by area
+    double gap_sum = 0, distance_sum = 0; ///< of gaps and magnitudes, by area
 
     void
     add(const Coverage &other);

@@ -48,9 +48,9 @@ namespace mortise
     double sagitta_mean = 0.;
     /// Largest covered part of a face.
     double largest_coverage = 0.;
-    double        slave_area   = 0.;
-    double        covered_area = 0.;
-    double        worst_face_error =
+    double slave_area       = 0.;
+    double covered_area     = 0.;
+    double worst_face_error =
       0.; ///< largest |1 - covered / area| of a slave face
     dealii::Point<3> worst_face_centre;
     double           clipping_seconds =

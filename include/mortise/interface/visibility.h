@@ -13,10 +13,10 @@ namespace mortise
   class Visibility
   {
   public:
-    /// Faces of the whole boundaries of both bodies that are near to the slave faces of this
-    /// rank, finalized. They count as curved as they are: where bodies are
-    /// thinner than their faces bend, straight ones lie on the other side of
-    /// the points.
+    /// Faces of the whole boundaries of both bodies that are near to the slave
+    /// faces of this rank, finalized. They count as curved as they are: where
+    /// bodies are thinner than their faces bend, straight ones lie on the other
+    /// side of the points.
     Visibility(const std::vector<SurfaceFace> &slave_boundary,
                const std::vector<SurfaceFace> &master_boundary);
     ~Visibility();

@@ -39,9 +39,9 @@ namespace mortise
   class ExpressionSolution : public ExactSolution
   {
   public:
-    ExpressionSolution(const VectorExpression      &displacement,
-                       const std::vector<Material> &materials,
-                       const Expression            &pressure = Expression(),
+    ExpressionSolution(const VectorExpression        &displacement,
+                       const std::vector<Material>   &materials,
+                       const Expression              &pressure = Expression(),
                        const std::vector<Expression> &thermal_strains = {});
 
     dealii::Tensor<1, 3>
@@ -54,16 +54,16 @@ namespace mortise
     body_force(const dealii::Point<3> &p, unsigned int body) const override;
 
   private:
-    VectorExpression      expression;
-    std::vector<Material> materials;
-    Expression            pressure;
+    VectorExpression        expression;
+    std::vector<Material>   materials;
+    Expression              pressure;
     std::vector<Expression> thermal_strains; ///< none, or by body
   };
 
   /// Lame's thick sphere, or thick cylinder in plane strain, of one or more
-  /// concentric layers under pressure inside and outside; displacement, but for gaps, and
-  /// radial stress are continuous where two layers meet. u_r = A r + B /
-  /// r^(d-1) with d = 3 (sphere) or 2 (cylinder) in each layer. Source:
+  /// concentric layers under pressure inside and outside; displacement, but for
+  /// gaps, and radial stress are continuous where two layers meet. u_r = A r +
+  /// B / r^(d-1) with d = 3 (sphere) or 2 (cylinder) in each layer. Source:
   /// Timoshenko and Goodier, Theory of Elasticity, chapters 4 and 12.
   class LameSolution : public ExactSolution
   {

@@ -13,11 +13,11 @@ namespace mortise
   /// A law and the constants of all laws, of which it takes its own.
   struct MaterialParameters
   {
-    std::string law           = "linear elastic";
+    std::string           law = "linear elastic";
     std::optional<double> young_modulus; ///< force per area; none stands for it
-    double      poisson_ratio = 0.3; ///< -1 < nu <= 0.5
-    Orthotropic orthotropic;
-    double      density = 0.; ///< of any law, mass per volume; 0: none
+    double                poisson_ratio = 0.3; ///< -1 < nu <= 0.5
+    Orthotropic           orthotropic;
+    double density = 0.; ///< of any law, mass per volume; 0: none
     /// Of any law, strain per temperature, the same in all directions.
     double thermal_expansion = 0.;
   };

@@ -65,10 +65,10 @@ namespace mortise
     std::vector<dealii::Tensor<1, dim>> spring_normals; ///< likewise
     /// Standard multipliers that stand for pressures, where the normal turns:
     /// the traction of psi_k at node i of n, at k n + i; else empty, and it is
-    /// the normal at node k there. It is psi_k n, n interpolated from the normals
-    /// at nodes, as a polynomial of the face that does the same work on those: a
-    /// body then turns freely in its bore. psi_k n_k would hold it, since psi_k
-    /// has both signs from degree 2 on.
+    /// the normal at node k there. It is psi_k n, n interpolated from the
+    /// normals at nodes, as a polynomial of the face that does the same work on
+    /// those: a body then turns freely in its bore. psi_k n_k would hold it,
+    /// since psi_k has both signs from degree 2 on.
     std::vector<dealii::Tensor<1, dim>> along_normals;
     double                              penalty =
       0.; ///< scale of jump penalties: about E / h of the softer side, or of
@@ -88,10 +88,10 @@ namespace mortise
   /// where that pays. @p normals: slave_normals() where multipliers are pressures,
   /// else empty. Collective.
   std::vector<LocalCoupling>
-  integrate_coupling(InterfaceHandler &interface,
-                     bool              with_master_mass,
-                     MultiplierBasis   basis,
-                     bool              may_lead = true,
-                     const std::vector<std::vector<dealii::Tensor<1, dim>>>
-                       &normals = {});
+  integrate_coupling(
+    InterfaceHandler                                       &interface,
+    bool                                                    with_master_mass,
+    MultiplierBasis                                         basis,
+    bool                                                    may_lead = true,
+    const std::vector<std::vector<dealii::Tensor<1, dim>>> &normals  = {});
 } // namespace mortise

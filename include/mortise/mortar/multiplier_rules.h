@@ -86,9 +86,9 @@ namespace mortise
   /// out, since no face gives them Bernstein coefficients. Behind
   /// apply_multiplier_rules() for all faces.
   void
-  add_edges_of_larger_cells(const std::vector<MultiplierFace>       &faces,
-                            unsigned int                             n_directions,
-                            bool                                     presses_only,
+  add_edges_of_larger_cells(const std::vector<MultiplierFace> &faces,
+                            unsigned int                       n_directions,
+                            bool                               presses_only,
                             const dealii::AffineConstraints<double> &conformity,
                             MultiplierPlaces                        &places,
                             MultiplierRecords                       &records);

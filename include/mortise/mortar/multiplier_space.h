@@ -194,12 +194,12 @@ namespace mortise
 
     const Body                                      &body;
     std::vector<std::vector<dealii::Tensor<1, dim>>> normals; ///< by face
-    unsigned int       n_directions; ///< dim, or 1: along the normals
-    bool               presses_only;
-    std::vector<bool>  has_dual; ///< by face
+    unsigned int      n_directions; ///< dim, or 1: along the normals
+    bool              presses_only;
+    std::vector<bool> has_dual;                                     ///< by face
     std::vector<std::vector<dealii::Tensor<1, dim>>> along_normals; ///< by face
-    std::vector<Index> owned_dofs;
-    std::vector<bool>  at_vertices; ///< by owned multiplier
+    std::vector<Index>                               owned_dofs;
+    std::vector<bool> at_vertices; ///< by owned multiplier
     /// By owned multiplier: the dof of the first component there, its
     /// component.
     std::vector<std::pair<Index, unsigned int>> places;

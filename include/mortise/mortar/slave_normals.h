@@ -14,8 +14,8 @@ namespace mortise
   /// there? Not where nodes hang or degrees meet. @p dofs: of a component.
   std::vector<bool>
   have_shared_nodes(const TraceBasis                                   &basis,
-            const std::vector<dealii::types::global_dof_index> &dofs,
-            const Body                                         &body);
+                    const std::vector<dealii::types::global_dof_index> &dofs,
+                    const Body                                         &body);
 
   /// Outward, of unit length, by slave face and node, nodes as in TraceBasis.
   /// Where nodes hang, degrees meet or edges are sharp, faces keep normals of
@@ -23,8 +23,8 @@ namespace mortise
   std::vector<std::vector<dealii::Tensor<1, dim>>>
   slave_normals(const Body &body, const BodySurface &slave);
 
-  /// A node of this rank where the normals of faces are more than 30 degrees off
-  /// their mean. Collective.
+  /// A node of this rank where the normals of faces are more than 30 degrees
+  /// off their mean. Collective.
   std::optional<dealii::Point<dim>>
   find_sharp_edge(const Body &body, const BodySurface &slave);
 

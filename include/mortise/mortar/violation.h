@@ -36,8 +36,8 @@ namespace mortise
   {
     dealii::Point<2>       xi; ///< as CellFace has it
     dealii::Point<dim>     x;
-    dealii::Tensor<1, dim> normal;   ///< outward, of unit length
-    dealii::Tensor<1, dim> traction; ///< on this side, force per area
+    dealii::Tensor<1, dim> normal;      ///< outward, of unit length
+    dealii::Tensor<1, dim> traction;    ///< on this side, force per area
     double                 weight = 0.; ///< an area
     /// Components that have a multiplier; without it nothing moves there, and
     /// any traction is right.
@@ -73,11 +73,12 @@ namespace mortise
   /// a length d by which sides are apart or inside each other at a point, and
   /// the wave number k = pi p / h of what multipliers of degree p on faces with
   /// sides of h leave, two half-spaces take c d^2 per area, c = k / (2 (1/E_1 +
-  /// 1/E_2)), and a traction t that is not to be there t^2 / c. A cell of depth t behind a face may be all of a body, which
-  /// bends: but under contact E times (k t)^3 / 6, if that is less. Ties: d is the
-  /// jump of the displacement, sliding: along the normal; springs of stiffness
-  /// K: it is beside what they give way, and they give way further: c (d / (1 +
-  /// c/K))^2; contact: overlaps, tension, and of gap and
+  /// 1/E_2)), and a traction t that is not to be there t^2 / c. A cell of depth
+  /// t behind a face may be all of a body, which bends: but under contact E
+  /// times (k t)^3 / 6, if that is less. Ties: d is the jump of the
+  /// displacement, sliding: along the normal; springs of stiffness K: it is
+  /// beside what they give way, and they give way further: c (d / (1 + c/K))^2;
+  /// contact: overlaps, tension, and of gap and
   /// pressure at the same point what is less. @p tractions: multiplier_on_faces(). Clips again. Collective.
   Violations
   violation_energies(const Coupling                         &coupling,

@@ -23,8 +23,8 @@
 
 namespace mortise
 {
-  /// (u, p, lambda), or what is dual to them: loads (f, h, g) and residuals. p has size zero
-  /// without mixed bodies, lambda without an interface.
+  /// (u, p, lambda), or what is dual to them: loads (f, h, g) and residuals. p
+  /// has size zero without mixed bodies, lambda without an interface.
   struct SystemVector
   {
     Vector displacement, pressure, multiplier;

@@ -1,5 +1,6 @@
 // Area, centroid and moments of inertia of a boundary, by the points at which
-// tractions are integrated: total forces and moments become tractions with them.
+// tractions are integrated: total forces and moments become tractions with
+// them.
 #pragma once
 
 #include <mortise/body/body.h>

@@ -97,7 +97,8 @@ namespace mortise
       return stiffness_diagonal;
     }
 
-    /// The same, its mean over the components of a node that are not constrained.
+    /// The same, its mean over the components of a node that are not
+    /// constrained.
     LevelVector<double>
     node_diagonal() const
     {
@@ -130,11 +131,13 @@ namespace mortise
     using Coefficients =
       std::function<double(unsigned int, dealii::types::global_dof_index)>;
 
-    /// The values at nodes of the function with these coefficients, also where it is prescribed. Collective.
+    /// The values at nodes of the function with these coefficients, also where
+    /// it is prescribed. Collective.
     LevelVector<double>
     values_at_nodes(const Coefficients &coefficient) const;
 
-    /// K u + G^T p by node, what stresses resist with, also where components are
+    /// K u + G^T p by node, what stresses resist with, also where components
+    /// are
     /// constrained; @p p is not read without bodies in mixed form. Collective.
     LevelVector<double>
     internal_forces(const LevelVector<double> &u, const Vector &p) const;
@@ -144,7 +147,8 @@ namespace mortise
     void
     apply_to_constrained(const LevelVector<double> &u, SystemVector &rhs) const;
 
-    /// int b.v + int t.v - int sigma_0 : grad v by node (see for_each_loaded_cell()), also where components are
+    /// int b.v + int t.v - int sigma_0 : grad v by node (see
+    /// for_each_loaded_cell()), also where components are
     /// constrained. @p loads: by body. Collective.
     LevelVector<double>
     external_forces(const std::vector<Loads> &loads) const;
@@ -170,7 +174,8 @@ namespace mortise
                         const CellFunctionals &functionals,
                         SystemVector          &rhs) const;
 
-    /// What undoes for_each_coefficient(): the values at nodes, zero where constrained. Collective.
+    /// What undoes for_each_coefficient(): the values at nodes, zero where
+    /// constrained. Collective.
     void
     set_displacement(const Coefficients &coefficient,
                      Vector             &displacement) const;
@@ -204,7 +209,8 @@ namespace mortise
     void
     interpolate(const Coefficients &coefficient) const;
 
-    /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is constrained.
+    /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is
+    /// constrained.
     void
     apply_mixed_free() const;
 
@@ -218,7 +224,7 @@ namespace mortise
     LevelVector<double>                    stiffness_diagonal;
     std::vector<LeadingDisplacement>       leading;
     std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
-    ClampedCellPressures                          clamped_cell_pressures;
+    ClampedCellPressures                   clamped_cell_pressures;
     LevelVector<double>                    norm_diagonal;
     mutable LevelVector<double>            in, out, p_in, p_out;
   };

@@ -38,8 +38,8 @@ namespace mortise
   };
 
   /// Calls @p visit with the owned cells that may have loads and int b.v + int
-  /// t.v - int sigma_0 : grad v in the cell's numbering, sigma_0 the stress of the
-  /// thermal strain where nothing moves.
+  /// t.v - int sigma_0 : grad v in the cell's numbering, sigma_0 the stress of
+  /// the thermal strain where nothing moves.
   void
   for_each_loaded_cell(
     const Body                                                &body,

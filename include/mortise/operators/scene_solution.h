@@ -15,7 +15,7 @@ namespace mortise
   /// What was solved for on one body.
   struct BodySolution
   {
-    BodyVector displacement;
+    BodyVector    displacement;
     BodyVector    pressure; ///< in mixed form, else empty
     ThermalStrain thermal_strain = {};
   };

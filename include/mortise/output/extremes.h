@@ -15,9 +15,9 @@ namespace mortise
   };
 
   /// Of @p solution at the nodes of the cells of @p body, corners among them: Gauss-Lobatto points of
-  /// hexahedra, evenly spaced ones of tetrahedra, as many as a cell's degree has. Of places that
-  /// have the largest value to within a millionth it is the same one on any number of
-  /// ranks. Collective.
+  /// hexahedra, evenly spaced ones of tetrahedra, as many as a cell's degree
+  /// has. Of places that have the largest value to within a millionth it is the
+  /// same one on any number of ranks. Collective.
   Extremes
   extremes(const Body &body, const BodySolution &solution);
 } // namespace mortise

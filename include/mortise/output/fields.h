@@ -47,9 +47,9 @@ namespace mortise
   ///
   /// Traction and pressure are the polynomials on each face that do the same
   /// work on its functions as what acts on its covered part: their integrals
-  /// are forces and moments on any mesh. Where nothing faces they and the gap are
-  /// no number (NaN); the gap of a tie is also none where less than half of a
-  /// face is covered. Collective.
+  /// are forces and moments on any mesh. Where nothing faces they and the gap
+  /// are no number (NaN); the gap of a tie is also none where less than half of
+  /// a face is covered. Collective.
   void
   write_interface_fields(const Body                             &slave_body,
                          const Coupling                         &coupling,

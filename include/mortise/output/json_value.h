@@ -31,9 +31,9 @@ namespace mortise
     else
       {
         static_assert(std::is_unsigned_v<T>);
-        fits = json.is_number_unsigned() &&
-               json.template get<std::uint64_t>() <=
-                 std::numeric_limits<T>::max();
+        fits =
+          json.is_number_unsigned() &&
+          json.template get<std::uint64_t>() <= std::numeric_limits<T>::max();
       }
     if (!fits)
       throw std::out_of_range("there is " +

@@ -18,8 +18,9 @@ namespace mortise
   };
 
   /// Nodes at even distances, by number in VTK: coordinates times @p degree (>= 1), the third is
-  /// zero on faces. Hexahedra are those of VTU files of version 1.0, which all readers take; from
-  /// version 2.2 on the last two edges are exchanged. Made once.
+  /// zero on faces. Hexahedra are those of VTU files of version 1.0, which all
+  /// readers take; from version 2.2 on the last two edges are exchanged. Made
+  /// once.
   const std::vector<std::array<unsigned int, 3>> &
   lagrange_nodes(LagrangeShape shape, unsigned int degree);
 

@@ -33,27 +33,27 @@ namespace mortise
     std::vector<double> at; ///< x, y, z
   };
 
-  /// Of the von Mises stress. Cells that meet do not agree on the stress: by how much tells how
-  /// good it is.
+  /// Of the von Mises stress. Cells that meet do not agree on the stress: by
+  /// how much tells how good it is.
   struct StressPeakSummary : PeakSummary
   {
     double averaged = 0.; ///< at that place, of the mean of its cells' stresses
-    /// The most by which two cells differ there or at a corner of the cells that have that place, as
-    /// a von Mises stress; absent where no cells meet.
+    /// The most by which two cells differ there or at a corner of the cells
+    /// that have that place, as a von Mises stress; absent where no cells meet.
     std::optional<double> jump;
   };
 
   struct BodySummary
   {
-    std::string   name;
-    std::string   shape; ///< "hexahedra" or "tetrahedra"
-    std::uint64_t cells      = 0;
-    unsigned int  degree_min = 0;
-    unsigned int  degree_max = 0;
-    std::uint64_t dofs       = 0;
-    std::string   material;    ///< the name of its law
-    double        volume = 0.; ///< of its mesh
-    std::optional<double>            mass; ///< if it has a density
+    std::string                      name;
+    std::string                      shape; ///< "hexahedra" or "tetrahedra"
+    std::uint64_t                    cells      = 0;
+    unsigned int                     degree_min = 0;
+    unsigned int                     degree_max = 0;
+    std::uint64_t                    dofs       = 0;
+    std::string                      material;         ///< the name of its law
+    double                           volume = 0.;      ///< of its mesh
+    std::optional<double>            mass;             ///< if it has a density
     std::optional<PeakSummary>       displacement_max; ///< absent until solved
     std::optional<StressPeakSummary> von_mises_max;    ///< likewise
   };
@@ -69,7 +69,7 @@ namespace mortise
   /// What is in contact at the nodes of the slave.
   struct ContactSummary
   {
-    double              area = 0.;          ///< that presses
+    double              area = 0.;     ///< that presses
     std::vector<double> force, moment; ///< on the slave; as those of interfaces
     double              pressure_mean = 0.; ///< over that area, positive
     double              pressure_max  = 0.;
@@ -89,16 +89,17 @@ namespace mortise
 
   struct InterfaceSummary
   {
-    std::string                   name;
-    std::uint64_t                 slave_faces       = 0;
-    std::uint64_t                 master_faces      = 0;
-    std::uint64_t                 candidate_pairs   = 0;
-    std::uint64_t                 pairs             = 0;
-    std::uint64_t                 integration_cells = 0;
-    std::uint64_t                 quadrature_points = 0;
-    double                        slave_area        = 0.;
-    double                        covered_area      = 0.;
-    /// What the slave puts on the master, the moment about Output/Moments about; empty until solved.
+    std::string   name;
+    std::uint64_t slave_faces       = 0;
+    std::uint64_t master_faces      = 0;
+    std::uint64_t candidate_pairs   = 0;
+    std::uint64_t pairs             = 0;
+    std::uint64_t integration_cells = 0;
+    std::uint64_t quadrature_points = 0;
+    double        slave_area        = 0.;
+    double        covered_area      = 0.;
+    /// What the slave puts on the master, the moment about Output/Moments
+    /// about; empty until solved.
     std::vector<double> force, moment;
     /// Between the meshes along the slave's normal, over the covered area, see
     /// InterfaceReport; lengths.
@@ -118,7 +119,7 @@ namespace mortise
   {
     std::vector<double> applied;   ///< loads
     std::vector<double> reactions; ///< of supports
-    std::vector<double> sum;       ///< of both, zero but for the solver's tolerance
+    std::vector<double> sum; ///< of both, zero but for the solver's tolerance
   };
 
   struct SolverSummary
@@ -161,13 +162,13 @@ namespace mortise
   {
     unsigned int step  = 0; ///< from 1 on, or 0 in a scene without steps
     unsigned int cycle = 0;
-    std::optional<double>         time; ///< in a scene with steps
-    std::vector<BodySummary>      bodies;
-    DofSummary                    dofs;
-    std::vector<InterfaceSummary> interfaces;
-    std::optional<SolverSummary>  solver; ///< absent until solved
+    std::optional<double>             time; ///< in a scene with steps
+    std::vector<BodySummary>          bodies;
+    DofSummary                        dofs;
+    std::vector<InterfaceSummary>     interfaces;
+    std::optional<SolverSummary>      solver;      ///< absent until solved
     std::optional<EquilibriumSummary> equilibrium; ///< absent until solved
-    std::optional<ErrorSummary>   errors; ///< absent without an exact solution
+    std::optional<ErrorSummary> errors; ///< absent without an exact solution
     std::optional<AdaptivitySummary> adaptivity; ///< with a target
     /// User-requested functionals in the order of the request: point values,
     /// resultants.

@@ -35,16 +35,14 @@ namespace mortise
 
     /// Double precision: areas of small cells far from the origin are
     /// differences.
-    std::vector<double>        points;
-    std::vector<std::int32_t>  offsets; ///< by cell: points up to its end
-    std::vector<std::uint8_t>  types;
-    std::vector<VtuField>      of_points, of_cells;
+    std::vector<double>       points;
+    std::vector<std::int32_t> offsets; ///< by cell: points up to its end
+    std::vector<std::uint8_t> types;
+    std::vector<VtuField>     of_points, of_cells;
   };
 
   /// Write the pieces of all ranks, which have the same fields, into @p file.
   /// Throws OutputError on every rank as write_whole_file() does. Collective.
   void
-  write_vtu_file(const VtuPiece    &piece,
-                 const std::string &file,
-                 MPI_Comm           comm);
+  write_vtu_file(const VtuPiece &piece, const std::string &file, MPI_Comm comm);
 } // namespace mortise

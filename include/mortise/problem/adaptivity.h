@@ -217,10 +217,11 @@ namespace mortise
     unsigned int              n_meshes = 0; ///< how often there were new ones
     std::vector<BodySolution> earlier, earlier_dual;
     ErrorSums                 sums;
-    std::vector<double> residual; ///< by body, square, of the equations in the last cycle
-    unsigned int n_estimates = 0; ///< since there was a new mesh
-    std::vector<Violation>    interfaces;      ///< relative
-    double                    last_value = 0.; ///< of the quantity
+    std::vector<double>
+      residual; ///< by body, square, of the equations in the last cycle
+    unsigned int           n_estimates = 0; ///< since there was a new mesh
+    std::vector<Violation> interfaces;      ///< relative
+    double                 last_value = 0.; ///< of the quantity
     /// How much the last refinement changed the quantity beyond what cells have
     /// in it, since prescribed values, loads and ties are others on other
     /// meshes, and what is left of that.

@@ -1,5 +1,5 @@
-// What a body bears across its boundaries, from the balance of nodes: K u + G^T p
-// less the loads that are given elsewhere, tested with the functions of the
+// What a body bears across its boundaries, from the balance of nodes: K u + G^T
+// p less the loads that are given elsewhere, tested with the functions of the
 // boundary. It is exact on any mesh and of any degree as far as the balance of
 // the whole body goes, where the integral of stresses is as accurate as these.
 //
@@ -59,15 +59,15 @@ namespace mortise
                    dealii::types::boundary_id boundary,
                    LevelVector<double>       &forces) const;
 
-    const Discretisation            &discretisation;
-    const SolvedStep                &solved;
-    const std::vector<BodySolution> &solutions;
-    const HeldBoundaries             held;
+    const Discretisation                       &discretisation;
+    const SolvedStep                           &solved;
+    const std::vector<BodySolution>            &solutions;
+    const HeldBoundaries                        held;
     std::vector<std::vector<TractionCondition>> tractions; ///< by body
     /// What passes through boundaries that prescribe it, less what stresses say
     /// where they share a node.
-    LevelVector<double> borne;
-    LevelVector<double> reactions; ///< of constrained components
+    LevelVector<double>    borne;
+    LevelVector<double>    reactions; ///< of constrained components
     dealii::Tensor<1, dim> applied;
   };
 

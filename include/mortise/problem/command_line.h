@@ -20,7 +20,7 @@ namespace mortise
     };
 
     Action      action = Action::run;
-    std::string file;  ///< the parameter file, for run and validate
+    std::string file;    ///< the parameter file, for run and validate
     std::string restart; ///< directory of a checkpoint, instead of a file
     Settings settings; ///< --set and --output, in the order of the command line
   };

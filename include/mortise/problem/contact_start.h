@@ -12,8 +12,9 @@
 namespace mortise
 {
   /// For the loads at @p time, from degree one (bodies in mixed form: two) up to half of what the
-  /// parameters say. Nothing without contact, for few nodes, where degrees are lowest anyway, and where no contact is
-  /// found (what is wrong then is told by the scene itself). Changes the spaces of
+  /// parameters say. Nothing without contact, for few nodes, where degrees are
+  /// lowest anyway, and where no contact is found (what is wrong then is told
+  /// by the scene itself). Changes the spaces of
   /// @p bodies. Collective.
   std::optional<ActivePlaces>
   contact_start(const RunContext &run, double time, Bodies &bodies);

@@ -125,14 +125,14 @@ namespace mortise
     std::optional<ActivePlaces> first; ///< what presses in the first step
     std::optional<Solved>       last;  ///< with steps
     SuccessiveSolutions
-      increments; ///< from step to step, with the set of the last one
+         increments; ///< from step to step, with the set of the last one
     bool mixed_increment = false; ///< was the set of the last but one another?
     std::unique_ptr<ScaledResidual> residual; ///< their product
 
     unsigned int      sets = 0, iterations = 0;
     std::vector<bool> unclear;
     bool              is_settled = true;
-    bool              is_shown = false;
+    bool              is_shown   = false;
     bool          cold = true; ///< does the first set of the step know little?
     std::uint64_t n_shown = 0; ///< of the set that coarse levels see
   };

@@ -150,11 +150,11 @@ namespace mortise
     Vector
     prescribed_vector(const SceneLoad &load) const;
 
-    const RunContext         &run;
-    SceneSpaces               spaces;
-    SceneCouplings            couplings;
-    BlockSystem               system;
-    std::vector<FreePressure> free_pressures;
+    const RunContext                          &run;
+    SceneSpaces                                spaces;
+    SceneCouplings                             couplings;
+    BlockSystem                                system;
+    std::vector<FreePressure>                  free_pressures;
     std::vector<double>                        volumes; ///< by body
     std::vector<InterfaceSummary>              interface_summaries;
     std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;

@@ -49,8 +49,8 @@ namespace mortise
     LevelVector<double>
     forces_of(unsigned int i, const Vector &lambda) const;
 
-    /// B^T lambda by node, but nothing on components that the side of an interface prescribes: its boundary
-    /// bears them there. Collective.
+    /// B^T lambda by node, but nothing on components that the side of an
+    /// interface prescribes: its boundary bears them there. Collective.
     LevelVector<double>
     multiplier_forces(const Vector &lambda) const;
 
@@ -66,7 +66,7 @@ namespace mortise
     const Discretisation &discretisation;
     std::vector<std::map<dealii::types::boundary_id, Components>> held;
     LevelVector<double>                                           holders;
-    bool                                                          shared = false;
+    bool shared = false;
   };
 
   /// The nodes of displacements.

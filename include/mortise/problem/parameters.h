@@ -167,7 +167,7 @@ namespace mortise
     unsigned int             checkpoint_every = 0; ///< steps; 0: no checkpoints
     std::vector<PointQuantity>     points;
     std::vector<ResultantQuantity> resultants;
-    std::array<double, 3> moments_about{}; ///< a point
+    std::array<double, 3>          moments_about{}; ///< a point
   };
 
   struct Parameters

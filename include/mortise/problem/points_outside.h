@@ -6,8 +6,8 @@
 
 namespace mortise
 {
-  /// Warn of those that are not; throw InputError if one is what the Quantity is of. Bodies of
-  /// points have their spaces. Collective.
+  /// Warn of those that are not; throw InputError if one is what the Quantity
+  /// is of. Bodies of points have their spaces. Collective.
   void
   check_points(const RunContext &run, const Bodies &bodies);
 } // namespace mortise

@@ -47,7 +47,8 @@ namespace mortise
       return indices;
     }
 
-    /// By interface of the scene: is its force given since begin(), and not its shortening?
+    /// By interface of the scene: is its force given since begin(), and not its
+    /// shortening?
     std::vector<bool>
     have_forces() const;
 
@@ -111,14 +112,14 @@ namespace mortise
     dealii::Vector<double>
     shortenings_for(const dealii::Vector<double> &lacks) const;
 
-    const RunContext                      &run;
-    const Discretisation                  &discretisation;
-    LinearSolver                          &solver;
-    std::vector<unsigned int>              indices;
-    std::vector<double>                    values;
-    std::vector<std::optional<double>>     forces; ///< absent: kept shortening
-    std::vector<Unit>                      units;
-    std::optional<std::vector<bool>>       active; ///< of the units
-    bool                                   have_units = false;
+    const RunContext                  &run;
+    const Discretisation              &discretisation;
+    LinearSolver                      &solver;
+    std::vector<unsigned int>          indices;
+    std::vector<double>                values;
+    std::vector<std::optional<double>> forces; ///< absent: kept shortening
+    std::vector<Unit>                  units;
+    std::optional<std::vector<bool>>   active; ///< of the units
+    bool                               have_units = false;
   };
 } // namespace mortise

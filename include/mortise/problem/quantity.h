@@ -34,8 +34,8 @@ namespace mortise
     unsigned int
     body() const;
 
-    /// All components of the displacement or force of which it is one. Throws InputError where a
-    /// point lies outside its body. Collective.
+    /// All components of the displacement or force of which it is one. Throws
+    /// InputError where a point lies outside its body. Collective.
     dealii::Tensor<1, dim>
     all_components(const Bodies                    &bodies,
                    const std::vector<BodySolution> &solutions,
@@ -72,10 +72,10 @@ namespace mortise
   /// What a quantity is in one cycle.
   struct DualSolution
   {
-    double                    value = 0.;
-    double size = 0.; ///< of all components of the quantity
-    /// By body; less the function that the quantity is the energy product with, see
-    /// LinearFunctional.
+    double value = 0.;
+    double size  = 0.; ///< of all components of the quantity
+    /// By body; less the function that the quantity is the energy product with,
+    /// see LinearFunctional.
     std::vector<BodySolution> solutions;
     SolveReport               report;
   };

@@ -18,8 +18,9 @@ namespace mortise
     const std::vector<std::vector<DirichletCondition>> &dirichlet,
     const std::vector<TieSupport>                      &ties);
 
-  /// Throw InputError (on all ranks) for a piece of a body, of which cells share no
-  /// vertex with the rest, that its prescribed displacements do not hold and
+  /// Throw InputError (on all ranks) for a piece of a body, of which cells
+  /// share no vertex with the rest, that its prescribed displacements do not
+  /// hold and
   /// no side of @p interfaces is on. Collective.
   void
   check_pieces(const Bodies                                       &bodies,

@@ -207,7 +207,8 @@ namespace mortise
               unsigned int   a,
               unsigned int   b);
 
-    RigidMatrix held;          ///< exactly
-    RigidMatrix across, moved; ///< of curved surfaces that slide: normals, and all directions
+    RigidMatrix held; ///< exactly
+    RigidMatrix across,
+      moved; ///< of curved surfaces that slide: normals, and all directions
   };
 } // namespace mortise

@@ -19,8 +19,8 @@ namespace mortise
   std::vector<Material>
   materials(const Parameters &parameters);
 
-  /// Is there a load or anything else that moves bodies, at any time? The meshes of contact are no
-  /// part of it, which may overlap.
+  /// Is there a load or anything else that moves bodies, at any time? The
+  /// meshes of contact are no part of it, which may overlap.
   bool
   anything_acts(const Parameters &parameters);
 

@@ -31,8 +31,9 @@ namespace mortise
     void
     create_meshes();
 
-    /// All that can be known of a scene before it is solved, coupling apart: create_meshes(), where
-    /// results would go, and the points that are asked for. Collective; throws InputError.
+    /// All that can be known of a scene before it is solved, coupling apart:
+    /// create_meshes(), where results would go, and the points that are asked
+    /// for. Collective; throws InputError.
     void
     validate();
 
@@ -47,8 +48,9 @@ namespace mortise
     compute();
 
     /// The whole run. Collective; throws InputError before anything is written,
-    /// or after the first step of which something could not be written, when all
-    /// that can be has been, and ConvergenceError after what was reached has been written.
+    /// or after the first step of which something could not be written, when
+    /// all that can be has been, and ConvergenceError after what was reached
+    /// has been written.
     void
     run();
 

@@ -18,7 +18,7 @@ namespace mortise
     double attainable    = 0.;
     bool   converged     = false;
     bool   prepared      = true; ///< did the set-up give a preconditioner?
-    double setup_seconds = 0.; ///< since the last report
+    double setup_seconds = 0.;   ///< since the last report
     double solve_seconds = 0.;
   };
 } // namespace mortise

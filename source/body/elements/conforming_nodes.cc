@@ -100,8 +100,7 @@ namespace mortise
         , line(QGaussLobatto<1>(n).get_points())
         , to_lexicographic(
             FETools::hierarchic_to_lexicographic_numbering<3>(degree))
-        , polynomials(
-            Polynomials::generate_complete_Lagrange_basis(line))
+        , polynomials(Polynomials::generate_complete_Lagrange_basis(line))
       {}
 
       NodesOfCells
@@ -160,8 +159,8 @@ namespace mortise
         for (unsigned int i = 0; i < of_cell.size(); ++i)
           {
             const unsigned int l = to_lexicographic[i];
-            const double       w = values[0][l % n] * values[1][l / n % n] *
-                             values[2][l / (n * n)];
+            const double       w =
+              values[0][l % n] * values[1][l / n % n] * values[2][l / (n * n)];
             for (unsigned int c = 0; c < 3; ++c)
               result[c] += w * of_cell[i][c];
           }
@@ -276,8 +275,7 @@ namespace mortise
                     if (subset & (1u << k))
                       directions.push_back(inside[k]);
                   const double sign = directions.size() % 2 == 1 ? 1. : -1.;
-                  for (unsigned int ends = 0;
-                       ends < (1u << directions.size());
+                  for (unsigned int ends = 0; ends < (1u << directions.size());
                        ++ends)
                     {
                       auto   j      = i;
@@ -326,14 +324,14 @@ namespace mortise
           });
       }
 
-      const HexahedralMapping                         &mapping;
-      const unsigned int                               n; ///< nodes of a line
-      const Triangulation<3>                          &triangulation;
-      const std::vector<Point<1>>                      line;
-      const std::vector<unsigned int>                  to_lexicographic;
+      const HexahedralMapping                           &mapping;
+      const unsigned int                                 n; ///< nodes of a line
+      const Triangulation<3>                            &triangulation;
+      const std::vector<Point<1>>                        line;
+      const std::vector<unsigned int>                    to_lexicographic;
       const std::vector<Polynomials::Polynomial<double>> polynomials;
-      std::map<unsigned int, Cell>                     larger; ///< by line
-      NodesOfCells                                     changed;
+      std::map<unsigned int, Cell>                       larger; ///< by line
+      NodesOfCells                                       changed;
     };
   } // namespace
 
@@ -362,7 +360,8 @@ namespace mortise
         const auto given = mapping.nodes(cell);
         for (unsigned int i = 0; i < given.size(); ++i)
           result = std::max(result,
-                            (moved[i] - given[i]).norm() / cell->minimum_vertex_distance());
+                            (moved[i] - given[i]).norm() /
+                              cell->minimum_vertex_distance());
       }
     return Utilities::MPI::max(result, triangulation.get_communicator());
   }

@@ -271,7 +271,7 @@ namespace mortise
             ", but the file " + file_in_quotes(parameters.file, '\'') +
             " is of second order, whose own curved geometry is kept; allowed: a file "
             "of first order (gmsh -order 1), or no Curved boundaries");
-        const auto        id   = find_boundary(entry, mesh, where);
+        const auto        id = find_boundary(entry, mesh, where);
         const std::string here =
           where + ", Curved boundaries, " +
           in_quotes(entry.boundary + ": " + entry.kind, '\'');

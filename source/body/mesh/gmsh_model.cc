@@ -219,10 +219,22 @@ namespace mortise
               return std::min({(*sizes)(Point<3>(x, y, z)), other...});
             };
           using Least = decltype(least);
-          static_assert(
-            std::is_invocable_r_v<double, Least, int, int, double, double, double> &&
-              std::is_invocable_r_v<double, Least, int, int, double, double, double, double>,
-            "callbacks of both versions of gmsh");
+          static_assert(std::is_invocable_r_v<double,
+                                              Least,
+                                              int,
+                                              int,
+                                              double,
+                                              double,
+                                              double> &&
+                          std::is_invocable_r_v<double,
+                                                Least,
+                                                int,
+                                                int,
+                                                double,
+                                                double,
+                                                double,
+                                                double>,
+                        "callbacks of both versions of gmsh");
           gmsh::model::mesh::setSizeCallback(least);
         }
       gmsh::model::mesh::generate(3);
@@ -251,8 +263,8 @@ namespace mortise
 
   GmshModel
   mesh_geometry(const std::string &file_name,
-                  const double       mesh_size,
-                  const SizeField   *sizes)
+                const double       mesh_size,
+                const SizeField   *sizes)
   {
     const Session session(mesh_size);
     std::string   problem;

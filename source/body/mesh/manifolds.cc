@@ -72,9 +72,11 @@ namespace mortise
             axis = d;
         std::array<unsigned int, 2> first;
         for (unsigned int i = 0; i < 2; ++i)
-          first[i] = std::min<unsigned int>(
-            n - 1,
-            std::max(0., std::atan(sum[along(i)] / sum[axis]) * 4. * n / numbers::PI));
+          first[i] = std::min<unsigned int>(n - 1,
+                                            std::max(0.,
+                                                     std::atan(sum[along(i)] /
+                                                               sum[axis]) *
+                                                       4. * n / numbers::PI));
         for (unsigned int v = 0; v < 4; ++v)
           {
             corner[v][axis] = 1.;
@@ -98,13 +100,14 @@ namespace mortise
           {
             const Tensor<1, 3> b = mean(xi, eta), b_xi = slope(0, eta),
                                b_eta = slope(1, xi);
-            const auto across = [&](const Tensor<1, 3> &y, const unsigned int i) {
+            const auto across        = [&](const Tensor<1, 3> &y,
+                                    const unsigned int  i) {
               return y[along(i)] * x[axis] - y[axis] * x[along(i)];
             };
             const double f = across(b, 0), g = across(b, 1),
                          f_xi = across(b_xi, 0), f_eta = across(b_eta, 0),
                          g_xi = across(b_xi, 1), g_eta = across(b_eta, 1),
-                         det = f_xi * g_eta - f_eta * g_xi;
+                         det   = f_xi * g_eta - f_eta * g_xi;
             const double d_xi  = (f * g_eta - f_eta * g) / det,
                          d_eta = (f_xi * g - f * g_xi) / det;
             xi -= d_xi;

@@ -15,8 +15,9 @@ namespace mortise
 
   /// The mesh in the @p content of a .msh file of version 2.2 or 4.1, as text or
   /// bytes: without gmsh's library, which takes counts on trust and crashes,
-  /// hangs or takes all memory where they are wrong. Every count must agree with
-  /// what there is, and elements have nodes and entities that are there; else
+  /// hangs or takes all memory where they are wrong. Every count must agree
+  /// with what there is, and elements have nodes and entities that are there;
+  /// else
   /// @p fail is told the line.
   GmshModel
   read_msh(const std::string &content, const FileError &fail);
@@ -48,7 +49,8 @@ namespace mortise
   check_volumes(CoarseMesh &mesh, const FileError &fail);
 
   /// Put the cells in the order of a curve that fills space: what is near in
-  /// memory is then near in space. Files have them in the order in which they were meshed.
+  /// memory is then near in space. Files have them in the order in which they
+  /// were meshed.
   void
   sort_cells(CoarseMesh &mesh);
 

@@ -284,12 +284,11 @@ namespace mortise
     check.require(levels <= 14,
                   "Refinements and the times of Refine near make " +
                     std::to_string(levels) + " levels; allowed: 14 in all");
-    check.require(
-      parameters.cells != "tetrahedra" || balls.empty(),
-      "Refine near = " + in_quotes(parameters.refine_near, '\'') +
-        " belongs to hexahedra, since tetrahedra cannot be refined "
-        "locally; try Degree near, Refinements, or a gmsh file "
-        "whose Mesh size varies");
+    check.require(parameters.cells != "tetrahedra" || balls.empty(),
+                  "Refine near = " + in_quotes(parameters.refine_near, '\'') +
+                    " belongs to hexahedra, since tetrahedra cannot be refined "
+                    "locally; try Degree near, Refinements, or a gmsh file "
+                    "whose Mesh size varies");
     check.require(all_finite(parameters.rotate) &&
                     all_finite(parameters.translate),
                   "Rotate or Translate is not finite");

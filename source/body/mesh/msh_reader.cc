@@ -23,13 +23,12 @@ namespace mortise
 
     /// By gmsh's number of the type of elements, up to third order.
     const std::map<int, ElementSize> element_sizes = {
-      {1, {1, 2}},   {2, {2, 3}},   {3, {2, 4}},   {4, {3, 4}},
-      {5, {3, 8}},   {6, {3, 6}},   {7, {3, 5}},   {8, {1, 3}},
-      {9, {2, 6}},   {10, {2, 9}},  {11, {3, 10}}, {12, {3, 27}},
-      {13, {3, 18}}, {14, {3, 14}}, {15, {0, 1}},  {16, {2, 8}},
-      {17, {3, 20}}, {18, {3, 15}}, {19, {3, 13}}, {20, {2, 9}},
-      {21, {2, 10}}, {26, {1, 4}},  {29, {3, 20}}, {36, {2, 16}},
-      {39, {2, 12}}, {92, {3, 64}}, {99, {3, 32}}, {118, {3, 30}}};
+      {1, {1, 2}},   {2, {2, 3}},   {3, {2, 4}},   {4, {3, 4}},   {5, {3, 8}},
+      {6, {3, 6}},   {7, {3, 5}},   {8, {1, 3}},   {9, {2, 6}},   {10, {2, 9}},
+      {11, {3, 10}}, {12, {3, 27}}, {13, {3, 18}}, {14, {3, 14}}, {15, {0, 1}},
+      {16, {2, 8}},  {17, {3, 20}}, {18, {3, 15}}, {19, {3, 13}}, {20, {2, 9}},
+      {21, {2, 10}}, {26, {1, 4}},  {29, {3, 20}}, {36, {2, 16}}, {39, {2, 12}},
+      {92, {3, 64}}, {99, {3, 32}}, {118, {3, 30}}};
 
     constexpr std::array<const char *, 4> entity_names = {
       {"point", "curve", "surface", "volume"}};
@@ -216,7 +215,7 @@ namespace mortise
         auto *const        block = key[0] >= 2 ? &elements[key] : nullptr;
         for (unsigned int v = 0; v < n; ++v)
           {
-            const std::uint64_t node = version_4 ? in.count() : in.tag();
+            const std::uint64_t node  = version_4 ? in.count() : in.tag();
             const unsigned int  place = nodes.index(node, in);
             if (block != nullptr)
               block->second.push_back(place);
@@ -233,13 +232,13 @@ namespace mortise
           {
             const int dimension = in.integer();
             check_dimension(dimension);
-            const int entity = in.integer(), type = in.integer();
+            const int         entity = in.integer(), type = in.integer();
             const ElementSize size = size_of(type);
             if (size.dimension != dimension)
               in.fail("elements of gmsh's type " + std::to_string(type) +
                       " are said to have dimension " +
-                      std::to_string(dimension) + "; allowed: " +
-                      std::to_string(size.dimension));
+                      std::to_string(dimension) +
+                      "; allowed: " + std::to_string(size.dimension));
             if (entities.count({dimension, entity}) == 0)
               in.fail("there are elements of the " +
                       std::string(entity_names[dimension]) + " " +
@@ -284,9 +283,9 @@ namespace mortise
               {
                 if (in.binary)
                   index = in.integer();
-                const std::vector<int> tags  = in.integers(n_tags);
-                const int              group = n_tags > 0 ? std::abs(tags[0]) : 0;
-                const int              entity = n_tags > 1 ? tags[1] : 0;
+                const std::vector<int> tags = in.integers(n_tags);
+                const int group  = n_tags > 0 ? std::abs(tags[0]) : 0;
+                const int entity = n_tags > 1 ? tags[1] : 0;
                 if (group != 0)
                   entities[{size.dimension, entity}].insert(group);
                 read_element({{size.dimension, entity, group, type}}, index);

@@ -213,10 +213,10 @@ namespace mortise
       {
         const auto rule = degree_on(level);
         levels.push_back(std::make_unique<NodalSpace>(bodies, rule, comm));
-        lowest =
-          single || std::all_of(bodies.begin(), bodies.end(), [&](const Body *b) {
-            return rule(*b, b->max_degree()) == 1;
-          });
+        lowest = single ||
+                 std::all_of(bodies.begin(), bodies.end(), [&](const Body *b) {
+                   return rule(*b, b->max_degree()) == 1;
+                 });
       }
     return levels;
   }

@@ -51,8 +51,8 @@ namespace mortise
 
   namespace
   {
-    /// Functions of an element on the reference cell at points q: entry [i][d][q], d = 0 the
-    /// value, then the derivatives along the axes.
+    /// Functions of an element on the reference cell at points q: entry
+    /// [i][d][q], d = 0 the value, then the derivatives along the axes.
     class FunctionTable
     {
     public:
@@ -172,9 +172,8 @@ namespace mortise
   }
 
   void
-  CellFields::map_to_space(
-    const std::vector<CellGeometry::Jacobian> &jacobians,
-    const std::vector<double>                 &reference_weights)
+  CellFields::map_to_space(const std::vector<CellGeometry::Jacobian> &jacobians,
+                           const std::vector<double> &reference_weights)
   {
     weights.resize(jacobians.size());
     for (unsigned int q = 0; q < jacobians.size(); ++q)
@@ -190,8 +189,7 @@ namespace mortise
   {
     auto &shared = tetrahedra[cell->active_fe_index()];
     if (!shared)
-      shared =
-        std::make_unique<Tetrahedra>(body, cell, rule(cell->get_fe()));
+      shared = std::make_unique<Tetrahedra>(body, cell, rule(cell->get_fe()));
     const unsigned int n_points = shared->displacement.n_points;
     points                      = shared->geometry.points(cell);
     values.resize(n_points);

@@ -268,9 +268,8 @@ namespace mortise
             // the blocks of the diagonal are symmetric
             const unsigned int first = c == d ? i : 0;
             const bool         split =
-              first < i && std::any_of(terms[c][d].begin(),
-                                       terms[c][d].end(),
-                                       splits);
+              first < i &&
+              std::any_of(terms[c][d].begin(), terms[c][d].end(), splits);
             if (split)
               sum_terms(c, d, i, first, i);
             sum_terms(c, d, i, split ? i : first, n);

@@ -16,8 +16,8 @@ namespace mortise
     const Teuchos::LAPACK<int, double> lapack;
     const Teuchos::BLAS<int, double>   blas;
 
-    const int           n = static_cast<int>(free.size()),
-              m           = static_cast<int>(divergence.m());
+    const int n = static_cast<int>(free.size()),
+              m = static_cast<int>(divergence.m());
     FullMatrix<double> S(m, m);
     if (n == 0)
       return S;

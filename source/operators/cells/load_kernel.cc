@@ -158,7 +158,8 @@ namespace mortise
                            const TractionCondition  &condition)
   {
     if (!faces[f])
-      faces[f] = std::make_unique<FaceValues>(body, cell, f, traction_points(system));
+      faces[f] =
+        std::make_unique<FaceValues>(body, cell, f, traction_points(system));
     FaceValues &face = *faces[f];
     face.reinit(cell);
     const auto &indices = face.indices();

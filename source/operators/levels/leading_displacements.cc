@@ -251,7 +251,8 @@ namespace mortise
     const auto                       first = level.layout->local_range().first;
     for (unsigned int i = 0; i < is_constrained.size(); ++i)
       if (const unsigned int node = i - i % dim;
-          !is_constrained[i] && leads.local_element(node) > 0. && stays.local_element(node) == 0. &&
+          !is_constrained[i] && leads.local_element(node) > 0. &&
+          stays.local_element(node) == 0. &&
           !slaves.is_slave((first + node) / dim))
         result.push_back({i, sums.local_element(i)});
     return result;

@@ -218,8 +218,7 @@ namespace mortise
     /// Parts of @p couplings in which no node belongs to two: around an edge of a
     /// body each interface has a normal of its own.
     std::vector<Couplings>
-    split_by_normals(const unsigned int number,
-                     const Couplings   &couplings)
+    split_by_normals(const unsigned int number, const Couplings &couplings)
     {
       std::vector<Couplings>                         parts;
       std::vector<std::set<types::global_dof_index>> taken;

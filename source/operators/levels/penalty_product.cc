@@ -74,7 +74,8 @@ namespace mortise
                 sums[c] +=
                   *values * reinterpret_cast<const V *>(gathered[c])[j];
             for (unsigned int c = 0; c < dim; ++c)
-              dst[row + c] += sum_of_batch(reinterpret_cast<Number *>(&sums[c]));
+              dst[row + c] +=
+                sum_of_batch(reinterpret_cast<Number *>(&sums[c]));
           }
       }
   }

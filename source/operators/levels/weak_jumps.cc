@@ -73,11 +73,8 @@ namespace mortise
       for (const Row &row : rows)
         needed.insert(row.scalar);
       const std::vector<int> numbers(needed.begin(), needed.end());
-      const Epetra_Map       target(-1,
-                              static_cast<int>(numbers.size()),
-                              numbers.data(),
-                              0,
-                              map.Comm());
+      const Epetra_Map       target(
+        -1, static_cast<int>(numbers.size()), numbers.data(), 0, map.Comm());
       imported = std::make_unique<Epetra_CrsMatrix>(Copy, target, 0);
       imported->Import(own, Epetra_Import(target, map), Insert);
       imported->FillComplete(own.DomainMap(), map);

@@ -50,9 +50,9 @@ namespace mortise
     /// with a pin c at pressure k, (A + c e e^T) n = c e for A n = 0 and n_k
     /// = 1.
     std::vector<SystemVector>
-    free_constants(const BlockSystem         &system,
-                   const Epetra_CrsMatrix    &matrix,
-                   const Epetra_Vector       &scale,
+    free_constants(const BlockSystem        &system,
+                   const Epetra_CrsMatrix   &matrix,
+                   const Epetra_Vector      &scale,
                    const MumpsFactorisation &factorisation)
     {
       std::vector<SystemVector> result;
@@ -80,11 +80,9 @@ namespace mortise
   /// The factorised matrix, scaled, and what it leaves free.
   struct DirectSolver::Factors
   {
-    explicit Factors(const BlockSystem    &system,
-                     const ScaledResidual &residual)
+    explicit Factors(const BlockSystem &system, const ScaledResidual &residual)
       : system(system)
-      , matrix(
-          monolithic_matrix(system, residual, MonolithicNumbering(system)))
+      , matrix(monolithic_matrix(system, residual, MonolithicNumbering(system)))
       , scale(matrix->RowMap())
       , b(scale)
       , y(scale)
@@ -108,16 +106,14 @@ namespace mortise
       y.Multiply(1., scale, y, 0.);
       for_each_value(y, x, [](const double from, double &to) { to = from; });
       for (unsigned int g = 0; g < constants.size(); ++g)
-        add_scaled(x,
-                   -system.free_pressures.mean(g, x.pressure),
-                   constants[g]);
+        add_scaled(x, -system.free_pressures.mean(g, x.pressure), constants[g]);
       return true;
     }
 
     const BlockSystem                &system;
     std::unique_ptr<Epetra_CrsMatrix> matrix;
     Epetra_Vector                     scale, b, y;
-    MumpsFactorisation               factorisation;
+    MumpsFactorisation                factorisation;
     std::vector<SystemVector>         constants;
     bool                              valid;
   };

@@ -111,18 +111,18 @@ namespace mortise
          const std::vector<bool> &active,
          const Epetra_Comm       &comm)
   {
-    const unsigned int n = matrix.n_components;
+    const unsigned int n     = matrix.n_components;
     const Epetra_Map   nodes = nodes_of(matrix, comm);
     Epetra_IntVector   owned(nodes); // bits of the components that are active
     for (unsigned int i = 0; i < matrix.entries.size(); ++i)
       if (matrix.entries[i] >= 0 && active[matrix.entries[i]])
         owned[static_cast<int>(i / n)] |= 1 << i % n;
     const std::vector<int> bits = by_column(matrix, owned);
-    NodalMatrix             result;
-    result.n_components   = n;
-    result.entries        = matrix.entries;
-    const double *values  = matrix.values.data();
-    std::size_t   column  = 0; // first of the node
+    NodalMatrix            result;
+    result.n_components  = n;
+    result.entries       = matrix.entries;
+    const double *values = matrix.values.data();
+    std::size_t   column = 0; // first of the node
     for (unsigned int i = 0; i < matrix.size(); ++i)
       {
         const unsigned int length = matrix.lengths[i];
@@ -171,8 +171,7 @@ namespace mortise
     for (unsigned int i = 0; i < matrix.size(); ++i)
       {
         const int self = nodes.GID(static_cast<int>(i));
-        number[i] =
-          couples(matrix, i, self, columns, values) ? mine++ : -1;
+        number[i] = couples(matrix, i, self, columns, values) ? mine++ : -1;
         for (unsigned int c = 0; c < n && number[i] < 0; ++c)
           if (matrix.entries[i * n + c] >= 0)
             for (unsigned int k = 0; k < matrix.lengths[i]; ++k)
@@ -202,8 +201,8 @@ namespace mortise
             result.entries.insert(result.entries.end(),
                                   &matrix.entries[i * n],
                                   &matrix.entries[i * n] + n);
-            result.lengths.push_back(
-              length - std::count(column, column + length, -1));
+            result.lengths.push_back(length -
+                                     std::count(column, column + length, -1));
             result.variants.push_back(matrix.variants[i]);
             std::copy_if(column,
                          column + length,

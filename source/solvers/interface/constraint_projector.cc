@@ -68,9 +68,7 @@ namespace mortise
   }
 
   void
-  ConstraintProjector::satisfy(Vector       &u,
-                               Vector       &lambda,
-                               const Vector &g) const
+  ConstraintProjector::satisfy(Vector &u, Vector &lambda, const Vector &g) const
   {
     // C^{-1} may be in single precision
     double previous = std::numeric_limits<double>::infinity();

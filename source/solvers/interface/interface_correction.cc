@@ -18,7 +18,7 @@ namespace mortise
   InterfaceCorrection<Number>::InterfaceCorrection(
     const BlockSystem             &system,
     const CouplingProduct<Number> &product,
-    const Lifting         &lifting)
+    const Lifting                 &lifting)
     : system(system)
     , product(product)
     , lifting(lifting)

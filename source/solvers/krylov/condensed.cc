@@ -16,11 +16,11 @@ namespace mortise
     class ProjectedConjugateGradients
     {
     public:
-      ProjectedConjugateGradients(const BlockSystem         &system,
-                                  const ScaledResidual      &residual,
-                                  const DegreeMultigrid  &preconditioner,
-                                  const SystemVector        &rhs,
-                                  const SolverOptions       &options)
+      ProjectedConjugateGradients(const BlockSystem     &system,
+                                  const ScaledResidual  &residual,
+                                  const DegreeMultigrid &preconditioner,
+                                  const SystemVector    &rhs,
+                                  const SolverOptions   &options)
         : system(system)
         , residual(residual)
         , preconditioner(preconditioner)
@@ -168,7 +168,7 @@ namespace mortise
 
       const BlockSystem         &system;
       const ScaledResidual      &residual;
-      const DegreeMultigrid  &preconditioner;
+      const DegreeMultigrid     &preconditioner;
       const ConstraintProjector *projector;
       const SolverOptions       &options;
       const SystemVector        &rhs;
@@ -179,7 +179,7 @@ namespace mortise
       const bool                 has_springs;
       Vector                     y, z_lambda, d_lambda; ///< multipliers
       const Vector               no_offset;             ///< likewise
-      double                     energy_of_x = 0.; ///< gained so far
+      double                     energy_of_x = 0.;      ///< gained so far
     };
   } // namespace
 

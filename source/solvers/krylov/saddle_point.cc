@@ -2,10 +2,10 @@
 #include <deal.II/lac/solver_gmres.h>
 #include <deal.II/lac/trilinos_parallel_block_vector.h>
 
-#include <mortise/solvers/multigrid/degree_multigrid.h>
 #include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/krylov/pressure_preconditioner.h>
 #include <mortise/solvers/krylov/saddle_point.h>
+#include <mortise/solvers/multigrid/degree_multigrid.h>
 
 #include <algorithm>
 #include <cmath>
@@ -236,7 +236,8 @@ namespace mortise
       mutable BlockVector                     scratch;
     };
 
-    /// That of bodies and springs and p . P p, what error_energy() is to be small beside.
+    /// That of bodies and springs and p . P p, what error_energy() is to be
+    /// small beside.
     double
     energy_of(const SystemVector &x, const BlockSystem &system)
     {
@@ -269,8 +270,8 @@ namespace mortise
             const SolverOptions &options,
             SolveReport         &report) const;
 
-    const ScaledOperator      matrix;
-    BlockPreconditioner preconditioner;
+    const ScaledOperator matrix;
+    BlockPreconditioner  preconditioner;
   };
 
   BlockVector
@@ -321,7 +322,7 @@ namespace mortise
   bool
   SaddlePointSolver::set_up()
   {
-    parts = std::make_unique<Parts>(system, *residual, options);
+    parts       = std::make_unique<Parts>(system, *residual, options);
     description = parts->preconditioner.description();
     return parts->preconditioner.is_valid();
   }

@@ -108,13 +108,13 @@ namespace mortise
                             const LevelVector<Number> &b,
                             const bool                 from_zero) const
   {
-    const double theta = largest * (1. + 1. / range) / 2.,
-                 delta = largest * (1. - 1. / range) / 2.,
-                 sigma = theta / delta;
-    double        rho  = 1. / sigma;
-    const bool    has_springs = correction != nullptr && correction->has_springs();
-    const auto    n    = x.locally_owned_size();
-    Number       *X = x.begin(), *D = d.begin(), *R = r.begin();
+    const double theta     = largest * (1. + 1. / range) / 2.,
+                 delta     = largest * (1. - 1. / range) / 2.,
+                 sigma     = theta / delta;
+    double     rho         = 1. / sigma;
+    const bool has_springs = correction != nullptr && correction->has_springs();
+    const auto n           = x.locally_owned_size();
+    Number    *X = x.begin(), *D = d.begin(), *R = r.begin();
     const Number *B = b.begin(), *I = inverse_diagonal.begin();
     for (unsigned int k = 0; k < degree; ++k)
       {

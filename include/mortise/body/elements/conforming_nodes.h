@@ -15,9 +15,10 @@ namespace mortise
   {
   public:
     /// Of owned and ghost cells of @p triangulation; @p mapping, of degree @p degree, has the nodes
-    /// on the manifold, and must live on. The corrections of what hangs go on linearly to what does not
-    /// (transfinite interpolation, Gordon and Hall 1973). Cells that share a vertex differ by one
-    /// level at most. Collective.
+    /// on the manifold, and must live on. The corrections of what hangs go on
+    /// linearly to what does not (transfinite interpolation, Gordon and Hall
+    /// 1973). Cells that share a vertex differ by one level at most.
+    /// Collective.
     ConformingNodes(const HexahedralMapping        &mapping,
                     unsigned int                    degree,
                     const dealii::Triangulation<3> &triangulation);
@@ -26,7 +27,8 @@ namespace mortise
     std::vector<dealii::Point<3>>
     nodes(const dealii::Triangulation<3>::cell_iterator &cell) const;
 
-    /// The largest correction beside the shortest distance of vertices of its cell. Collective.
+    /// The largest correction beside the shortest distance of vertices of its
+    /// cell. Collective.
     double
     largest_shift() const;
 

@@ -1,6 +1,7 @@
 // Meshes as gmsh knows them, as plain data: nodes, elements, names of physical
-// groups. The only room of the gmsh library, which prints nothing and stays open
-// only while a geometry is meshed. It never reads a mesh and never judges one.
+// groups. The only room of the gmsh library, which prints nothing and stays
+// open only while a geometry is meshed. It never reads a mesh and never judges
+// one.
 #pragma once
 
 #include <deal.II/base/point.h>

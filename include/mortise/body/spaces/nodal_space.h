@@ -171,8 +171,8 @@ namespace mortise
     return degree > 4 ? (degree + 1) / 2 : std::max(1U, degree / 2);
   }
 
-  /// The degrees of all cells and those of lower_degree(), down to one; only the former where
-  /// multigrid goes on by a ThicknessCoarsening. Collective.
+  /// The degrees of all cells and those of lower_degree(), down to one; only
+  /// the former where multigrid goes on by a ThicknessCoarsening. Collective.
   NodalSpaces
   make_nodal_spaces(const std::vector<const Body *> &bodies, MPI_Comm comm);
 

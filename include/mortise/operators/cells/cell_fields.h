@@ -45,7 +45,7 @@ namespace mortise
     std::vector<double>                 weights; ///< JxW
     std::vector<dealii::Tensor<1, dim>> values;
     std::vector<dealii::Tensor<2, dim>> gradients; ///< du_c/dx_e as [c][e]
-    std::vector<double> pressures; ///< of the mixed form, else empty
+    std::vector<double> pressures;       ///< of the mixed form, else empty
     std::vector<double> thermal_strains; ///< if there are any, else empty
 
     /// @p gradient at point @p q without the thermal strain.

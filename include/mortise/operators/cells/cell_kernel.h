@@ -82,7 +82,7 @@ namespace mortise
     std::vector<double> weights;
     std::vector<double> reference_gradients; ///< [q][a][i]
     std::vector<double> gradients;           ///< G, [q][c][i]
-    std::vector<double> products; ///< H, [c][i][d][j], c <= d
-    std::vector<double> row;      ///< workspace
+    std::vector<double> products;            ///< H, [c][i][d][j], c <= d
+    std::vector<double> row;                 ///< workspace
   };
 } // namespace mortise

@@ -17,7 +17,8 @@ namespace mortise
     ClampedCellPressures() = default;
 
     /// Finds the cells of @p level, whose products @p elasticity has, pressures included. Bodies
-    /// of high degree have none: their dense matrices would take longer than they save. Collective.
+    /// of high degree have none: their dense matrices would take longer than
+    /// they save. Collective.
     ClampedCellPressures(const NodalLevel                   &level,
                          const MatrixFreeElasticity<double> &elasticity);
 

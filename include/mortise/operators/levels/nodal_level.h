@@ -37,7 +37,8 @@ namespace mortise
                    const std::vector<Coupling>             &couplings,
                    MPI_Comm                                 comm);
 
-  /// 1 where components are constrained, 0 elsewhere; with ghost values. Collective.
+  /// 1 where components are constrained, 0 elsewhere; with ghost values.
+  /// Collective.
   LevelVector<double>
   constrained_components(const NodalLevel &level);
 
@@ -124,9 +125,9 @@ namespace mortise
     }
 
   private:
-    const NodalLevel                  &level;
-    const MatrixFreeElasticity<Number> stiffness;
-    const HangingNodes<Number>         hanging;
+    const NodalLevel                   &level;
+    const MatrixFreeElasticity<Number>  stiffness;
+    const HangingNodes<Number>          hanging;
     std::vector<PenaltyProduct<Number>> penalties;
   };
 } // namespace mortise

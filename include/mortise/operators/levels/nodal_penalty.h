@@ -9,11 +9,12 @@
 
 namespace mortise
 {
-  /// The jump penalty J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of
-  /// the softer side, between the nodes that this rank's slave faces and their
-  /// partners have; the same for each component. Where bodies slide, that of
-  /// the jumps along normals, gamma int [[u.n]] [[v.n]]. K + J is regular even
-  /// where K is not; it is for preconditioning and never part of the equations.
+  /// The jump penalty J = sum over interfaces of gamma int [[u]].[[v]], gamma ~
+  /// E / h of the softer side, between the nodes that this rank's slave faces
+  /// and their partners have; the same for each component. Where bodies slide,
+  /// that of the jumps along normals, gamma int [[u.n]] [[v.n]]. K + J is
+  /// regular even where K is not; it is for preconditioning and never part of
+  /// the equations.
   struct NodalPenalty
   {
     /// Nodes that couple with the same others, as those inside a face do.

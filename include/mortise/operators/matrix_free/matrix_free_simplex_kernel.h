@@ -80,7 +80,8 @@ namespace mortise
       if (cells.n_batches > cells.n_affine)
         {
           if constexpr (degree < sum_factorised_from)
-            curved = std::make_unique<Curved>(gradients_on_curved<Number>(degree));
+            curved =
+              std::make_unique<Curved>(gradients_on_curved<Number>(degree));
           else
             curved = std::make_unique<Curved>();
         }
@@ -134,7 +135,8 @@ namespace mortise
       if (cells.n_affine > 0)
         on_affine = DenseMatrix<Number>(pairs(gradient_coefficients(degree)));
       if (curved)
-        on_curved = DenseMatrix<Number>(pairs(gradients_on_curved<Number>(degree)));
+        on_curved =
+          DenseMatrix<Number>(pairs(gradients_on_curved<Number>(degree)));
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           const bool is_affine = batch < cells.n_affine;

@@ -9,8 +9,8 @@
 
 namespace mortise
 {
-  /// One numbering of (u, p, lambda), rank by rank: what a rank owns of u, then of
-  /// p, then of lambda.
+  /// One numbering of (u, p, lambda), rank by rank: what a rank owns of u, then
+  /// of p, then of lambda.
   class MonolithicNumbering
   {
   public:
@@ -50,8 +50,8 @@ namespace mortise
   };
 
   /// [K G^T B^T; G -C 0; B 0 -S]. Rows and columns of what is prescribed or
-  /// hangs, and of multipliers that are not active, have their diagonal alone; the
-  /// diagonal of a pressure that stands for a free constant has the norm of
+  /// hangs, and of multipliers that are not active, have their diagonal alone;
+  /// the diagonal of a pressure that stands for a free constant has the norm of
   /// @p residual added. Collective.
   std::unique_ptr<Epetra_CrsMatrix>
   monolithic_matrix(const BlockSystem         &system,

@@ -49,7 +49,8 @@ namespace mortise
          const std::vector<bool> &active,
          const Epetra_Comm       &comm);
 
-  /// The nodes that couple with others. (Entry, diagonal) of what is left goes to
+  /// The nodes that couple with others. (Entry, diagonal) of what is left goes
+  /// to
   /// @p lone. Collective.
   NodalMatrix
   take_coupled(const NodalMatrix                   &matrix,

@@ -8,8 +8,9 @@
 
 namespace mortise
 {
-  /// P = I - T B^T C^{-1} B with C = B T B^T + S and T the lifting given. For P u
-  /// and lambda = C^{-1} B u, B P u = S lambda: springs carry what opens them.
+  /// P = I - T B^T C^{-1} B with C = B T B^T + S and T the lifting given. For P
+  /// u and lambda = C^{-1} B u, B P u = S lambda: springs carry what opens
+  /// them.
   class ConstraintProjector
   {
   public:

@@ -97,8 +97,8 @@ namespace mortise
                               CoupledNodes         nodes) const;
 
     /// Those of the matrix, if it has some.
-    const Epetra_CrsMatrix                        *frames = nullptr;
-    mutable std::unique_ptr<Epetra_Vector>         by_component;
+    const Epetra_CrsMatrix                                    *frames = nullptr;
+    mutable std::unique_ptr<Epetra_Vector>                     by_component;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<unsigned int>                                  moved_indices;
     std::vector<Block>                                         blocks;

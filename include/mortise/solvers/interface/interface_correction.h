@@ -20,7 +20,7 @@ namespace mortise
     /// @p product and @p lifting must stay alive. Collective.
     InterfaceCorrection(const BlockSystem             &system,
                         const CouplingProduct<Number> &product,
-                        const Lifting         &lifting);
+                        const Lifting                 &lifting);
 
     /// Do displacements lead on any rank?
     bool
@@ -64,17 +64,19 @@ namespace mortise
           subtract(indices[k], weights[k] * trace.local_element(k));
     }
 
-    /// x := x - T B^T y with y = C^{-1} (B x - S lambda), lambda what springs carry, and they carry
-    /// y more. Collective.
+    /// x := x - T B^T y with y = C^{-1} (B x - S lambda), lambda what springs
+    /// carry, and they carry y more. Collective.
     void
     project(LevelVector<Number> &x) const;
 
-    /// Springs: what they carry for the x that a smoother works on is kept here,
-    /// since what opens a stiff one is less than the rounding of x. None do.
+    /// Springs: what they carry for the x that a smoother works on is kept
+    /// here, since what opens a stiff one is less than the rounding of x. None
+    /// do.
     void
     release_springs() const;
 
-    /// d := keep d + take C^{-1} B (...), the multipliers of the last correct(), and carry d more.
+    /// d := keep d + take C^{-1} B (...), the multipliers of the last
+    /// correct(), and carry d more.
     void
     load_springs(double keep, double take) const;
 
@@ -105,12 +107,12 @@ namespace mortise
 
     const BlockSystem             &system;
     const CouplingProduct<Number> &product;
-    const Lifting         &lifting;
+    const Lifting                 &lifting;
     std::vector<Number>            weights;           ///< T, by index
     bool                           some_lead = false; ///< on some rank
     mutable Epetra_Vector          jump, multiplier;
     mutable Epetra_Vector          carried, added; ///< by springs
-    mutable LevelVector<Number>    trace;    ///< values at the indices
-    mutable std::vector<Number>    smoothed; ///< likewise
+    mutable LevelVector<Number>    trace;          ///< values at the indices
+    mutable std::vector<Number>    smoothed;       ///< likewise
   };
 } // namespace mortise
