@@ -3,9 +3,9 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
-#include <mortise/problem/command_line.h>
 #include <mortise/problem/guard.h>
-#include <mortise/problem/parameter_schema.h>
+#include <mortise/problem/input/command_line.h>
+#include <mortise/problem/input/parameter_schema.h>
 #include <mortise/problem/simulation.h>
 #include <mortise/problem/start.h>
 

@@ -1,6 +1,7 @@
 #include <mortise/base/tensor_product.h>
 #include <mortise/body/elements/simplex_basis.h>
 #include <mortise/body/elements/simplex_nodes.h>
+#include <mortise/body/elements/trace_basis.h>
 #include <mortise/mortar/nodal_block.h>
 
 #include <map>

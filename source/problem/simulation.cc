@@ -2,11 +2,11 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
-#include <mortise/problem/contact_start.h>
+#include <mortise/problem/contact/contact_start.h>
 #include <mortise/problem/guard.h>
-#include <mortise/problem/points_outside.h>
-#include <mortise/problem/result_checks.h>
-#include <mortise/problem/run_table.h>
+#include <mortise/problem/results/points_outside.h>
+#include <mortise/problem/results/result_checks.h>
+#include <mortise/problem/results/run_table.h>
 #include <mortise/problem/simulation.h>
 
 #include <algorithm>

@@ -19,8 +19,8 @@ namespace mortise
                         fields.solutions,
                         forces,
                         adaptivity->dual_start(bodies));
-    std::vector<Violation> broken;
-    Residuals              missing;
+    std::vector<InterfaceViolation> broken;
+    Residuals                       missing;
     if (!dual)
       {
         broken  = violations(context, *discretisation, solved, fields);

@@ -1,7 +1,7 @@
 // Proves that the command line is read as documented and that a wrong one says
 // what is allowed.
 #include <mortise/base/error.h>
-#include <mortise/problem/command_line.h>
+#include <mortise/problem/input/command_line.h>
 
 #include <iostream>
 #include <string>

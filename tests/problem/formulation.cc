@@ -1,7 +1,7 @@
 // Proves which bodies take the mixed form by themselves, and that every form
 // which does not exist with the rest of a scene gives one message with what,
 // where, what was got and what is allowed.
-#include <mortise/problem/formulation.h>
+#include <mortise/problem/input/formulation.h>
 
 #include "parameter_checks.h"
 

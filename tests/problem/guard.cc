@@ -4,7 +4,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/problem/guard.h>
-#include <mortise/problem/parameters.h>
+#include <mortise/problem/input/parameters.h>
 
 #include <functional>
 #include <iostream>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <mortise/base/error.h>
-#include <mortise/problem/parameter_schema.h>
-#include <mortise/problem/parameters.h>
+#include <mortise/problem/input/parameter_schema.h>
+#include <mortise/problem/input/parameters.h>
 
 #include <exception>
 #include <functional>

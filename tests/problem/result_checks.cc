@@ -2,7 +2,7 @@
 // that loads are scaled without rounding, refused where they cannot be.
 #include <deal.II/base/mpi.h>
 
-#include <mortise/problem/result_checks.h>
+#include <mortise/problem/results/result_checks.h>
 #include <mortise/solvers/linear_solver.h>
 #include <mortise/solvers/solve.h>
 

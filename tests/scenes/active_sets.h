@@ -3,9 +3,9 @@
 #pragma once
 
 #include <mortise/mortar/nodal_block.h>
-#include <mortise/problem/discretisation.h>
-#include <mortise/problem/scene_data.h>
-#include <mortise/problem/solved_step.h>
+#include <mortise/problem/results/solved_step.h>
+#include <mortise/problem/scene/discretisation.h>
+#include <mortise/problem/scene/scene_data.h>
 #include <mortise/solvers/solve.h>
 
 #include <cmath>

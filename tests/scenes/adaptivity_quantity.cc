@@ -3,7 +3,7 @@
 // resultants, on hexahedra and tetrahedra, with a pressure, where parts slide
 // or press, beside a corner; that the dual problem is that of the quantity; and
 // that wrong names are told. The same on any number of ranks.
-#include <mortise/problem/quantity.h>
+#include <mortise/problem/adaptive/quantity.h>
 
 #include "active_sets.h"
 #include "scene.h"

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mortise/material/material.h>
-#include <mortise/problem/parameters.h>
+#include <mortise/problem/input/parameters.h>
 
 #include "scenes.h"
 

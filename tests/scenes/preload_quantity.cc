@@ -2,8 +2,8 @@
 // that carry a given force: it carries none there, its own shortening is the
 // share of the force in the quantity, and estimates of bolted scenes are right.
 // The same on any number of ranks.
-#include <mortise/problem/preloads.h>
-#include <mortise/problem/quantity.h>
+#include <mortise/problem/adaptive/quantity.h>
+#include <mortise/problem/contact/preloads.h>
 
 #include "active_sets.h"
 #include "scene.h"

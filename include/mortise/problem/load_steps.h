@@ -1,35 +1,12 @@
 // Which time a run goes to next.
 #pragma once
 
-#include <optional>
+#include <mortise/problem/input/step_parameters.h>
+
 #include <vector>
 
 namespace mortise
 {
-  /// Subsection Steps of a parameter file.
-  struct StepParameters
-  {
-    std::optional<double> end_time;
-    std::vector<double>   step; ///< one length, or the times at which steps end
-    unsigned int          output_every  = 1; ///< of these times
-    double                smallest_step = 1e-3;
-
-    /// Else there is one step, at time 1, and no word of time in the results.
-    bool
-    given() const
-    {
-      return end_time || !step.empty();
-    }
-
-    /// The times at which steps end, ascending; the first begins at 0.
-    std::vector<double>
-    times() const;
-
-    /// The first of them.
-    double
-    first_time() const;
-  };
-
   /// The planned times, and smaller steps to them where one fails: a step that
   /// fails is halved, after an easy one the next is twice as long.
   class LoadSteps

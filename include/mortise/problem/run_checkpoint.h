@@ -2,7 +2,7 @@
 #pragma once
 
 #include <mortise/output/summary.h>
-#include <mortise/problem/parameters.h>
+#include <mortise/problem/input/parameters.h>
 
 #include <string>
 #include <utility>

@@ -2,16 +2,16 @@
 // members stand in the order in which data flows.
 #pragma once
 
-#include <mortise/problem/adaptivity.h>
-#include <mortise/problem/contact_step.h>
-#include <mortise/problem/discretisation.h>
-#include <mortise/problem/field_files.h>
+#include <mortise/problem/adaptive/adaptivity.h>
+#include <mortise/problem/contact/contact_step.h>
+#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/input/run_context.h>
 #include <mortise/problem/load_steps.h>
-#include <mortise/problem/preloads.h>
+#include <mortise/problem/results/field_files.h>
+#include <mortise/problem/results/step_results.h>
 #include <mortise/problem/run_checkpoint.h>
-#include <mortise/problem/run_context.h>
+#include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/state.h>
-#include <mortise/problem/step_results.h>
 #include <mortise/solvers/solve.h>
 
 #include <memory>

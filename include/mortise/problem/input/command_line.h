@@ -1,0 +1,39 @@
+// The command line as data.
+#pragma once
+
+#include <mortise/problem/input/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  struct CommandLine
+  {
+    enum class Action
+    {
+      run,
+      validate,         ///< parse, check combinations, open the meshes, stop
+      print_parameters, ///< every parameter with default, unit and meaning
+      print_help,
+      print_version
+    };
+
+    Action      action = Action::run;
+    std::string file;    ///< the parameter file, for run and validate
+    std::string restart; ///< directory of a checkpoint, instead of a file
+    Settings settings; ///< --set and --output, in the order of the command line
+  };
+
+  /// @p arguments without the name of the program. Throws InputError.
+  CommandLine
+  parse_command_line(const std::vector<std::string> &arguments);
+
+  /// What --help prints.
+  std::string
+  help_text();
+
+  /// What --version prints.
+  std::string
+  version_text();
+} // namespace mortise

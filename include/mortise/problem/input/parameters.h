@@ -1,0 +1,255 @@
+// What a parameter file says, as plain data: one struct per subsection, with
+// the defaults. Meaning and units stand in the entries, as --parameters prints
+// them.
+//
+// Files have the syntax of dealii::ParameterHandler. `parameter_file.h` reads
+// the lines, `parameter_schema.h` declares the parameters (and prints them for
+// people): a new one is a member here and an entry there.
+#pragma once
+
+#include <deal.II/base/point.h>
+
+#include <mortise/body/mesh/mesh_source.h>
+#include <mortise/interface/search.h>
+#include <mortise/material/factory.h>
+#include <mortise/problem/input/parameter_file.h>
+#include <mortise/problem/input/step_parameters.h>
+#include <mortise/solvers/solver_options.h>
+#include <mpi.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// The three components of a vector, each the text of an expression in x, y,
+  /// z. Displacements of a boundary may also say "-" (free), and everything
+  /// that an exact solution determines may say "exact".
+  using Components = std::array<std::string, 3>;
+
+  /// "ex; ey; ez", as VectorExpression takes it.
+  std::string
+  joined(const Components &components);
+
+  /// What acts on one named boundary; what is absent does not.
+  struct BoundaryParameters
+  {
+    std::optional<std::string> pressure;
+    std::optional<Components>  traction;
+    std::optional<Components>  force, moment; ///< totals
+    std::optional<Components>  displacement;
+    std::array<double, 3>      displacement_axes{}; ///< rotation, degrees
+    std::optional<std::string> normal_displacement; ///< of all that alone
+  };
+
+  /// Unknowns of a body: displacement, or displacement and pressure.
+  enum class Formulation
+  {
+    automatic, ///< mixed from nu = 0.49 on
+    displacement,
+    mixed
+  };
+
+  struct BodyParameters
+  {
+    std::string                          name;
+    unsigned int                         degree = 1;
+    std::map<unsigned int, unsigned int> degree_by_region; ///< by material id
+    std::vector<Ball>                    degree_near; ///< the last one holds
+    unsigned int                         least_mapping_degree =
+      1; ///< of curved meshes; no entry of a file
+    Formulation        formulation = Formulation::automatic;
+    MeshParameters     mesh;
+    MaterialParameters material;
+    /// Force per volume. Absent ("auto"): from the exact solution if that is
+    /// given by expressions, else zero.
+    std::optional<Components>  body_force;
+    std::optional<std::string> temperature; ///< above that without strain
+    std::map<std::string, BoundaryParameters> boundaries;
+  };
+
+  /// One side of an interface.
+  struct SideParameters
+  {
+    unsigned int             body = 0; ///< index into Parameters::bodies
+    std::vector<std::string> boundaries;
+  };
+
+  struct InterfaceParameters
+  {
+    std::string    name;
+    SideParameters slave; ///< carries the multiplier
+    SideParameters master;
+    std::string    mesh_gap   = "real"; ///< or "ignored"; of contact
+    std::string    law        = "tie";  ///< or "slide", "contact", "spring"
+    std::string    multiplier = "dual";
+    std::string    offset     = "0";
+    /// Of a tie: the normal force it carries; up to which time.
+    std::optional<std::string> preload;
+    std::optional<double>      preload_until;
+    /// For "spring" alone.
+    std::optional<std::string> normal_stiffness, tangential_stiffness;
+    /// Adaptivity sets the least one, by how far sides have moved.
+    SearchDistance search_distance;
+    unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
+
+    /// A support: nothing moves in place of the master, which is the slave's
+    /// boundary again; what Offset would be is the displacement.
+    bool                                is_support = false;
+    std::optional<dealii::Tensor<1, 3>> direction; ///< else the normal
+    std::string displacement_path; ///< of the parameter that asks for it
+  };
+
+  enum class ExactKind
+  {
+    none,
+    expressions,
+    thick_sphere,
+    thick_cylinder
+  };
+
+  struct ExactSolutionParameters
+  {
+    ExactKind                  kind = ExactKind::none;
+    Components                 displacement; ///< for ExactKind::expressions
+    std::optional<std::string> pressure;     ///< mean; the same, with nu = 0.5
+  };
+
+  struct SolverParameters
+  {
+    SolverMethod method           = SolverMethod::automatic;
+    double       tolerance        = 1e-10;
+    unsigned int max_iterations   = 1000;
+    unsigned int max_gathered     = 30000; ///< "Multipliers on all ranks"
+    bool         print_iterations = false;
+  };
+
+  /// Meshes and degrees that follow from the error that is asked for.
+  struct AdaptivityParameters
+  {
+    std::optional<double> target_error; ///< relative; absent: none
+    std::string           quantity;     ///< "NAME, x"; empty: energy norm
+    std::string           strategy       = "hp";
+    double                most_unknowns  = 2e6;
+    unsigned int          largest_degree = max_degree;
+
+    /// Are cells of hexahedra cut?
+    bool
+    splits() const
+    {
+      return target_error && strategy != "p";
+    }
+  };
+
+  /// The displacement at a point of a body, reported in the summary.
+  struct PointQuantity
+  {
+    std::string      name;
+    unsigned int     body = 0; ///< index into Parameters::bodies
+    dealii::Point<3> point;
+  };
+
+  /// What a boundary of a body bears, reported in the summary.
+  struct ResultantQuantity
+  {
+    std::string  name;
+    unsigned int body = 0; ///< index into Parameters::bodies
+    std::string  boundary;
+  };
+
+  struct OutputParameters
+  {
+    std::string              directory;
+    std::vector<std::string> fields;               ///< of field_names()
+    unsigned int             checkpoint_every = 0; ///< steps; 0: no checkpoints
+    std::vector<PointQuantity>     points;
+    std::vector<ResultantQuantity> resultants;
+    std::array<double, 3>          moments_about{}; ///< a point
+  };
+
+  struct Parameters
+  {
+    std::string                      title;
+    std::vector<BodyParameters>      bodies;
+    std::vector<InterfaceParameters> interfaces;
+    std::optional<Components>        gravity; ///< length per time squared
+    ExactSolutionParameters          exact_solution;
+    SolverParameters                 solver;
+    AdaptivityParameters             adaptivity;
+    StepParameters                   steps;
+    OutputParameters                 output;
+
+    std::string             file; ///< the parameter file, as it was given
+    std::vector<Assignment> assignments; ///< its lines and those of --set
+    /// "Body inner/Degree" -> "line 7 of FILE", "--set"
+    std::map<std::string, std::string> origins;
+
+    /// "Body inner/Degree (line 7 of scene.prm)"; without the parentheses for a
+    /// default.
+    std::string
+    where(const std::string &path) const;
+
+    /// Throw InputError: what was @p got at @p path, and what is allowed.
+    [[noreturn]] void
+    fail(const std::string &path,
+         const std::string &got,
+         const std::string &allowed) const;
+  };
+
+  /// "body: boundary, boundary", for messages.
+  std::string
+  side_text(const Parameters &parameters, const SideParameters &side);
+
+  /// Append the supports: interfaces that stand for displacements along normals
+  /// or along axes that are not those of the scene, one for each component.
+  /// Throws InputError.
+  void
+  add_supports(Parameters &parameters);
+
+  /// Fields that Output/Fields may name.
+  const std::vector<std::string> &
+  field_names();
+
+  /// A --set option: "Body inner/Mesh/Subdivisions=8, 4".
+  using Settings = std::vector<std::string>;
+
+  /// Parse the text of a parameter file, with @p settings after it. @p file stands in messages
+  /// and locates included files. Throws InputError, also for a value out of its
+  /// range. Not collective; reads only included files.
+  Parameters
+  parse_parameters(const std::string &text,
+                   const std::string &file,
+                   const Settings    &settings = {});
+
+  /// The parameters that @p assignments make, later ones first. Throws InputError.
+  Parameters
+  parse_parameters(const std::vector<Assignment> &assignments,
+                   const std::string             &file);
+
+  /// Read and parse @p file. Collective: rank 0 reads, every rank gets the same parameters or
+  /// the same InputError.
+  Parameters
+  read_parameters(const std::string &file,
+                  const Settings    &settings,
+                  MPI_Comm           comm);
+
+  /// Check the combinations, and the expressions: all that can be known without
+  /// the meshes. Throws InputError. Reads no files, writes none.
+  void
+  validate(const Parameters &parameters);
+
+  /// Could @p directory be made and written? Creates nothing. Throws InputError on every rank.
+  /// Collective.
+  void
+  check_output_directory(const Parameters &parameters, MPI_Comm comm);
+
+  /// Do the boundaries that the scene names exist? @p names[b] are those of the mesh of body b.
+  /// Checks the Boundary subsections, both sides of the interfaces, and the
+  /// resultants. Throws InputError with the names that exist.
+  void
+  check_boundary_names(const Parameters                            &parameters,
+                       const std::vector<std::vector<std::string>> &names);
+} // namespace mortise

@@ -1,0 +1,18 @@
+// What every stage of a run may use.
+#pragma once
+
+#include <mortise/base/run_log.h>
+#include <mortise/base/timers.h>
+#include <mortise/problem/input/parameters.h>
+#include <mpi.h>
+
+namespace mortise
+{
+  struct RunContext
+  {
+    const Parameters &parameters;
+    RunLog           &log;
+    Timers           &timers;
+    MPI_Comm          comm;
+  };
+} // namespace mortise

@@ -1,0 +1,32 @@
+// Subsection Steps of a parameter file.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace mortise
+{
+  /// The times at which load steps end.
+  struct StepParameters
+  {
+    std::optional<double> end_time;
+    std::vector<double>   step; ///< one length, or the times at which steps end
+    unsigned int          output_every  = 1; ///< of these times
+    double                smallest_step = 1e-3;
+
+    /// Else there is one step, at time 1, and no word of time in the results.
+    bool
+    given() const
+    {
+      return end_time || !step.empty();
+    }
+
+    /// The times at which steps end, ascending; the first begins at 0.
+    std::vector<double>
+    times() const;
+
+    /// The first of them.
+    double
+    first_time() const;
+  };
+} // namespace mortise

@@ -1,0 +1,56 @@
+// The files of fields of a run: a VTU file for each body and interface, or in a
+// run of several steps one for each of them and each time, and a PVD file that
+// gathers them.
+#pragma once
+
+#include <mortise/output/whole_file.h>
+#include <mortise/problem/results/step_results.h>
+
+#include <utility>
+#include <vector>
+
+namespace mortise
+{
+  class FieldFiles
+  {
+  public:
+    /// @p run must live on.
+    explicit FieldFiles(const RunContext &run)
+      : run(run)
+    {}
+
+    /// Write what was asked for, as step @p step at @p time. Returns what could
+    /// not be written. Collective.
+    std::vector<OutputError>
+    write(unsigned int          step,
+          double                time,
+          const Discretisation &discretisation,
+          const StepFields     &fields);
+
+    /// Steps and times that were written.
+    const std::vector<std::pair<unsigned int, double>> &
+    written() const
+    {
+      return steps;
+    }
+
+    /// Go on after @p written.
+    void
+    resume(const std::vector<std::pair<unsigned int, double>> &written)
+    {
+      steps = written;
+    }
+
+  private:
+    /// The file of @p name (a body or an interface) without its directory.
+    std::string
+    file_name(const std::string &name, unsigned int step) const;
+
+    /// The collection of the files of @p name.
+    void
+    write_collection(const std::string &name) const;
+
+    const RunContext                            &run;
+    std::vector<std::pair<unsigned int, double>> steps;
+  };
+} // namespace mortise

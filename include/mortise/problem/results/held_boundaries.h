@@ -1,0 +1,95 @@
+// Which boundaries prescribe which components of which nodes, and what the
+// multipliers of interfaces do at others.
+#pragma once
+
+#include <mortise/problem/scene/discretisation.h>
+
+#include <array>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace mortise
+{
+  /// Components that the boundaries of bodies prescribe, and the nodes there.
+  class HeldBoundaries
+  {
+  public:
+    using Components = std::array<bool, dim>;
+
+    /// Kept by reference. Collective.
+    explicit HeldBoundaries(const Discretisation &discretisation);
+
+    /// What @p boundary of body @p body prescribes.
+    Components
+    components(unsigned int body, dealii::types::boundary_id boundary) const;
+
+    /// By body; only boundaries that prescribe something.
+    const std::vector<std::map<dealii::types::boundary_id, Components>> &
+    all() const
+    {
+      return held;
+    }
+
+    /// How many boundaries prescribe a component of a node.
+    const LevelVector<double> &
+    numbers() const
+    {
+      return holders;
+    }
+
+    /// Do boundaries share a component of a node?
+    bool
+    any_shared() const
+    {
+      return shared;
+    }
+
+    /// B^T lambda of interface @p i alone, by node. Collective.
+    LevelVector<double>
+    forces_of(unsigned int i, const Vector &lambda) const;
+
+    /// B^T lambda by node, but nothing on components that the side of an
+    /// interface prescribes: its boundary bears them there. Collective.
+    LevelVector<double>
+    multiplier_forces(const Vector &lambda) const;
+
+    /// Set @p multiplier to B u with the same B. Collective.
+    void
+    constraint(const LevelVector<double> &u, Vector &multiplier) const;
+
+  private:
+    /// One for the components of nodes that @p side prescribes, if it does any.
+    std::optional<LevelVector<double>>
+    held_by_side(const SideParameters &side) const;
+
+    const Discretisation &discretisation;
+    std::vector<std::map<dealii::types::boundary_id, Components>> held;
+    LevelVector<double>                                           holders;
+    bool shared = false;
+  };
+
+  /// The nodes of displacements.
+  const NodalLevel &
+  nodes_of(const Discretisation &discretisation);
+
+  LevelVector<double>
+  zero_at_nodes(const Discretisation &discretisation);
+
+  /// One for the components @p which of the nodes on @p boundary of body @p body, see boundary_nodes(). Collective.
+  LevelVector<double>
+  nodes_with(const Discretisation             &discretisation,
+             unsigned int                      body,
+             dealii::types::boundary_id        boundary,
+             const HeldBoundaries::Components &which);
+
+  /// Owned entries of coupling @p i alone, others zero.
+  Vector
+  part_of(const Discretisation &discretisation,
+          const Vector         &multiplier,
+          unsigned int          i);
+
+  /// The sides of an interface; a support has one.
+  std::vector<SideParameters>
+  sides_of(const InterfaceParameters &given);
+} // namespace mortise

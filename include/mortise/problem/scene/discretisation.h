@@ -1,0 +1,162 @@
+// A scene on given meshes as a linear system: spaces, interfaces and operators,
+// which stand while loads change. Other meshes need another one.
+#pragma once
+
+#include <mortise/mortar/normal_multipliers.h>
+#include <mortise/mortar/penetration.h>
+#include <mortise/output/checkpoint.h>
+#include <mortise/problem/scene/scene_couplings.h>
+#include <mortise/problem/scene/scene_spaces.h>
+#include <mortise/solvers/find_free_pressures.h>
+
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  class Discretisation
+  {
+  public:
+    /// @p run and @p bodies, which get their spaces, must live on. @p data: at any time.
+    /// Collective; throws InputError.
+    Discretisation(const RunContext  &run,
+                   const SceneData   &data,
+                   Bodies            &bodies,
+                   const CellDegrees &degrees = {});
+
+    /// The right hand side at the time of @p data. Collective; throws InputError where prescribed
+    /// displacements change the volume of an incompressible body.
+    SceneLoad
+    load(const SceneData &data) const;
+
+    /// The right hand side that is the sum of @p functionals on cells of @p body, nothing
+    /// prescribed. Collective.
+    SceneLoad
+    load(const Body &body, const CellFunctionals &functionals) const;
+
+    /// Let the constraints of @p active multipliers hold, by owned one; the others
+    /// are zero. LinearSolver::update_active() must follow. Collective.
+    void
+    select(const std::vector<bool> &active)
+    {
+      system.active = active;
+    }
+
+    /// Let preconditioners see on coarse levels what is active now, where that
+    /// is another set than when they last did. LinearSolver::update() must
+    /// follow. Collective.
+    void
+    show_active();
+
+    /// By interface, what its multipliers stand for; nothing of those without
+    /// contact.
+    const std::vector<std::vector<NormalMultiplier>> &
+    pressing() const
+    {
+      return normal_multipliers_of_contact;
+    }
+
+    /// By owned multiplier: may it press only?
+    std::vector<bool>
+    one_sided() const;
+
+    /// By owned multiplier: NormalMultiplier::stiffness, or zero.
+    std::vector<double>
+    gap_stiffness() const;
+
+    /// By owned multiplier, where that is of contact: the gap that @p x leaves, a length. @p load: of the same
+    /// time. Collective.
+    Vector
+    gaps(const SceneLoad &load, const SystemVector &x) const;
+
+    /// Motion @p k of @p free as unknowns: exact at vertices, and linear between them. Collective.
+    SystemVector
+    rigid_motion(const FreeMotions &free, unsigned int k) const;
+
+    /// The solution by body. Collective.
+    std::vector<BodySolution>
+    solutions(const SceneLoad &load, const SystemVector &solution) const;
+
+    /// What @p solutions, of the time of @p load, are on surfaces.
+    TraceDisplacement
+    trace_displacement(const SceneLoad                 &load,
+                       const std::vector<BodySolution> &solutions) const;
+
+    /// @p solutions, by body, as unknowns of the time of @p load, multipliers zero. Collective.
+    SystemVector
+    system_vector(const std::vector<BodySolution> &solutions,
+                  const SceneLoad                 &load) const;
+
+    /// The unknowns in a checkpoint of the time of @p load. Collective.
+    SystemVector
+    system_vector(const Checkpoint &checkpoint, const SceneLoad &load) const;
+
+    /// Throws InputError where multipliers depend on each other. Collective.
+    void
+    check_multipliers() const;
+
+    /// What is known of every step: bodies, unknowns, interfaces.
+    StepSummary
+    summary() const;
+
+    const Bodies &
+    bodies() const
+    {
+      return spaces.bodies;
+    }
+
+    /// By body, what is prescribed and where.
+    const std::vector<std::vector<DirichletCondition>> &
+    dirichlet() const
+    {
+      return spaces.dirichlet;
+    }
+
+    const SolverChoice &
+    choice() const
+    {
+      return spaces.choice;
+    }
+
+    const SceneCouplings &
+    interfaces() const
+    {
+      return couplings;
+    }
+
+    const BlockSystem &
+    linear_system() const
+    {
+      return system;
+    }
+
+  private:
+    /// A constant pressure of incompressible bodies that nothing determines.
+    struct FreePressure
+    {
+      Enclosure   enclosure;
+      std::string bodies; ///< names
+    };
+
+    void
+    couple();
+    void
+    prepare_contact();
+    void
+    create_bulk();
+    void
+    find_free_pressures();
+    /// In the numbering of the scene, zero where nothing is prescribed.
+    Vector
+    prescribed_vector(const SceneLoad &load) const;
+
+    const RunContext                          &run;
+    SceneSpaces                                spaces;
+    SceneCouplings                             couplings;
+    BlockSystem                                system;
+    std::vector<FreePressure>                  free_pressures;
+    std::vector<double>                        volumes; ///< by body
+    std::vector<InterfaceSummary>              interface_summaries;
+    std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;
+  };
+} // namespace mortise

@@ -1,0 +1,72 @@
+// The bodies of a scene with their meshes and spaces, in one numbering.
+#pragma once
+
+#include <mortise/body/boundary_faces.h>
+#include <mortise/operators/scene_system.h>
+#include <mortise/problem/input/run_context.h>
+#include <mortise/problem/scene/scene_data.h>
+#include <mortise/solvers/solve.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  struct SceneSpaces
+  {
+    explicit SceneSpaces(Bodies &bodies)
+      : bodies(bodies)
+    {}
+
+    Bodies &bodies; ///< with their meshes
+    /// By body: what is prescribed, and whether it is ever different from zero.
+    std::vector<std::vector<DirichletCondition>> dirichlet;
+    /// By body: conformity, and what is prescribed as zero; not closed.
+    std::vector<dealii::AffineConstraints<double>> constraints;
+    SceneFields                                    fields;
+    SolverChoice                choice{SolverMethod::automatic, ""};
+    NodalSpaces                 nodal; ///< for the bulk, which takes them
+    std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
+
+    /// May a displacement other than zero be prescribed?
+    bool
+    has_prescribed_values() const;
+
+    /// Indices of the unknowns: values at nodes.
+    dealii::IndexSet
+    owned_displacement() const;
+    dealii::IndexSet
+    owned_pressure() const;
+  };
+
+  /// Open the meshes and check what depends on them. Collective; throws
+  /// InputError.
+  Bodies
+  create_meshes(const RunContext &run);
+
+  /// Make the mesh of @p body, which has no spaces, with edges of at most @p sizes if they are not null. Collective; throws
+  /// InputError.
+  void
+  create_mesh(const RunContext                &run,
+              std::shared_ptr<const SizeField> sizes,
+              Body                            &body);
+
+  /// The space of @p body, which has its mesh, with the degrees of the parameters. Collective;
+  /// throws InputError.
+  void
+  create_space(const RunContext &run, Body &body);
+
+  /// By body and active cell of its mesh; empty: those of the parameters.
+  using CellDegrees = std::vector<std::vector<unsigned int>>;
+
+  /// Spaces, constraints, numbering and the choice of the method. Collective.
+  void
+  create_spaces(const RunContext  &run,
+                const SceneData   &data,
+                const CellDegrees &degrees,
+                SceneSpaces       &spaces);
+
+  /// The displacements that @p data prescribes. Collective.
+  PrescribedValues
+  prescribed_values(const SceneSpaces &spaces, const SceneData &data);
+} // namespace mortise

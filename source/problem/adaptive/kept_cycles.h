@@ -1,0 +1,72 @@
+// What a checkpoint has of adaptive cycles, and whether it can be.
+#pragma once
+
+#include <mortise/adapt/cell_states.h>
+#include <mortise/body/mesh/size_field.h>
+#include <mortise/problem/adaptive/adaptivity.h>
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  struct KeptCell
+  {
+    std::uint64_t coarse = 0;
+    std::string   children; ///< which child from level to level, as bytes
+    CellState     state;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &coarse &children &state;
+    }
+  };
+
+  /// Coordinates of the vertices of a cell of SizeField, then sizes there.
+  using SizesOfCell = std::array<double, 16>;
+
+  /// As text of Adaptivity::checkpoint().
+  struct Kept
+  {
+    std::string                           quantity; ///< empty: the energy norm
+    unsigned int                          cycle = 0, n_meshes = 0;
+    std::map<std::string, double>         numbers;  ///< those that there are
+    std::vector<double>                   residual; ///< by body
+    std::vector<std::vector<KeptCell>>    cells;    ///< likewise
+    std::vector<std::vector<SizesOfCell>> sizes;    ///< likewise
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &quantity &cycle &n_meshes &numbers &residual &cells &sizes;
+    }
+  };
+
+  std::string
+  to_text(Kept &kept);
+
+  /// Throws std::out_of_range if @p text is not what to_text() gives, for
+  /// @p bodies.
+  Kept
+  kept_from(const std::string &text, const std::vector<BodyParameters> &bodies);
+
+  /// Throws std::out_of_range if no mesh can have it.
+  CellNumber
+  number_of(const KeptCell &cell);
+
+  /// Throws std::out_of_range if it is none of tetrahedra that gmsh can be
+  /// asked for.
+  SizeField::Cell
+  size_cell(const SizesOfCell &numbers);
+
+  /// Throws std::out_of_range if @p sizes ask for far more tetrahedra than
+  /// the @p n_cells of the mesh that was made by them.
+  void
+  check_number(const std::vector<SizeField::Cell> &sizes, std::size_t n_cells);
+} // namespace mortise

@@ -1,0 +1,340 @@
+// See contact_step.h.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/base/error.h>
+#include <mortise/problem/contact/contact_fall.h>
+#include <mortise/problem/contact/contact_step.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr unsigned int max_sets = 1000;
+
+    /// Of solves on the way to the set: doc/contact.md.
+    constexpr double loose = 1e-2;
+
+    /// Likewise, the root of the energy of the error beside that of the
+    /// solution, as a multiple of the tolerance: where the first set may be
+    /// the last one, and on the way from a first set that is far from it.
+    constexpr double loose_energy = 0.1, loosest_energy = 3.;
+
+    /// As many as fields of load with factors of their own.
+    constexpr unsigned int max_increments = 4;
+
+    /// Then the edge is where extending does not find it.
+    constexpr unsigned int max_overshoots = 3;
+
+    /// Signs are not known any better.
+    constexpr double least_accuracy = 1e-10;
+
+    /// Of it, from one to the next where signs are not known yet.
+    constexpr double finer = 1e-2;
+
+    /// More of them tell of a preconditioner that has seen too little.
+    constexpr unsigned int few_iterations = 40;
+
+    types::global_dof_index
+    first_multiplier(const BlockSystem &system)
+    {
+      const auto &owned = system.owned_multiplier;
+      return owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+    }
+
+    MultiplierPlaces
+    multiplier_places(const Discretisation &discretisation)
+    {
+      MultiplierPlaces places;
+      const auto      &all = discretisation.interfaces().all();
+      for (unsigned int i = 0; i < all.size(); ++i)
+        {
+          const auto &pressing = discretisation.pressing()[i];
+          for (unsigned int k = 0; k < all[i].multipliers->n_owned(); ++k)
+            {
+              places.surfaces.push_back(pressing.empty() ? 0 : 1 + i);
+              places.points.push_back(pressing.empty() ? Point<dim>() :
+                                                         pressing[k].place);
+            }
+        }
+      return places;
+    }
+  } // namespace
+
+  ContactStep::ContactStep(const RunContext           &run,
+                           Discretisation             &discretisation,
+                           LinearSolver               &solver,
+                           Preloads                   &preloads,
+                           std::optional<ActivePlaces> start)
+    : run(run)
+    , discretisation(discretisation)
+    , solver(solver)
+    , preloads(preloads)
+    , set(discretisation.one_sided(),
+          discretisation.gap_stiffness(),
+          first_multiplier(discretisation.linear_system()),
+          run.comm)
+    , places(multiplier_places(discretisation))
+    , edge(places, run.comm)
+    , first(std::move(start))
+    , increments(max_increments)
+    , unclear(discretisation.one_sided().size(), false)
+  {}
+
+  ActivePlaces
+  ContactStep::active_places() const
+  {
+    return {places, set.active(), run.comm};
+  }
+
+  std::string
+  ContactStep::free_motions(const std::vector<bool> &active) const
+  {
+    try
+      {
+        discretisation.interfaces().check_held(active, preloads.have_forces());
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+
+  void
+  ContactStep::remember(Solved now)
+  {
+    if (!run.parameters.steps.given())
+      return;
+    if (!residual)
+      residual =
+        std::make_unique<ScaledResidual>(discretisation.linear_system());
+    SystemVector rhs = now.rhs, x = now.x;
+    if (last)
+      {
+        const bool other_set =
+          Utilities::MPI::max(now.active == last->active ? 0 : 1, run.comm) ==
+          1;
+        // from one set to another an increment is half of each
+        if (other_set || mixed_increment)
+          increments = SuccessiveSolutions(max_increments);
+        mixed_increment = other_set;
+        add_scaled(rhs, -1., last->rhs);
+        add_scaled(x, -1., last->x);
+      }
+    increments.add(rhs, x, *residual);
+    last = std::move(now);
+  }
+
+  void
+  ContactStep::resume(const SceneLoad &load, const SystemVector &x)
+  {
+    std::vector<bool> active = discretisation.one_sided();
+    for (unsigned int i = 0; i < active.size(); ++i)
+      active[i] = !active[i] || x.multiplier.begin()[i] > 0.;
+    remember({load.rhs, x, active});
+  }
+
+  void
+  ContactStep::start(const SceneLoad &load, SystemVector &x)
+  {
+    const std::vector<bool> contact = discretisation.one_sided();
+    const std::vector<bool> all(contact.size(), true);
+    std::vector<bool>       pressing = all;
+    if (last)
+      {
+        x                = last->x;
+        SystemVector rhs = load.rhs;
+        add_scaled(rhs, -1., last->rhs);
+        if (!increments.empty())
+          add_scaled(x, 1., increments.start(rhs, *residual));
+      }
+    double area = 0.;
+    for (const auto &multipliers : discretisation.pressing())
+      for (const NormalMultiplier &multiplier : multipliers)
+        area += multiplier.area;
+    // what rounding leaves between meshes that touch is closed
+    const double closed =
+      1e-10 * std::sqrt(Utilities::MPI::sum(area, run.comm));
+    const Vector gaps = discretisation.gaps(
+      load, last ? x : discretisation.linear_system().zero_vector());
+    if (!last && first)
+      pressing = first->nearest(places);
+    else
+      for (unsigned int i = 0; i < contact.size(); ++i)
+        pressing[i] =
+          !contact[i] || (last && last->active[i] ?
+                            x.multiplier.begin()[i] > 0. :
+                            gaps.begin()[i] <= (last ? -closed : closed));
+    const auto holds = [this](const std::vector<bool> &active) {
+      return free_motions(active).empty();
+    };
+    set.start_from(holds(pressing)             ? pressing :
+                   last && holds(last->active) ? last->active :
+                                                 all);
+  }
+
+  SolveReport
+  ContactStep::solve_set(SceneLoad    &load,
+                         const double  tolerance,
+                         SystemVector &x)
+  {
+    discretisation.select(set.active());
+    const unsigned int most    = run.parameters.solver.max_iterations;
+    const bool         is_last = tolerance == run.parameters.solver.tolerance;
+    // coarse levels go on with the ties that they saw, which costs next to no
+    // iteration (doc/contact.md) as long as about as many hold
+    const std::uint64_t n_active = set.n_active();
+    const bool          shows    = !is_shown || n_active > 2 * n_shown ||
+                       (is_last && 2 * n_active < n_shown);
+    if (shows)
+      show();
+    else
+      solver.update_active();
+    const bool goes_on = x.displacement.size() > 0;
+    if (goes_on)
+      discretisation.linear_system().clear_inactive(x.multiplier.begin());
+    const auto run_solver = [&](const unsigned int max_iterations) {
+      solver.set_limits(tolerance,
+                        is_last          ? SolverOptions().energy_share :
+                        cold && sets > 1 ? loosest_energy :
+                                           loose_energy,
+                        max_iterations);
+      return preloads.solve(goes_on, load, x);
+    };
+    if (shows)
+      return run_solver(most);
+    const SystemVector start = x;
+    const SolveReport  tried = run_solver(std::min(most, few_iterations));
+    if (tried.converged)
+      return tried;
+    show();
+    x                  = start;
+    SolveReport report = run_solver(most);
+    report.iterations += tried.iterations;
+    report.setup_seconds += tried.setup_seconds;
+    report.solve_seconds += tried.solve_seconds;
+    return report;
+  }
+
+  void
+  ContactStep::show()
+  {
+    n_shown  = set.n_active();
+    is_shown = true;
+    discretisation.show_active();
+    solver.update();
+  }
+
+  void
+  ContactStep::print(const std::uint64_t      n_active,
+                     const ActiveSet::Change &change,
+                     const unsigned int       n_iterations) const
+  {
+    run.log.line("  active set " + std::to_string(sets) + ": " +
+                 std::to_string(n_active) + " press, " +
+                 std::to_string(change.opened) + " open, " +
+                 std::to_string(change.closed) + " close, " +
+                 std::to_string(change.undecided) + " undecided, " +
+                 std::to_string(n_iterations) + " iterations" +
+                 (set.cycles() ? ", by the energy since sets came back" : ""));
+  }
+
+  ContactStep::Next
+  ContactStep::advance(const SceneLoad    &load,
+                       const SystemVector &x,
+                       const double        tolerance,
+                       const bool          extends)
+  {
+    const Vector gaps = discretisation.gaps(load, x);
+    Next         next{set, {}, ""};
+    next.change =
+      next.set.advance(x.multiplier.begin(),
+                       gaps.begin(),
+                       std::max(gaps.linfty_norm(),
+                                x.displacement.linfty_norm()),
+                       // what a linear solve leaves is no reason to turn
+                       std::max(least_accuracy, tolerance),
+                       [&](std::vector<bool> &turns) {
+                         if (extends)
+                           edge.extend(set.active(), turns);
+                       });
+    unclear = next.set.undecided();
+    if (next.change.any())
+      next.free = free_motions(next.set.active());
+    return next;
+  }
+
+  SolveReport
+  ContactStep::solve(SceneLoad &load, SystemVector &x)
+  {
+    const double asked = run.parameters.solver.tolerance;
+    // a factorisation gives all digits at once
+    double tolerance = discretisation.choice().method == SolverMethod::direct ?
+                         asked :
+                         std::max(loose, asked);
+    // from lower degrees and from step to step the edge is near already
+    cold = !first && !last;
+    start(load, x);
+    SolveReport  report;
+    double       setup_seconds = 0., solve_seconds = 0.;
+    bool         extends = cold, extended = false;
+    unsigned int overshoots = 0;
+    iterations              = 0;
+    sets                    = 1;
+    while (true)
+      {
+        report = solve_set(load, tolerance, x);
+        setup_seconds += report.setup_seconds;
+        solve_seconds += report.solve_seconds;
+        iterations += report.iterations;
+        is_settled       = sets <= max_sets;
+        report.converged = report.converged && is_settled;
+        if (!report.converged)
+          break;
+        Next next = advance(load, x, tolerance, extends && tolerance > asked);
+        print(set.n_active(), next.change, report.iterations);
+        // sets that close again may have opened beyond the edge
+        if (extends && extended && next.change.closed > 0)
+          ++overshoots;
+        extended = extended || next.change.opened > 0;
+        extends  = cold && overshoots < max_overshoots &&
+                  !(extended && next.change.closed > 0) && !next.set.cycles();
+        if (tolerance == asked && !next.change.any())
+          break;
+        if (tolerance == asked && !next.free.empty())
+          {
+            next.set.start_from(
+              fall(discretisation, preloads, load, x, next.set.active()));
+            next.free = free_motions(next.set.active());
+          }
+        if (tolerance == asked && !next.free.empty())
+          throw InputError("Contact is lost: where it pulls it opens, and what "
+                           "still presses holds no longer. " +
+                           next.free);
+        if (tolerance > asked &&
+            (!next.change.any() || !next.free.empty() || next.set.cycles()))
+          {
+            // and ask again; what is open until the end costs more there
+            tolerance = next.change.undecided > 0 ?
+                          std::max(asked, finer * tolerance) :
+                          asked;
+            set.start_from(set.active());
+            continue;
+          }
+        set = std::move(next.set);
+        ++sets;
+      }
+    if (report.converged)
+      remember({load.rhs, x, set.active()});
+    report.setup_seconds = setup_seconds;
+    report.solve_seconds = solve_seconds;
+    return report;
+  }
+} // namespace mortise

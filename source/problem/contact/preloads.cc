@@ -1,0 +1,296 @@
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <mortise/base/error.h>
+#include <mortise/mortar/slave_normals.h>
+#include <mortise/problem/contact/preloads.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Forces are met to the solver's tolerance after one correction; more
+    /// are for solves that are looser.
+    constexpr unsigned int max_corrections = 10;
+
+    /// Cosine in the mean between normals and their mean.
+    constexpr double flat = 0.99;
+  } // namespace
+
+  Preloads::Preloads(const RunContext          &run,
+                     const Discretisation      &discretisation,
+                     LinearSolver              &solver,
+                     const std::vector<double> &shortenings)
+    : run(run)
+    , discretisation(discretisation)
+    , solver(solver)
+    , values(shortenings)
+  {
+    const SceneCouplings &couplings = discretisation.interfaces();
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      if (const InterfaceParameters &given = couplings.sides()[i];
+          given.preload)
+        {
+          const Coupling &coupling = couplings.all()[i];
+          const auto      normals =
+            slave_normals(*discretisation.bodies()[given.slave.body],
+                          coupling.interface->slave());
+          Tensor<1, dim> sum;
+          double         number = 0.;
+          for (const auto &of_face : normals)
+            for (const Tensor<1, dim> &normal : of_face)
+              {
+                sum += normal;
+                number += 1.;
+              }
+          const auto n_patches =
+            std::count_if(couplings.sides().begin(),
+                          couplings.sides().end(),
+                          [&](const InterfaceParameters &other) {
+                            return other.name == given.name;
+                          });
+          if (n_patches > 1)
+            run.parameters.fail("Interface " + given.name + "/Preload",
+                                "an interface with edges, in " +
+                                  std::to_string(n_patches) + " smooth patches",
+                                "an interface that is about flat");
+          sum    = Utilities::MPI::sum(sum, run.comm);
+          number = Utilities::MPI::sum(number, run.comm);
+          if (sum.norm() < flat * number)
+            run.parameters.fail(
+              "Interface " + given.name + "/Preload",
+              "an interface whose normals differ (their mean has length " +
+                RunLog::number(sum.norm() / number) + ")",
+              "an interface that is about flat, whose normal is the direction of the force");
+          indices.push_back(i);
+          units.push_back({discretisation.linear_system().zero_vector(), {}});
+          Vector &w = units.back().rhs.multiplier;
+          add_offset(
+            coupling, [](const Point<dim> &) { return 1.; }, normals, w);
+          w.compress(VectorOperation::add);
+        }
+    values.resize(indices.size(), 0.);
+    forces.resize(indices.size());
+  }
+
+  std::vector<double>
+  Preloads::shortenings_by_interface() const
+  {
+    std::vector<double> result(discretisation.interfaces().all().size(), 0.);
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      result[indices[j]] = values[j];
+    return result;
+  }
+
+  std::vector<bool>
+  Preloads::have_forces() const
+  {
+    std::vector<bool> result(discretisation.interfaces().all().size(), false);
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      result[indices[j]] = forces[j].has_value();
+    return result;
+  }
+
+  double
+  Preloads::work(const Vector &opening) const
+  {
+    double sum = 0.;
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      if (forces[j])
+        sum += *forces[j] * shortening(j, opening);
+    return sum;
+  }
+
+  double
+  Preloads::shortening(const unsigned int j, const Vector &opening) const
+  {
+    const Vector &w = units[j].rhs.multiplier;
+    return (w * opening) / (w * w);
+  }
+
+  double
+  Preloads::force(const unsigned int j, const SystemVector &x) const
+  {
+    return -(units[j].rhs.multiplier * x.multiplier);
+  }
+
+  void
+  Preloads::begin(const SceneData &data, SceneLoad &load)
+  {
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      {
+        forces[j] =
+          data.preload(discretisation.interfaces().sides()[indices[j]]);
+        load.rhs.multiplier.add(values[j], units[j].rhs.multiplier);
+      }
+  }
+
+  void
+  Preloads::shorten(const unsigned int j,
+                    const double       d,
+                    SceneLoad         &load,
+                    SystemVector      *x)
+  {
+    values[j] += d;
+    load.rhs.multiplier.add(d, units[j].rhs.multiplier);
+    if (x != nullptr)
+      add_scaled(*x, d, units[j].x);
+  }
+
+  dealii::Vector<double>
+  Preloads::missing(const SystemVector &x) const
+  {
+    dealii::Vector<double> result(indices.size());
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      if (forces[j])
+        result(j) = *forces[j] - force(j, x);
+    return result;
+  }
+
+  void
+  Preloads::solve_units(SolveReport &report)
+  {
+    const auto &now = discretisation.linear_system().active;
+    const bool  known =
+      have_units && Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0;
+    if (known)
+      return;
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      {
+        Unit &unit = units[j];
+        if (have_units)
+          discretisation.linear_system().clear_inactive(
+            unit.x.multiplier.begin());
+        const SolveReport of_unit = have_units ?
+                                      solver.solve_from(unit.rhs, unit.x) :
+                                      solver.solve(unit.rhs, unit.x);
+        report.iterations += of_unit.iterations;
+        report.setup_seconds += of_unit.setup_seconds;
+        report.solve_seconds += of_unit.solve_seconds;
+        report.converged = report.converged && of_unit.converged;
+      }
+    active     = now;
+    have_units = true;
+  }
+
+  dealii::Vector<double>
+  Preloads::shortenings_for(const dealii::Vector<double> &lacks) const
+  {
+    const unsigned int n = indices.size();
+    FullMatrix<double> stiffness(n, n);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        stiffness(i, j) =
+          forces[i] && forces[j] ? force(i, units[j].x) : (i == j ? 1. : 0.);
+    stiffness.gauss_jordan();
+    dealii::Vector<double> result(n);
+    stiffness.vmult(result, lacks);
+    return result;
+  }
+
+  void
+  Preloads::release(SystemVector &rhs, SystemVector &z, SolveReport &report)
+  {
+    if (!report.converged ||
+        std::none_of(forces.begin(), forces.end(), [](const auto &given) {
+          return given.has_value();
+        }))
+      return;
+    solve_units(report);
+    if (!report.converged)
+      return;
+    dealii::Vector<double> lacks(indices.size());
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      if (forces[j])
+        lacks(j) = -force(j, z);
+    const dealii::Vector<double> d = shortenings_for(lacks);
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      {
+        rhs.multiplier.add(d(j), units[j].rhs.multiplier);
+        add_scaled(z, d(j), units[j].x);
+      }
+    const SolveReport again = solver.solve_from(rhs, z);
+    report.iterations += again.iterations;
+    report.solve_seconds += again.solve_seconds;
+    report.relative_residual = again.relative_residual;
+    report.attainable        = again.attainable;
+    report.converged         = again.converged;
+  }
+
+  SolveReport
+  Preloads::solve_other_loads(const SceneLoad &load, SystemVector &x)
+  {
+    SystemVector others = load.rhs;
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      others.multiplier.add(-values[j], units[j].rhs.multiplier);
+    SolveReport report = solver.solve(others, x);
+    if (report.converged)
+      solve_units(report);
+    if (report.converged)
+      for (unsigned int j = 0; j < indices.size(); ++j)
+        add_scaled(x, values[j], units[j].x);
+    return report;
+  }
+
+  SolveReport
+  Preloads::solve(const bool goes_on, SceneLoad &load, SystemVector &x)
+  {
+    if (indices.empty())
+      return goes_on ? solver.solve_from(load.rhs, x) :
+                       solver.solve(load.rhs, x);
+    const bool is_new =
+      std::all_of(values.begin(), values.end(), [](const double value) {
+        return value == 0.;
+      });
+    SolveReport report = goes_on ? solver.solve_from(load.rhs, x) :
+                         is_new  ? solver.solve(load.rhs, x) :
+                                   solve_other_loads(load, x);
+    double      size   = 0.;
+    for (const auto &given : forces)
+      size = std::max(size, std::fabs(given.value_or(0.)));
+    bool solves_load = goes_on || is_new; // not only about
+    for (unsigned int k = 0; k < max_corrections && report.converged; ++k)
+      {
+        const dealii::Vector<double> lacks = missing(x);
+        if (solves_load &&
+            !(lacks.linfty_norm() > run.parameters.solver.tolerance * size))
+          break;
+        solves_load = true;
+        solve_units(report);
+        if (!report.converged)
+          break;
+        const dealii::Vector<double> d = shortenings_for(lacks);
+        for (unsigned int j = 0; j < indices.size(); ++j)
+          shorten(j, d(j), load, &x);
+        const SolveReport again = solver.solve_from(load.rhs, x);
+        report.iterations += again.iterations;
+        report.solve_seconds += again.solve_seconds;
+        report.relative_residual = again.relative_residual;
+        report.attainable        = again.attainable;
+        report.converged         = again.converged;
+      }
+    return report;
+  }
+
+  void
+  Preloads::resume(const SystemVector &x, SceneLoad &load)
+  {
+    if (indices.empty())
+      return;
+    const BlockSystem &system = discretisation.linear_system();
+    Vector             given  = load.rhs.multiplier, opening(given);
+    system.apply_constraint(opening, x.displacement);
+    opening -= given;
+    for (unsigned int j = 0; j < indices.size(); ++j)
+      {
+        values[j] = 0.;
+        shorten(j, shortening(j, opening), load, nullptr);
+      }
+  }
+} // namespace mortise

@@ -1,0 +1,184 @@
+#include <mortise/problem/input/parameter_schema.h>
+
+namespace mortise
+{
+  namespace
+  {
+    void
+    set_degrees_by_region(BodyParameters &body, const ParameterValue &value)
+    {
+      body.degree_by_region.clear();
+      for (const auto &record : value.records(2))
+        {
+          const unsigned int id     = value.integer(record[0]),
+                             degree = value.integer(record[1]);
+          if (degree < min_degree || degree > max_degree)
+            value.fail("degree " + std::to_string(degree));
+          if (!body.degree_by_region.emplace(id, degree).second)
+            value.fail(in_quotes(record[0] + ": " + record[1]),
+                       "each material id only once");
+        }
+    }
+
+    void
+    set_displacement(BoundaryParameters &boundary, const ParameterValue &value)
+    {
+      const std::string along_normal = "normal";
+      boundary.displacement.reset();
+      boundary.normal_displacement.reset();
+      if (value.text.compare(0, along_normal.size(), along_normal) != 0)
+        return value.read(boundary.displacement);
+      const auto record = value.records(2);
+      if (record.size() != 1 || record[0][0] != along_normal)
+        value.fail(in_quotes(value.text));
+      boundary.normal_displacement = record[0][1];
+    }
+
+    void
+    declare_boundary(const ParameterSection &section,
+                     BoundaryParameters     &boundary)
+    {
+      section.add(
+        "Pressure",
+        boundary.pressure,
+        "Pressure, acting against the outward normal [force per area]. Empty: none.",
+        {"an expression in x, y, z, t; or exact"});
+      section.add(
+        "Traction",
+        boundary.traction,
+        "Force on the surface, added to Pressure [force per area]. Empty: none.",
+        {"three expressions \"tx; ty; tz\"; or exact"});
+      section.add(
+        "Force",
+        boundary.force,
+        "Total force on the boundary, spread evenly over its area and added to the others [force]. Empty: none.",
+        {"three expressions \"Fx; Fy; Fz\" in t"});
+      section.add(
+        "Moment",
+        boundary.moment,
+        "Total moment on the boundary about the centroid of its area [force times length], as a traction w x (x - centroid), "
+        "which has no resultant. Empty: none.",
+        {"three expressions \"Mx; My; Mz\" in t"});
+      section.add(
+        "Displacement",
+        "",
+        "Prescribed displacement [length]; - leaves a component free. normal: along the outward normal of the surface, free across "
+        "it, as on rollers. Empty: all free.",
+        {"three of: an expression, -, or exact, as in \"-, -, 0\"; exact for all three; or \"normal: an expression\""},
+        [&boundary](const ParameterValue &value) {
+          set_displacement(boundary, value);
+        });
+      section.add(
+        "Displacement axes",
+        boundary.displacement_axes,
+        "Rotates the axes of Displacement about those of the scene, x, then y, then z [degrees].",
+        {"3 numbers"});
+    }
+
+    void
+    declare_material(const ParameterSection &section,
+                     MaterialParameters     &material)
+    {
+      section.add("Law",
+                  material.law,
+                  "Material law; each takes its own of the constants below.",
+                  Allowed::one_of(law_names()));
+      section.add(
+        "Young modulus",
+        material.young_modulus,
+        "Young's modulus of Law = linear elastic [force per area], which needs one.",
+        {"a positive number"});
+      section.add("Poisson ratio",
+                  material.poisson_ratio,
+                  "Poisson's ratio of Law = linear elastic [-].",
+                  {"a number above -1 and not above 0.5"});
+      Orthotropic &orthotropic = material.orthotropic;
+      section.add(
+        "Young moduli",
+        orthotropic.young_moduli,
+        "E_x, E_y, E_z of Law = orthotropic, along the axes of the material "
+        "[force per area].",
+        {"3 positive numbers"});
+      section.add(
+        "Poisson ratios",
+        orthotropic.poisson_ratios,
+        "nu_xy, nu_yz, nu_zx of Law = orthotropic [-]; nu_ij is the contraction along j per "
+        "extension along i under tension along i, nu_ij / E_i = nu_ji / E_j.",
+        {"3 numbers with which the stiffness is positive definite"});
+      section.add("Shear moduli",
+                  orthotropic.shear_moduli,
+                  "G_xy, G_yz, G_zx of Law = orthotropic [force per area].",
+                  {"3 positive numbers"});
+      section.add(
+        "Axes",
+        orthotropic.axes,
+        "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
+        "[degrees]. They do not follow the Rotate of the mesh.",
+        {"3 numbers"});
+      section.add("Density",
+                  material.density,
+                  "What Gravity acts on [mass per volume]. 0: no mass.",
+                  {"0 or a positive number"});
+      section.add(
+        "Thermal expansion",
+        material.thermal_expansion,
+        "Strain per Temperature of the body, the same in all directions [1 / temperature].",
+        {"a number"});
+    }
+  } // namespace
+
+  void
+  declare_body(const ParameterSection &section, BodyParameters &body)
+  {
+    section.add("Degree",
+                body.degree,
+                "Polynomial degree of the displacement.",
+                Allowed::integer(min_degree, max_degree));
+    section.add(
+      "Degree by region",
+      "",
+      "Other degrees for cells with the given material ids of the mesh.",
+      {"\"material id: degree; ...\", degrees from " +
+       std::to_string(min_degree) + " to " + std::to_string(max_degree)},
+      [&body](const ParameterValue &value) {
+        set_degrees_by_region(body, value);
+      });
+    section.add(
+      "Degree near",
+      "",
+      "Other degrees for cells with their centre or any vertex in a ball; the last one that has a "
+      "cell holds, before Degree by region.",
+      {"entries \"x, y, z, radius, degree\" separated by ';', degrees from " +
+       std::to_string(min_degree) + " to " + std::to_string(max_degree)},
+      [&body](const ParameterValue &value) {
+        body.degree_near =
+          parse_balls(value.text, value.where, "degree", max_degree);
+      });
+    section.add(
+      "Formulation",
+      body.formulation,
+      "Unknowns: the displacement, or (mixed) displacement and pressure, one degree lower, "
+      "which neither locks nor ends where nu comes to 0.5. auto: mixed from nu = 0.49 on.",
+      Allowed::one_of({"auto", "displacement", "mixed"}));
+    section.add(
+      "Body force",
+      "auto",
+      "Force on the volume [force per volume]. auto: what balances the exact solution "
+      "if that is given by expressions (then Gravity is part of it), else zero.",
+      {"three expressions \"bx; by; bz\" in x, y, z, t; exact; or auto"},
+      [&body](const ParameterValue &value) {
+        body.body_force.reset();
+        if (value.text != "auto")
+          value.read(body.body_force);
+      });
+    section.add(
+      "Temperature",
+      body.temperature,
+      "Temperature above that at which the body is free of strain [temperature]; with Thermal expansion it expands. Empty: none.",
+      {"an expression in x, y, z, t"});
+    declare_mesh(section.subsection("Mesh"), body.mesh);
+    declare_material(section.subsection("Material"), body.material);
+    for (auto &[name, boundary] : body.boundaries)
+      declare_boundary(section.subsection("Boundary " + name), boundary);
+  }
+} // namespace mortise

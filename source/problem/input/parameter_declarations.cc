@@ -1,0 +1,319 @@
+#include <mortise/base/error.h>
+#include <mortise/base/numbers.h>
+#include <mortise/base/quotes.h>
+#include <mortise/problem/input/parameter_schema.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+namespace mortise
+{
+  namespace
+  {
+    /// Names of @p items, bodies or interfaces.
+    template <typename Items>
+    std::vector<std::string>
+    names_of(const Items &items)
+    {
+      std::vector<std::string> names;
+      for (const auto &item : items)
+        names.push_back(item.name);
+      return names;
+    }
+
+    /// Index of the body called @p name, as @p value says.
+    unsigned int
+    body_index(const Parameters     &parameters,
+               const ParameterValue &value,
+               const std::string    &name)
+    {
+      const auto names    = names_of(parameters.bodies);
+      const auto position = std::find(names.begin(), names.end(), name);
+      if (position == names.end())
+        throw InputError(value.where + ": there is no body " + in_quotes(name) +
+                         did_you_mean(name, names) +
+                         "; bodies are: " + join_names(names));
+      return position - names.begin();
+    }
+
+    void
+    declare_side(const ParameterSection &section,
+                 const std::string      &name,
+                 SideParameters         &side,
+                 const std::string      &meaning,
+                 const Parameters       &parameters)
+    {
+      section.add(name,
+                  "",
+                  meaning,
+                  {"\"body: boundary\", or \"body: boundary, boundary, ...\""},
+                  [&](const ParameterValue &value) {
+                    const auto sides = value.records(2);
+                    if (sides.size() != 1)
+                      value.fail(in_quotes(value.text));
+                    side.body = body_index(parameters, value, sides[0][0]);
+                    side.boundaries =
+                      split_outside_parentheses(sides[0][1], ',');
+                    std::set<std::string> different;
+                    for (const std::string &boundary : side.boundaries)
+                      if (boundary.empty() ||
+                          !different.insert(boundary).second)
+                        value.fail(in_quotes(value.text), "each boundary once");
+                  });
+    }
+
+    void
+    declare_interface(const ParameterSection &section,
+                      InterfaceParameters    &interface,
+                      const Parameters       &parameters)
+    {
+      const Allowed few = Allowed::integer(1, 100);
+      declare_side(section,
+                   "Slave",
+                   interface.slave,
+                   "Side of the multiplier: the finer mesh or the softer body.",
+                   parameters);
+      declare_side(
+        section, "Master", interface.master, "The other side.", parameters);
+      section.add(
+        "Law",
+        interface.law,
+        "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
+        "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those within Search distance at the start. spring: a thin layer or glue of the stiffnesses below.",
+        Allowed::one_of({"tie", "slide", "contact", "spring"}));
+      section.add(
+        "Normal stiffness",
+        interface.normal_stiffness,
+        "Law = spring: traction by opening [force per volume]. A layer of thickness d has its modulus over "
+        "d.",
+        {"an expression in x, y, z, positive"});
+      section.add(
+        "Tangential stiffness",
+        interface.tangential_stiffness,
+        "The same across the normal [force per volume]; 0: it slides.",
+        {"an expression in x, y, z, positive; or 0"});
+      section.add(
+        "Offset",
+        interface.offset,
+        "The gap that is left between the bodies on top of that between their meshes, which all laws but contact take for "
+        "closed; negative: an interference, as of a press fit whose meshes coincide [length].",
+        {"an expression in x, y, z, t"});
+      section.add(
+        "Preload",
+        interface.preload,
+        "Law = tie: the normal force that the interface carries [force], positive where it pulls its sides together, as a cut "
+        "through the shank of a bolt that is tightened does; negative where it presses them apart, as between the head of "
+        "that bolt and what it holds. By how much the sides approach for it follows, on top of Offset. Empty: none.",
+        {"an expression in t"});
+      section.add(
+        "Preload until",
+        interface.preload_until,
+        "From then on the shortening is kept, whatever the force becomes [time]. Empty: the force is given at all times.",
+        {"a number"});
+      section.add(
+        "Mesh gap",
+        interface.mesh_gap,
+        "Law = contact: what lies between the meshes, or how far they overlap. real: a gap or an "
+        "interference; ignored: they stand for surfaces that coincide, as facets of different size on one "
+        "circle do. Offset comes on top of it.",
+        Allowed::one_of({"real", "ignored"}));
+      section.add(
+        "Multiplier",
+        interface.multiplier,
+        "Space of the Lagrange multiplier (the traction): standard, the slave's traces, or dual, as many "
+        "functions biorthogonal to those of the slave's nodes, which are eliminated at no cost; triangles "
+        "have them at degree 1 only, and get standard ones above.",
+        Allowed::one_of({"standard", "dual"}));
+      section.add(
+        "Search distance",
+        "0.5",
+        "Largest gap or penetration that is bridged, as a fraction of the size of the "
+        "larger face [-], or a length. A partner faces the slave and is not seen through a body. "
+        "With Adaptivity contact is looked for as far as sides have moved in the last cycle, too.",
+        {"a positive number, or \"length NUMBER\""},
+        [&interface](const ParameterValue &value) {
+          const std::string word      = "length ";
+          SearchDistance   &distance  = interface.search_distance;
+          const bool        is_length = value.text.rfind(word, 0) == 0;
+          const double      number    = value.number(
+            is_length ? value.text.substr(word.size()) : value.text);
+          if (!(number > 0.))
+            value.fail(in_quotes(value.text));
+          distance                                         = SearchDistance();
+          (is_length ? distance.length : distance.by_size) = number;
+        });
+      section.add("Quadrature points",
+                  "auto",
+                  "Points per direction on a cell. auto: as many as needed.",
+                  {"auto, or " + few.words, few.contains},
+                  [&interface](const ParameterValue &value) {
+                    interface.quadrature_points = 0;
+                    if (value.text != "auto")
+                      value.read(interface.quadrature_points);
+                  });
+    }
+
+    void
+    set_exact_displacement(ExactSolutionParameters &exact,
+                           const ParameterValue    &value)
+    {
+      const std::string &text = value.text;
+      exact.kind              = ExactKind::none;
+      if (text == "thick sphere")
+        exact.kind = ExactKind::thick_sphere;
+      else if (text == "thick cylinder")
+        exact.kind = ExactKind::thick_cylinder;
+      else if (!text.empty())
+        {
+          if (text.find_first_of(";,") == std::string::npos)
+            value.fail(in_quotes(text) +
+                       did_you_mean(text, {"thick sphere", "thick cylinder"}));
+          exact.kind = ExactKind::expressions;
+          value.read(exact.displacement);
+        }
+    }
+
+    void
+    declare_exact_solution(const ParameterSection  &section,
+                           ExactSolutionParameters &exact)
+    {
+      section.add(
+        "Displacement",
+        "",
+        "Exact displacement [length]: relative errors are computed when it is given.",
+        {"three expressions \"ux; uy; uz\" in x, y, z, t; thick sphere; or thick cylinder "
+         "(which take pressure, radii and materials from the scene)"},
+        [&exact](const ParameterValue &value) {
+          set_exact_displacement(exact, value);
+        });
+      section.add(
+        "Pressure",
+        exact.pressure,
+        "Exact mean pressure, minus a third of the trace of the stress [force per area], for "
+        "expressions in a scene with nu = 0.5, where it does not follow from the displacement.",
+        {"an expression in x, y, z, t"});
+    }
+
+    std::vector<PointQuantity>
+    points_of(const ParameterValue &value, const Parameters &parameters)
+    {
+      std::vector<PointQuantity> points;
+      for (const auto &record : value.records(3))
+        {
+          const auto x = split_outside_parentheses(record[2], ',');
+          if (x.size() != 3)
+            value.fail(in_quotes(record[2]));
+          points.push_back(
+            {record[0],
+             body_index(parameters, value, record[1]),
+             {value.number(x[0]), value.number(x[1]), value.number(x[2])}});
+        }
+      return points;
+    }
+
+    void
+    declare_output(const ParameterSection &section, Parameters &parameters)
+    {
+      namespace fs             = std::filesystem;
+      OutputParameters &output = parameters.output;
+      section.add(
+        "Directory",
+        "",
+        "Where summary.json and the files of fields go; made when the first is written. "
+        "Empty: results/NAME for a parameter file NAME.prm.",
+        {"name of a directory"},
+        [&](const ParameterValue &value) {
+          output.directory =
+            value.text.empty() ?
+              (fs::path("results") / fs::path(parameters.file).stem())
+                .string() :
+              value.text;
+        });
+      section.add(
+        "Fields",
+        "",
+        "Fields to write for ParaView (.vtu), a file for each body and, with traction (and "
+        "gap), for each interface; degree, and with Adaptivity estimate (energy norm of the error beside that of the "
+        "solution, or its part in the Quantity), are numbers for each cell. Empty: no files of fields.",
+        {"a list of: " + join_names(field_names()), {}, field_names()},
+        [&](const ParameterValue &value) {
+          output.fields = split_outside_parentheses(value.text, ',');
+          for (const std::string &field : output.fields)
+            value.choice(field);
+        });
+      section.add(
+        "Checkpoint every",
+        output.checkpoint_every,
+        "After so many steps, or cycles of Adaptivity, the state goes to DIRECTORY/checkpoint.bin, from which "
+        "--restart DIRECTORY goes on. 0: never.",
+        Allowed::integer(0));
+      section.add(
+        "Points",
+        "",
+        "Displacements to report in the summary, at points of bodies [length].",
+        {"\"name: body: x, y, z; ...\""},
+        [&](const ParameterValue &value) {
+          output.points = points_of(value, parameters);
+        });
+      section.add(
+        "Resultants",
+        "",
+        "Forces and moments to report in the summary, which act on boundaries of bodies: loads, "
+        "reactions of supports, forces of interfaces.",
+        {"\"name: body: boundary; ...\""},
+        [&](const ParameterValue &value) {
+          output.resultants.clear();
+          for (const auto &record : value.records(3))
+            output.resultants.push_back(
+              {record[0], body_index(parameters, value, record[1]), record[2]});
+        });
+      section.add(
+        "Moments about",
+        output.moments_about,
+        "The point about which moments of Resultants and interfaces are [length].",
+        {"3 numbers"});
+    }
+  } // namespace
+
+  std::vector<ParameterEntry>
+  declare_parameters(Parameters &parameters)
+  {
+    std::vector<ParameterEntry> entries;
+    const ParameterSection      scene(entries);
+    // names come first: they make the subsections
+    const auto known = [](const ParameterValue &) {};
+    scene.add("Title",
+              parameters.title,
+              "Title of the scene, for people.",
+              {"any text"});
+    scene.add("Bodies",
+              join_names(names_of(parameters.bodies)),
+              "Names of the bodies; each has a subsection \"Body NAME\".",
+              {"names separated by commas"},
+              known);
+    scene.add("Interfaces",
+              join_names(names_of(parameters.interfaces)),
+              "Names of interfaces; each has an \"Interface NAME\".",
+              {"names separated by commas"},
+              known);
+    scene.add(
+      "Gravity",
+      parameters.gravity,
+      "Acceleration of all bodies with a Density [length per time squared], added to Body force. Empty: none.",
+      {"three expressions \"gx; gy; gz\" in x, y, z, t"});
+    for (BodyParameters &body : parameters.bodies)
+      declare_body(scene.subsection("Body " + body.name), body);
+    for (InterfaceParameters &interface : parameters.interfaces)
+      declare_interface(scene.subsection("Interface " + interface.name),
+                        interface,
+                        parameters);
+    declare_exact_solution(scene.subsection("Exact solution"),
+                           parameters.exact_solution);
+    declare_solver(scene.subsection("Solver"), parameters.solver);
+    declare_adaptivity(scene.subsection("Adaptivity"), parameters.adaptivity);
+    declare_steps(scene.subsection("Steps"), parameters.steps);
+    declare_output(scene.subsection("Output"), parameters);
+    return entries;
+  }
+} // namespace mortise

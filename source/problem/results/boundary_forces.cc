@@ -1,0 +1,361 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/operators/boundary_nodes.h>
+#include <mortise/output/functionals.h>
+#include <mortise/problem/results/boundary_forces.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    HeldBoundaries::Components
+    all_but(HeldBoundaries::Components which)
+    {
+      for (bool &component : which)
+        component = !component;
+      return which;
+    }
+
+    Tensor<1, dim>
+    sum_over_nodes(const LevelVector<double> &forces)
+    {
+      Tensor<1, dim> sum;
+      for (unsigned int i = 0; i < forces.locally_owned_size(); ++i)
+        sum[i % dim] += forces.local_element(i);
+      return Utilities::MPI::sum(sum, forces.get_mpi_communicator());
+    }
+
+    bool
+    has(const SideParameters    &side,
+        const Body              &body,
+        const types::boundary_id boundary)
+    {
+      return side.body == body.index &&
+             std::any_of(side.boundaries.begin(),
+                         side.boundaries.end(),
+                         [&](const std::string &name) {
+                           return body.boundary_id(name, "") == boundary;
+                         });
+    }
+
+    /// On how many boundaries of @p side a node is.
+    LevelVector<double>
+    boundaries_at_nodes(const Discretisation &discretisation,
+                        const SideParameters &side)
+    {
+      LevelVector<double> result = zero_at_nodes(discretisation);
+      const Body         &body   = *discretisation.bodies()[side.body];
+      for (const std::string &name : side.boundaries)
+        result += boundary_nodes(nodes_of(discretisation),
+                                 body,
+                                 body.boundary_id(name, ""));
+      return result;
+    }
+
+    /// Values at nodes of the displacements, what is prescribed included.
+    LevelVector<double>
+    values_at_nodes(const Discretisation            &discretisation,
+                    const std::vector<BodySolution> &solutions)
+    {
+      return discretisation.linear_system().nodal->values_at_nodes(
+        [&](const unsigned int body, const auto dof) {
+          return solutions[body].displacement(dof);
+        });
+    }
+
+    /// The tractions of @p all on boundaries of @p body where @p held, or its opposite, says so by
+    /// component.
+    std::vector<TractionCondition>
+    tractions_on(const std::vector<TractionCondition> &all,
+                 const HeldBoundaries                 &held,
+                 const unsigned int                    body,
+                 const bool                            on_held)
+    {
+      std::vector<TractionCondition> result;
+      for (const TractionCondition &condition : all)
+        {
+          auto which = held.components(body, condition.boundary);
+          if (!on_held)
+            which = all_but(which);
+          if (which == HeldBoundaries::Components())
+            continue;
+          result.push_back(
+            {condition.boundary,
+             [which, traction = condition.traction](
+               const Point<dim> &x, const Tensor<1, dim> &normal) {
+               Tensor<1, dim> t = traction(x, normal);
+               for (unsigned int c = 0; c < dim; ++c)
+                 if (!which[c])
+                   t[c] = 0.;
+               return t;
+             }});
+        }
+      return result;
+    }
+  } // namespace
+
+  BoundaryForces::BoundaryForces(const Discretisation &discretisation,
+                                 const SolvedStep     &solved,
+                                 const std::vector<BodySolution> &solutions)
+    : discretisation(discretisation)
+    , solved(solved)
+    , solutions(solutions)
+    , held(discretisation)
+  {
+    const NodalSystem &nodal = *discretisation.linear_system().nodal;
+    borne = nodal.internal_forces(values_at_nodes(discretisation, solutions),
+                                  solved.solution.pressure);
+    borne -= solved.load.external;
+    reactions = borne;
+    applied   = sum_over_nodes(solved.load.external);
+
+    std::vector<Loads> on_held(discretisation.bodies().size());
+    bool               any_on_held = false;
+    for (const auto &body : discretisation.bodies())
+      {
+        tractions.push_back(solved.data.loads(*body).tractions);
+        auto &there = on_held[body->index].tractions;
+        there       = tractions_on(tractions.back(), held, body->index, true);
+        any_on_held = any_on_held || !there.empty();
+      }
+    if (any_on_held)
+      borne += nodal.external_forces(on_held);
+    if (solved.solution.multiplier.size() > 0)
+      {
+        borne += held.multiplier_forces(solved.solution.multiplier);
+        discretisation.linear_system().coupling.Tvmult_add_free(
+          reactions.begin(), solved.solution.multiplier);
+      }
+    if (held.any_shared())
+      for (const auto &body : discretisation.bodies())
+        for (const auto &[boundary, which] : held.all()[body->index])
+          borne -= stresses_at_nodes(body->index, boundary, which);
+  }
+
+  LevelVector<double>
+  BoundaryForces::stresses_at_nodes(
+    const unsigned int                b,
+    const types::boundary_id          boundary,
+    const HeldBoundaries::Components &which) const
+  {
+    const Body         &body   = *discretisation.bodies()[b];
+    LevelVector<double> result = discretisation.linear_system().nodal->by_node(
+      body, stress_functionals(body, solutions[b], boundary));
+    result.scale(nodes_with(discretisation, b, boundary, which));
+    return result;
+  }
+
+  void
+  BoundaryForces::add_borne(const unsigned int       b,
+                            const types::boundary_id boundary,
+                            LevelVector<double>     &forces) const
+  {
+    const auto which = held.components(b, boundary);
+    if (which == HeldBoundaries::Components())
+      return;
+    const LevelVector<double> own =
+      nodes_with(discretisation, b, boundary, which);
+    for (unsigned int i = 0; i < own.locally_owned_size(); ++i)
+      if (own.local_element(i) > 0.)
+        forces.local_element(i) +=
+          borne.local_element(i) / held.numbers().local_element(i);
+    if (held.any_shared())
+      forces += stresses_at_nodes(b, boundary, which);
+  }
+
+  void
+  BoundaryForces::add_interfaces(const unsigned int       b,
+                                 const types::boundary_id boundary,
+                                 LevelVector<double>     &forces) const
+  {
+    const auto &interfaces = discretisation.interfaces().sides();
+    for (unsigned int i = 0; i < interfaces.size(); ++i)
+      for (const SideParameters &side : sides_of(interfaces[i]))
+        if (has(side, *discretisation.bodies()[b], boundary))
+          {
+            const LevelVector<double> own =
+              held.forces_of(i, solved.solution.multiplier);
+            const LevelVector<double> at_nodes =
+              nodes_with(discretisation,
+                         b,
+                         boundary,
+                         all_but(held.components(b, boundary)));
+            const LevelVector<double> n_boundaries =
+              boundaries_at_nodes(discretisation, side);
+            for (unsigned int k = 0; k < own.locally_owned_size(); ++k)
+              if (at_nodes.local_element(k) > 0.)
+                forces.local_element(k) -=
+                  own.local_element(k) / n_boundaries.local_element(k);
+          }
+  }
+
+  ForceAndMoment
+  BoundaryForces::on(const unsigned int       b,
+                     const types::boundary_id boundary,
+                     const Point<dim>        &point) const
+  {
+    const Body        &body = *discretisation.bodies()[b];
+    std::vector<Loads> loads(discretisation.bodies().size());
+    for (const TractionCondition &condition :
+         tractions_on(tractions[b], held, b, false))
+      if (condition.boundary == boundary)
+        loads[b].tractions.push_back(condition);
+    LevelVector<double> forces =
+      discretisation.linear_system().nodal->external_forces(loads);
+    add_borne(b, boundary, forces);
+    add_interfaces(b, boundary, forces);
+
+    const LevelVector<double> wanted =
+      boundary_nodes(nodes_of(discretisation), body, boundary);
+    const LevelVector<double> places =
+      node_places(nodes_of(discretisation), body, wanted);
+    ForceAndMoment result;
+    for (unsigned int i = 0; i < forces.locally_owned_size(); i += dim)
+      if (wanted.local_element(i) > 0.)
+        {
+          Tensor<1, dim> force, arm;
+          for (unsigned int c = 0; c < dim; ++c)
+            {
+              force[c] = forces.local_element(i + c);
+              arm[c]   = places.local_element(i + c) - point[c];
+            }
+          result.force += force;
+          result.moment += cross_product_3d(arm, force);
+        }
+    const MPI_Comm comm = forces.get_mpi_communicator();
+    return {Utilities::MPI::sum(result.force, comm),
+            Utilities::MPI::sum(result.moment, comm)};
+  }
+
+  EquilibriumSummary
+  BoundaryForces::equilibrium() const
+  {
+    LevelVector<double> supports = zero_at_nodes(discretisation);
+    for (const unsigned int k : nodes_of(discretisation).constrained)
+      supports.local_element(k) = reactions.local_element(k);
+    const SceneCouplings &interfaces = discretisation.interfaces();
+    for (unsigned int i = 0; i < interfaces.all().size(); ++i)
+      if (interfaces.sides()[i].is_support)
+        supports -= held.forces_of(i, solved.solution.multiplier);
+    const Tensor<1, dim> sum = sum_over_nodes(supports);
+    return {components(applied), components(sum), components(applied + sum)};
+  }
+
+  namespace
+  {
+    /// Component of a force on a boundary.
+    struct Part
+    {
+      unsigned int       body;
+      types::boundary_id boundary;
+      unsigned int       component;
+    };
+
+    /// Subtract the forces that interfaces at @p boundary of body @p b put on @p nodes, which has
+    /// one for a component of them.
+    void
+    subtract_interfaces(const Discretisation      &discretisation,
+                        const unsigned int         b,
+                        const types::boundary_id   boundary,
+                        const LevelVector<double> &nodes,
+                        Vector                    &multiplier)
+    {
+      const auto &interfaces = discretisation.interfaces().sides();
+      for (unsigned int i = 0; i < interfaces.size(); ++i)
+        for (const SideParameters &side : sides_of(interfaces[i]))
+          if (has(side, *discretisation.bodies()[b], boundary))
+            {
+              const LevelVector<double> n_boundaries =
+                boundaries_at_nodes(discretisation, side);
+              LevelVector<double> shares = nodes;
+              for (unsigned int k = 0; k < shares.locally_owned_size(); ++k)
+                if (shares.local_element(k) > 0.)
+                  shares.local_element(k) /= n_boundaries.local_element(k);
+              Vector seen(multiplier);
+              discretisation.linear_system().coupling.vmult_free(
+                seen, shares.begin());
+              multiplier -= part_of(discretisation, seen, i);
+            }
+    }
+
+    /// Add what stresses on boundaries that share nodes with that of @p part have in it. @p shares: one over the
+    /// number of boundaries, at its nodes.
+    void
+    add_stresses(const Discretisation      &discretisation,
+                 const HeldBoundaries      &held,
+                 const Part                &part,
+                 const LevelVector<double> &shares,
+                 SystemVector              &rhs)
+    {
+      const BlockSystem &system = discretisation.linear_system();
+      const Body        &body   = *discretisation.bodies()[part.body];
+      for (const auto &[boundary, which] : held.all()[part.body])
+        {
+          if (!which[part.component])
+            continue;
+          LevelVector<double> weights =
+            nodes_with(discretisation, part.body, boundary, which);
+          for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
+            if (weights.local_element(i) > 0. && shares.local_element(i) > 0.)
+              weights.local_element(i) =
+                (boundary == part.boundary ? 1. : 0.) - shares.local_element(i);
+            else
+              weights.local_element(i) = 0.;
+          if (weights.linfty_norm() == 0.)
+            continue;
+          SystemVector x = system.zero_vector();
+          std::copy_n(weights.begin(),
+                      weights.locally_owned_size(),
+                      x.displacement.begin());
+          const auto on_body =
+            discretisation.solutions({system.zero_vector(), {}}, x);
+          add_scaled(rhs,
+                     1.,
+                     discretisation
+                       .load(body,
+                             stress_functional(body,
+                                               on_body[part.body],
+                                               boundary,
+                                               part.component))
+                       .rhs);
+        }
+    }
+  } // namespace
+
+  LinearFunctional
+  reaction_functional(const Discretisation    &discretisation,
+                      const unsigned int       b,
+                      const types::boundary_id boundary,
+                      const unsigned int       c)
+  {
+    const BlockSystem         &system = discretisation.linear_system();
+    const HeldBoundaries       held(discretisation);
+    LinearFunctional           result{system.zero_vector(),
+                            system.zero_vector().displacement};
+    HeldBoundaries::Components which{};
+    which[c]                  = true;
+    LevelVector<double> nodes = nodes_with(discretisation, b, boundary, which);
+    if (!held.components(b, boundary)[c])
+      {
+        if (result.rhs.multiplier.size() > 0)
+          subtract_interfaces(
+            discretisation, b, boundary, nodes, result.rhs.multiplier);
+        return result;
+      }
+    LevelVector<double> lift = nodes;
+    for (unsigned int i = 0; i < lift.locally_owned_size(); ++i)
+      if (lift.local_element(i) > 0.)
+        lift.local_element(i) = 1. / held.numbers().local_element(i);
+    std::copy_n(lift.begin(), lift.locally_owned_size(), result.lift.begin());
+    system.nodal->apply_to_constrained(lift, result.rhs);
+    if (result.rhs.multiplier.size() > 0)
+      held.constraint(lift, result.rhs.multiplier);
+    if (held.any_shared())
+      add_stresses(discretisation, held, {b, boundary, c}, lift, result.rhs);
+    return result;
+  }
+} // namespace mortise

@@ -1,0 +1,281 @@
+// See contact_results.h.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/base/error.h>
+#include <mortise/body/boundary_faces.h>
+#include <mortise/mortar/nodal_block.h>
+#include <mortise/mortar/penetration.h>
+#include <mortise/problem/results/contact_results.h>
+#include <mortise/problem/support/rigid_support.h>
+#include <mortise/problem/support/side_faces.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <sstream>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Beside how far sides move: a user should know.
+    constexpr double large_penetration = 0.1;
+
+    /// Beside coordinates, by which meshes that touch may overlap.
+    constexpr double rounding_of_places = 1e-14;
+
+    /// The largest coordinate of @p body, about. Collective.
+    double
+    largest_coordinate(const Body &body)
+    {
+      const Extent where = extent(body);
+      return where.centre.norm() + where.size;
+    }
+
+    /// Of all interfaces, by owned multiplier.
+    struct ContactState
+    {
+      ContactState(const Discretisation &discretisation,
+                   const SolvedStep     &solved)
+        : pressure(solved.solution.multiplier)
+        , gap(discretisation.gaps(solved.load, solved.solution))
+        , status(pressure)
+      {
+        const std::vector<bool> &active =
+          *discretisation.linear_system().active;
+        for (unsigned int i = 0; i < active.size(); ++i)
+          status.begin()[i] = active[i] ? 1. : 0.;
+      }
+
+      const Vector &pressure;
+      Vector        gap;
+      Vector        status; ///< one where it presses, else zero
+    };
+
+    /// @p first: of its multipliers, among the owned ones.
+    ContactSummary
+    contact_summary(const Coupling                      &coupling,
+                    const std::vector<NormalMultiplier> &multipliers,
+                    const unsigned int                   first,
+                    const ContactState                  &state,
+                    const std::vector<bool>             &undecided,
+                    const RunContext                    &run)
+    {
+      const MPI_Comm comm  = run.comm;
+      const auto    &about = run.parameters.output.moments_about;
+      ContactSummary result;
+      Tensor<1, dim> force, moment;
+      double         work = 0., least = std::numeric_limits<double>::max();
+      for (unsigned int k = 0; k < multipliers.size(); ++k)
+        {
+          const NormalMultiplier &of     = multipliers[k];
+          const bool              active = state.status.begin()[first + k] > 0.;
+          const double            pressure = state.pressure.begin()[first + k];
+          least = std::min(least, state.gap.begin()[first + k]);
+          result.undecided += undecided[first + k] ? 1 : 0;
+          ++(active ? result.active : result.inactive);
+          if (!active)
+            continue;
+          result.area += of.area;
+          work += pressure * of.area;
+          force -= pressure * of.normal;
+          moment -= pressure * of.moment;
+        }
+      for (const auto &of_face : values_by_row(coupling, state.pressure, comm))
+        for (const double pressure : of_face)
+          result.pressure_max = std::max(result.pressure_max, pressure);
+      result.area          = Utilities::MPI::sum(result.area, comm);
+      work                 = Utilities::MPI::sum(work, comm);
+      result.pressure_mean = result.area > 0. ? work / result.area : 0.;
+      result.pressure_max  = Utilities::MPI::max(result.pressure_max, comm);
+      result.gap_min       = Utilities::MPI::min(least, comm);
+      result.force         = components(Utilities::MPI::sum(force, comm));
+      moment -=
+        cross_product_3d(Tensor<1, dim>({about[0], about[1], about[2]}), force);
+      result.moment = components(Utilities::MPI::sum(moment, comm));
+      for (std::uint64_t *count :
+           {&result.active, &result.inactive, &result.undecided})
+        *count = Utilities::MPI::sum(*count, comm);
+      return result;
+    }
+
+    /// Displacements of vertices on one side of an interface, by component
+    /// from the least to the largest.
+    class MotionRange
+    {
+    public:
+      void
+      add(const std::vector<BoundaryFace> &faces,
+          const BodyVector                &displacement)
+      {
+        for (const BoundaryFace &face : faces)
+          if (face.cell->is_locally_owned())
+            {
+              const auto of_face = face.cell->face(face.number);
+              for (unsigned int v = 0; v < of_face->n_vertices(); ++v)
+                for (unsigned int c = 0; c < dim; ++c)
+                  {
+                    const double u = displacement(of_face->vertex_dof_index(
+                      v, c, face.cell->active_fe_index()));
+                    least[c]       = std::min(least[c], u);
+                    most[c]        = std::max(most[c], u);
+                  }
+            }
+      }
+
+      /// The most by which two of them differ. Collective.
+      double
+      width(const MPI_Comm comm) const
+      {
+        double square = 0.;
+        for (unsigned int c = 0; c < dim; ++c)
+          square += std::pow(Utilities::MPI::max(most[c], comm) -
+                               Utilities::MPI::min(least[c], comm),
+                             2);
+        return std::sqrt(square);
+      }
+
+    private:
+      static constexpr double none = std::numeric_limits<double>::max();
+      std::array<double, dim> least{{none, none, none}};
+      std::array<double, dim> most{{-none, -none, -none}};
+    };
+
+    /// How far the sides of interface @p i move against each other at most. Collective.
+    double
+    relative_motion(const RunContext     &run,
+                    const Discretisation &discretisation,
+                    const unsigned int    i,
+                    const StepFields     &fields)
+    {
+      const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
+      MotionRange                range;
+      for (const SideParameters *side : {&sides.slave, &sides.master})
+        range.add(side_faces(discretisation.bodies(), *side, ""),
+                  fields.solutions[side->body].displacement);
+      return range.width(run.comm);
+    }
+
+    /// Throws InputError where a face without a partner could have met one.
+    void
+    check_partners(const RunContext     &run,
+                   const Discretisation &discretisation,
+                   const unsigned int    i,
+                   const double          moved)
+    {
+      const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
+      const InterfaceHandler    &interface =
+        *discretisation.interfaces().all()[i].interface;
+      std::ostringstream text;
+      for (unsigned int s = 0; s < interface.coverage().size(); ++s)
+        if (const SurfaceFace &face = interface.slave().faces[s];
+            interface.coverage()[s] < 0.99 && text.str().empty() &&
+            moved > sides.search_distance.of(face.size))
+          text << "Interface " << interface.name()
+               << ": its sides move by up to " << RunLog::number(moved)
+               << " against each other, but the face at "
+               << interface.slave()
+                    .cells[s]
+                    ->face(interface.slave().face_numbers[s])
+                    ->center()
+               << " has looked for partners only as far as "
+               << RunLog::number(sides.search_distance.of(face.size))
+               << ", so that contact there would go unseen; allowed: a larger "
+                  "Search distance, or smaller displacements";
+      throw_if_any(text.str(), run.comm);
+    }
+  } // namespace
+
+  void
+  add_contact(const RunContext     &run,
+              const Discretisation &discretisation,
+              const SolvedStep     &solved,
+              const StepFields     &fields,
+              StepSummary          &summary)
+  {
+    const auto             &interfaces = discretisation.interfaces().all();
+    const ContactState      state(discretisation, solved);
+    const TraceDisplacement displacement =
+      discretisation.trace_displacement(solved.load, fields.solutions);
+    unsigned int first = 0;
+    for (unsigned int i = 0; i < interfaces.size(); ++i)
+      {
+        if (interfaces[i].is_contact)
+          {
+            const double moved =
+              relative_motion(run, discretisation, i, fields);
+            check_partners(run, discretisation, i, moved);
+            ContactSummary contact =
+              contact_summary(interfaces[i],
+                              discretisation.pressing()[i],
+                              first,
+                              state,
+                              solved.undecided,
+                              run);
+            const InterfaceParameters &given =
+              discretisation.interfaces().sides()[i];
+            contact.motion_max = moved;
+            contact.penetration_max =
+              largest_penetration(interfaces[i],
+                                  displacement,
+                                  {solved.data.offset(given),
+                                   given.mesh_gap == "real"},
+                                  run.comm);
+            if (contact.undecided > 0)
+              run.log.warning(
+                "interface " + given.name + ": at " +
+                std::to_string(contact.undecided) + " of " +
+                std::to_string(contact.active + contact.inactive) +
+                " nodes the sides neither press nor are apart by more than rounding, so that "
+                "the area in contact is not determined there");
+            if (contact.penetration_max > large_penetration * moved &&
+                contact.penetration_max >
+                  rounding_of_places *
+                    largest_coordinate(
+                      *discretisation.bodies()[given.slave.body]))
+              run.log.warning(
+                "interface " + given.name + ": the bodies overlap by up to " +
+                RunLog::number(contact.penetration_max) +
+                " between nodes, of " + RunLog::number(moved) +
+                " by which its sides move; contact there is smaller than the faces of the "
+                "slave, which finer ones would see");
+            summary.interfaces[i].contact = contact;
+          }
+        first += interfaces[i].multipliers->n_owned();
+      }
+  }
+
+  std::vector<std::vector<std::vector<double>>>
+  contact_fields(const RunContext     &run,
+                 const Discretisation &discretisation,
+                 const SolvedStep     &solved)
+  {
+    const ContactState                            state(discretisation, solved);
+    std::vector<std::vector<std::vector<double>>> result;
+    for (const Coupling &coupling : discretisation.interfaces().all())
+      {
+        auto &by_face = result.emplace_back();
+        if (!coupling.is_contact)
+          continue;
+        const auto &traces = coupling.interface->slave().traces;
+        by_face.resize(traces.size());
+        for (const Vector *field : {&state.pressure, &state.gap, &state.status})
+          {
+            const auto values = values_by_row(coupling, *field, run.comm);
+            for (unsigned int s = 0; s < traces.size(); ++s)
+              {
+                const auto &functions =
+                  face_nodal_basis(traces[s].shape, traces[s].degree).functions;
+                for (unsigned int k = 0; k < functions.m(); ++k)
+                  by_face[s].push_back(std::inner_product(
+                    values[s].begin(), values[s].end(), &functions(k, 0), 0.));
+              }
+          }
+      }
+    return result;
+  }
+} // namespace mortise

@@ -1,0 +1,347 @@
+#include <mortise/base/error.h>
+#include <mortise/mortar/slave_normals.h>
+#include <mortise/operators/body_volume.h>
+#include <mortise/problem/scene/discretisation.h>
+#include <mortise/problem/support/rigid_motions.h>
+#include <mortise/solvers/interface/dependent_multipliers.h>
+#include <mortise/solvers/scaled_residual.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  Discretisation::Discretisation(const RunContext  &run,
+                                 const SceneData   &data,
+                                 Bodies            &bodies,
+                                 const CellDegrees &degrees)
+    : run(run)
+    , spaces(bodies)
+    , couplings(run, spaces)
+  {
+    create_spaces(run, data, degrees, spaces);
+    for (const auto &body : bodies)
+      volumes.push_back(body_volume(*body));
+    system.communicator       = run.comm;
+    system.owned_displacement = spaces.owned_displacement();
+    if (spaces.fields.pressure.numbering.size() > 0)
+      system.owned_pressure = spaces.owned_pressure();
+    system.owned_multiplier.set_size(0);
+    check_pieces(spaces.bodies, spaces.dirichlet, run.parameters.interfaces);
+    if (run.parameters.interfaces.empty())
+      check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
+    else
+      couple();
+    create_bulk();
+    if (system.mixed())
+      find_free_pressures();
+  }
+
+  void
+  Discretisation::couple()
+  {
+    couplings.couple();
+    auto stage = run.log.stage(run.timers, "coupling");
+    couplings.choose_multipliers();
+    system.owned_multiplier = couplings.owned_multiplier();
+    if (system.owned_multiplier.size() > 0)
+      {
+        const CouplingPartition partition{system.owned_displacement,
+                                          system.owned_multiplier,
+                                          run.comm};
+        system.coupling =
+          assemble_by_node(couplings.all(),
+                           partition,
+                           couplings.slide() || couplings.have_springs());
+        if (couplings.have_springs())
+          assemble_compliance(couplings.all(),
+                              partition,
+                              system.spring_compliance);
+      }
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      interface_summaries.push_back(couplings.summary(i));
+    prepare_contact();
+    stage.details(std::to_string(system.owned_multiplier.size()) +
+                  " multipliers");
+  }
+
+  void
+  Discretisation::create_bulk()
+  {
+    auto              stage        = run.log.stage(run.timers, "bulk");
+    const SceneField &displacement = spaces.fields.displacement;
+    system.nodal =
+      std::make_unique<NodalSystem>(std::move(spaces.nodal),
+                                    std::move(spaces.nodal_pressures),
+                                    NodalSystem::Scene{displacement.numbering,
+                                                       displacement.constraints,
+                                                       couplings.all(),
+                                                       spaces.choice.method !=
+                                                         SolverMethod::direct},
+                                    run.comm);
+    system.coupling.constrain(system.nodal->levels().front().constrained);
+    const auto n_levels = system.nodal->levels().size();
+    stage.details(std::to_string(n_levels) +
+                  (n_levels == 1 ? " level" : " levels"));
+  }
+
+  namespace
+  {
+    /// The bodies that interfaces hold together, group by group.
+    std::vector<std::vector<unsigned int>>
+    tied_groups(const std::vector<InterfaceParameters> &interfaces,
+                const unsigned int                      n_bodies)
+    {
+      std::vector<unsigned int> group(n_bodies);
+      std::iota(group.begin(), group.end(), 0);
+      for (const InterfaceParameters &interface : interfaces)
+        {
+          const unsigned int a = group[interface.slave.body],
+                             b = group[interface.master.body];
+          std::replace(group.begin(), group.end(), a, b);
+        }
+      std::vector<std::vector<unsigned int>> result(group.size());
+      for (unsigned int b = 0; b < group.size(); ++b)
+        result[group[b]].push_back(b);
+      result.erase(std::remove_if(result.begin(),
+                                  result.end(),
+                                  [](const auto &list) {
+                                    return list.empty();
+                                  }),
+                   result.end());
+      return result;
+    }
+  } // namespace
+
+  void
+  Discretisation::find_free_pressures()
+  {
+    const Bodies &bodies = spaces.bodies;
+    for (const auto &group : tied_groups(couplings.sides(), bodies.size()))
+      {
+        if (!std::all_of(group.begin(), group.end(), [&](const auto b) {
+              return bodies[b]->material.mixed() &&
+                     bodies[b]->material.incompressible();
+            }))
+          continue;
+        Vector              all(system.owned_pressure, run.comm);
+        std::vector<Vector> ones;
+        std::string         names;
+        for (const unsigned int b : group)
+          {
+            ones.emplace_back(system.owned_pressure, run.comm);
+            system.nodal->set_constant_pressure(*bodies[b], ones.back());
+            all += ones.back();
+            names += (names.empty() ? "" : ", ") + bodies[b]->name;
+          }
+        const Enclosure enclosure = test_enclosure(system, all);
+        if (!enclosure.enclosed)
+          continue;
+        Vector integrals(system.owned_pressure, run.comm);
+        for (unsigned int i = 0; i < group.size(); ++i)
+          {
+            Vector of_body(integrals);
+            system.nodal->apply_pressure_mass(of_body, ones[i]);
+            integrals.add(1. / bodies[group[i]]->material.pressure_norm(),
+                          of_body);
+          }
+        system.free_pressures.add(all, integrals);
+        free_pressures.push_back({enclosure, names});
+      }
+  }
+
+  SceneLoad
+  Discretisation::load(const SceneData &data) const
+  {
+    const auto         scope = run.timers.scope("bulk");
+    std::vector<Loads> loads;
+    for (const auto &body : spaces.bodies)
+      loads.push_back(data.loads(*body));
+    SceneLoad load{system.zero_vector(), prescribed_values(spaces, data)};
+    for (const Loads &of_body : loads)
+      load.thermal_strains.push_back(of_body.thermal_strain);
+    if (spaces.has_prescribed_values())
+      {
+        const auto &numbering = spaces.fields.displacement.numbering;
+        system.apply_to_constrained(
+          system.nodal->values_at_nodes([&](const auto body, const auto dof) {
+            return prescribed_value(load.prescribed, numbering(body, dof));
+          }),
+          load.rhs);
+        scale(load.rhs, -1.);
+      }
+    system.nodal->add_loads(loads, load);
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      if (const auto offset = data.offset(couplings.sides()[i]);
+          offset && load.rhs.multiplier.size() > 0)
+        {
+          const Coupling &coupling = couplings.all()[i];
+          add_offset(
+            coupling,
+            offset,
+            slave_normals(*spaces.bodies[couplings.sides()[i].slave.body],
+                          coupling.interface->slave()),
+            load.rhs.multiplier);
+          load.rhs.multiplier.compress(VectorOperation::add);
+        }
+    double *given = load.rhs.multiplier.begin();
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      {
+        for (unsigned int k = 0; k < normal_multipliers_of_contact[i].size();
+             ++k)
+          if (couplings.sides()[i].mesh_gap == "real")
+            given[k] += normal_multipliers_of_contact[i][k].gap;
+        given += couplings.all()[i].multipliers->n_owned();
+      }
+    for (const FreePressure &free : free_pressures)
+      {
+        if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)
+          throw InputError(
+            "Body " + free.bodies +
+            ": the displacements prescribed all around change the volume (" +
+            RunLog::number(100. * flux) +
+            " % of what flows in and out does not cancel), and Poisson ratio "
+            "0.5 lets no volume change; allowed: displacements that keep it, "
+            "a boundary that is free, or a smaller ratio");
+        run.log.warning(
+          "body " + free.bodies +
+          ": incompressible and held all around, so a constant "
+          "pressure has no effect; the mean pressure is set to zero");
+      }
+    if (system.mixed())
+      system.free_pressures.project_residual(load.rhs.pressure);
+    return load;
+  }
+
+  SceneLoad
+  Discretisation::load(const Body            &body,
+                       const CellFunctionals &functionals) const
+  {
+    SceneLoad load{system.zero_vector(), {}};
+    system.nodal->assemble_functional(body, functionals, load.rhs);
+    if (system.mixed())
+      system.free_pressures.project_residual(load.rhs.pressure);
+    return load;
+  }
+
+  std::vector<BodySolution>
+  Discretisation::solutions(const SceneLoad    &load,
+                            const SystemVector &solution) const
+  {
+    return body_solutions(spaces.bodies, spaces.fields, system, load, solution);
+  }
+
+  Vector
+  Discretisation::prescribed_vector(const SceneLoad &load) const
+  {
+    const IndexSet &owned = spaces.fields.displacement.numbering.owned();
+    Vector          result(owned, run.comm);
+    for (const auto &[dof, value] : load.prescribed)
+      if (owned.is_element(dof))
+        result[dof] = value;
+    result.compress(VectorOperation::insert);
+    return result;
+  }
+
+  TraceDisplacement
+  Discretisation::trace_displacement(
+    const SceneLoad                 &load,
+    const std::vector<BodySolution> &solutions) const
+  {
+    const auto &numbering = spaces.fields.displacement.numbering;
+    Vector      all(numbering.owned(), run.comm);
+    for (unsigned int b = 0; b < solutions.size(); ++b)
+      for (const auto dof : solutions[b].displacement.locally_owned_elements())
+        all[numbering(b, dof)] = solutions[b].displacement(dof);
+    all.compress(VectorOperation::insert);
+    return {std::move(all), prescribed_vector(load)};
+  }
+
+  SystemVector
+  Discretisation::system_vector(const std::vector<BodySolution> &solutions,
+                                const SceneLoad                 &load) const
+  {
+    return mortise::system_vector(spaces.fields,
+                                  system,
+                                  load.prescribed,
+                                  solutions);
+  }
+
+  SystemVector
+  Discretisation::system_vector(const Checkpoint &checkpoint,
+                                const SceneLoad  &load) const
+  {
+    SystemVector x = system_vector(checkpoint.solutions, load);
+    for (unsigned int i = 0; i < couplings.all().size(); ++i)
+      set_multiplier(couplings.all()[i],
+                     checkpoint.multipliers[i],
+                     x.multiplier);
+    if (x.multiplier.size() > 0)
+      x.multiplier.compress(VectorOperation::insert);
+    return x;
+  }
+
+  void
+  Discretisation::check_multipliers() const
+  {
+    if (couplings.all().size() < 2)
+      return; // those of one interface are independent by their rules
+    if (system.owned_multiplier.size() == 0)
+      return;
+    const ScaledResidual residual(system);
+    const auto           dependent =
+      find_dependent_multipliers(system.coupling,
+                                 residual.inverse_diagonal_u(),
+                                 residual.inverse_diagonal_lambda(),
+                                 system.spring_compliance);
+    if (!dependent.empty())
+      throw InputError(
+        "Interfaces tie the same displacements more than once, so that tractions "
+        "are not determined; multipliers that depend on others: " +
+        couplings.count_by_name(dependent) +
+        ". Drop one of the interfaces that meet there, or exchange slave and "
+        "master of one");
+  }
+
+  StepSummary
+  Discretisation::summary() const
+  {
+    StepSummary step;
+    for (const auto &body : spaces.bodies)
+      {
+        const auto                statistics = body->statistics();
+        const MaterialParameters &material =
+          run.parameters.bodies[body->index].material;
+        const double volume = volumes[body->index];
+        step.bodies.push_back(
+          {body->name,
+           body->mesh.tetrahedra ? "tetrahedra" : "hexahedra",
+           statistics.cells,
+           statistics.degree_min,
+           statistics.degree_max,
+           body->dof_handler.n_dofs(),
+           material.law,
+           volume,
+           material.density > 0. ?
+             std::optional<double>(material.density * volume) :
+             std::nullopt,
+           {},
+           {}});
+      }
+    const auto n_pressures = spaces.fields.pressure.numbering.size();
+    step.dofs.displacement = spaces.fields.displacement.numbering.size();
+    step.dofs.total        = step.dofs.displacement + n_pressures;
+    if (n_pressures > 0)
+      step.dofs.pressure = n_pressures;
+    if (!couplings.all().empty())
+      {
+        step.dofs.multiplier = system.owned_multiplier.size();
+        step.dofs.total += system.owned_multiplier.size();
+      }
+    step.interfaces = interface_summaries;
+    return step;
+  }
+} // namespace mortise

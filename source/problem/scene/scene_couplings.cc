@@ -1,0 +1,338 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/base/error.h>
+#include <mortise/interface/smooth_patches.h>
+#include <mortise/mortar/slave_normals.h>
+#include <mortise/problem/input/interface_law.h>
+#include <mortise/problem/scene/scene_couplings.h>
+#include <mortise/problem/scene/scene_data.h>
+#include <mortise/problem/support/side_faces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  SceneCouplings::SceneCouplings(const RunContext  &run,
+                                 const SceneSpaces &spaces)
+    : run(run)
+    , spaces(spaces)
+    , owned(0)
+  {}
+
+  unsigned int
+  SceneCouplings::given_slave(const unsigned int i) const
+  {
+    const auto &given = run.parameters.interfaces;
+    return std::find_if(given.begin(),
+                        given.end(),
+                        [&](const InterfaceParameters &interface) {
+                          return interface.name == interfaces[i].name;
+                        })
+      ->slave.body;
+  }
+
+  std::vector<BoundaryFace>
+  SceneCouplings::faces_of(const InterfaceParameters &given,
+                           const SideParameters      &side) const
+  {
+    return side_faces(spaces.bodies, side, "Interface " + given.name);
+  }
+
+  std::string
+  SceneCouplings::patch_name(const InterfaceParameters &given,
+                             const unsigned int         k) const
+  {
+    const auto is = [](const std::string &name) {
+      return [&](const auto &other) { return other.name == name; };
+    };
+    std::string name = given.name + "-" + std::to_string(k + 1);
+    const auto &all  = run.parameters;
+    while (std::any_of(all.bodies.begin(), all.bodies.end(), is(name)) ||
+           std::any_of(all.interfaces.begin(), all.interfaces.end(), is(name)))
+      name += "-";
+    return name;
+  }
+
+  Coupling
+  SceneCouplings::make_coupling(const InterfaceParameters       &given,
+                                const std::string               &name,
+                                const std::vector<BoundaryFace> &slave) const
+  {
+    const auto surface = [&](const SideParameters            &side,
+                             const std::vector<BoundaryFace> &faces) {
+      return extract_surface(*spaces.bodies[side.body],
+                             faces,
+                             spaces.fields.displacement.numbering,
+                             spaces.fields.displacement.constraints,
+                             spaces.nodal);
+    };
+    BodySurface slave_surface = surface(given.slave, slave);
+    slave_surface.direction   = given.direction;
+    BodySurface master_surface =
+      given.is_support ? rigid_counterpart(slave_surface) :
+                         surface(given.master, faces_of(given, given.master));
+    InterfaceOptions options;
+    options.distance             = given.search_distance;
+    options.points_per_direction = given.quadrature_points;
+    const auto boundary          = [&](const SideParameters &side) {
+      return
+        [&body = *spaces.bodies[side.body]] { return whole_boundary(body); };
+    };
+    options.slave_boundary  = boundary(given.slave);
+    options.master_boundary = boundary(given.master);
+    Coupling coupling;
+    coupling.is_spring  = given.law == "spring";
+    coupling.is_contact = given.law == "contact";
+    coupling.directions = tied_directions(run.parameters, given);
+    coupling.interface =
+      std::make_unique<InterfaceHandler>(name,
+                                         std::move(slave_surface),
+                                         std::move(master_surface),
+                                         options,
+                                         run.comm);
+    return coupling;
+  }
+
+  void
+  SceneCouplings::integrate(const InterfaceParameters &given,
+                            Coupling                  &coupling) const
+  {
+    const auto normals = slave_normals(*spaces.bodies[given.slave.body],
+                                       coupling.interface->slave());
+    coupling.local =
+      integrate_coupling(*coupling.interface,
+                         spaces.choice.method != SolverMethod::direct,
+                         given.multiplier == "dual" ? MultiplierBasis::dual :
+                                                      MultiplierBasis::standard,
+                         !coupling.is_spring && !given.is_support,
+                         coupling.directions == TiedDirections::normal ?
+                           normals :
+                           std::vector<std::vector<Tensor<1, dim>>>());
+    if (const auto stiffness = spring_stiffness(run.parameters, given))
+      set_springs(stiffness, normals, coupling);
+  }
+
+  void
+  SceneCouplings::find_pairs()
+  {
+    auto          stage = run.log.stage(run.timers, "interface_search");
+    std::uint64_t faces = 0;
+    std::string   divided;
+    for (const InterfaceParameters &given : run.parameters.interfaces)
+      {
+        const auto slave = faces_of(given, given.slave);
+        // tractions jump at edges
+        const auto patches =
+          given.direction ?
+            std::vector<std::vector<BoundaryFace>>{slave} :
+            smooth_patches(*spaces.bodies[given.slave.body], slave);
+        for (unsigned int k = 0; k < patches.size(); ++k)
+          {
+            interfaces.push_back(given);
+            couplings.push_back(make_coupling(given,
+                                              patches.size() > 1 ?
+                                                patch_name(given, k) :
+                                                given.name,
+                                              patches[k]));
+            faces += Utilities::MPI::sum(
+              couplings.back().interface->slave().faces.size(), run.comm);
+          }
+        if (patches.size() > 1)
+          divided += ", " + given.name + " in " +
+                     std::to_string(patches.size()) +
+                     " smooth patches of the slave";
+      }
+    stage.details(std::to_string(faces) + " slave faces" + divided);
+  }
+
+  namespace
+  {
+    /// What coarse curved faces may have that do not fit together is less, what
+    /// a second layer adds is more.
+    constexpr double most_coverage = 1.1;
+  } // namespace
+
+  void
+  SceneCouplings::warn_of_mesh_gap(const unsigned int i) const
+  {
+    const InterfaceReport     &report = couplings[i].interface->report();
+    const InterfaceParameters &given  = interfaces[i];
+    const std::string          mean   = RunLog::number(report.gap_mean),
+                      largest         = RunLog::number(report.distance_max),
+                      off_by          = RunLog::number(report.sagitta_mean);
+    const std::string text =
+      "interface " + couplings[i].interface->name() + ": the meshes are " +
+      RunLog::number(report.distance_mean) + " apart in the mean, " + largest +
+      " at most (with signs, " + mean + " in the mean; negative: they overlap)";
+    // straight faces of both sides on one round surface
+    const double facets = 2. * report.sagitta_mean;
+    const double size =
+      std::sqrt(report.slave_area / std::max<double>(1., report.slave_faces));
+    const bool is_rounding = report.distance_max < 1e-6 * size;
+    if (is_rounding)
+      return;
+    if (!couplings[i].is_contact)
+      {
+        if (report.distance_mean > facets + 1e-3 * size)
+          run.log.warning(
+            text + ", which Law = " + given.law +
+            " takes for closed: rotations of the bodies then bring moments that are not there. Allowed: meshes "
+            "that touch; for an interference that is drawn Law = contact, or Offset in its place");
+        return;
+      }
+    if (given.mesh_gap == "real" &&
+        report.sagitta_mean > 0.1 * std::fabs(report.gap_mean))
+      run.log.warning(
+        text + "; straight faces on a round surface are " + off_by +
+        " off by themselves, which is not small beside that. Allowed: finer meshes, Mesh/Curved "
+        "boundaries, or Mesh gap = ignored with an Offset");
+  }
+
+  void
+  SceneCouplings::check_overlap(const unsigned int i) const
+  {
+    const InterfaceReport     &report = couplings[i].interface->report();
+    const InterfaceParameters &given  = interfaces[i];
+    const std::string         &name   = couplings[i].interface->name();
+    if (report.pairs == 0)
+      throw InputError(
+        "Interface " + given.name + ": the surfaces " +
+        side_text(run.parameters, given.slave) + " and " +
+        side_text(run.parameters, given.master) +
+        " do not meet: no pair of faces overlaps within the search distance of " +
+        (given.search_distance.length > 0. ?
+           RunLog::number(given.search_distance.length) :
+           RunLog::number(given.search_distance.by_size) + " face sizes") +
+        ", or is seen but through a body. Check positions, names and Search distance");
+    if (report.failed_pairs > 0)
+      run.log.warning("interface " + name + ": the projection of " +
+                      std::to_string(report.failed_pairs) +
+                      " pairs of faces did not converge");
+    if (report.largest_coverage > most_coverage)
+      {
+        std::ostringstream text;
+        text
+          << "Interface " << given.name << ": a face of the slave has "
+          << RunLog::number(report.largest_coverage)
+          << " times its area in partners; worst is the face at "
+          << report.worst_face_centre << ". Parts of "
+          << side_text(run.parameters, given.master)
+          << " lie in several layers before it; allowed: one layer. Make "
+             "those that do not belong to the interface boundaries of their own";
+        throw InputError(text.str());
+      }
+    warn_of_mesh_gap(i);
+    if (report.covered_area < 0.999 * report.slave_area)
+      {
+        std::ostringstream text;
+        text << "interface " << name << ": only "
+             << RunLog::number(100. * report.covered_area / report.slave_area)
+             << " % of the slave surface has a partner; worst is the face at "
+             << report.worst_face_centre << " ("
+             << RunLog::number(100. * report.worst_face_error) << " % off)";
+        run.log.warning(text.str());
+      }
+  }
+
+  void
+  SceneCouplings::drop_patches_apart()
+  {
+    for (unsigned int i = couplings.size(); i-- > 0;)
+      {
+        const auto same_interface = [&](const InterfaceParameters &other) {
+          return other.name == interfaces[i].name;
+        };
+        if (couplings[i].interface->report().pairs > 0 ||
+            std::count_if(interfaces.begin(),
+                          interfaces.end(),
+                          same_interface) == 1)
+          continue;
+        run.log.line("  interface " + couplings[i].interface->name() +
+                     ": this smooth patch of the slave meets no master");
+        couplings.erase(couplings.begin() + i);
+        interfaces.erase(interfaces.begin() + i);
+      }
+  }
+
+  void
+  SceneCouplings::couple()
+  {
+    find_pairs();
+    const auto  total    = run.timers.scope("coupling");
+    double      clipping = 0.;
+    std::string balance;
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      integrate(interfaces[i], couplings[i]);
+    drop_patches_apart();
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      {
+        const InterfaceReport &report = couplings[i].interface->report();
+        clipping += report.clipping_seconds;
+        if (const unsigned int n_ranks =
+              Utilities::MPI::n_mpi_processes(run.comm);
+            n_ranks > 1)
+          balance +=
+            (i ? ", " : "") + std::to_string(report.largest_integration_cells) +
+            " cells on the busiest rank, " +
+            RunLog::number(double(report.integration_cells) / n_ranks) +
+            " on average";
+        if (report.coinciding_faces > 0)
+          balance += (balance.empty() ? "" : ", ") +
+                     std::to_string(report.coinciding_faces) + " of " +
+                     std::to_string(report.slave_faces) +
+                     " faces coincide with a partner";
+        check_overlap(i);
+      }
+    clipping = Utilities::MPI::max(clipping, run.comm);
+    if (clipping == 0.)
+      return; // all faces coincide
+    run.timers.add("interface_clipping", clipping);
+    run.timers.add("coupling", -clipping);
+    run.log.stage_line("interface_clipping", clipping, balance);
+  }
+
+  InterfaceSummary
+  SceneCouplings::summary(const unsigned int i) const
+  {
+    const InterfaceReport &report = couplings[i].interface->report();
+    const TransferErrors   errors =
+      transfer_errors(couplings[i], owned, run.comm);
+    InterfaceSummary result;
+    result.name                      = couplings[i].interface->name();
+    result.slave_faces               = report.slave_faces;
+    result.master_faces              = report.master_faces;
+    result.candidate_pairs           = report.candidate_pairs;
+    result.pairs                     = report.pairs;
+    result.integration_cells         = report.integration_cells;
+    result.quadrature_points         = report.quadrature_points;
+    result.slave_area                = report.slave_area;
+    result.covered_area              = report.covered_area;
+    result.gap_mean                  = report.gap_mean;
+    result.distance_mean             = report.distance_mean;
+    result.distance_max              = report.distance_max;
+    result.sagitta_mean              = report.sagitta_mean;
+    result.worst_face_coverage_error = report.worst_face_error;
+    result.partition_of_unity_error  = errors.partition_of_unity;
+    result.linear_completeness_error = errors.linear_completeness;
+    return result;
+  }
+
+  std::vector<BalanceSummary>
+  SceneCouplings::balance() const
+  {
+    std::vector<BalanceSummary> result;
+    for (const Coupling &coupling : couplings)
+      {
+        const InterfaceReport &report = coupling.interface->report();
+        result.push_back({coupling.interface->name(),
+                          report.largest_integration_cells,
+                          double(report.integration_cells) /
+                            Utilities::MPI::n_mpi_processes(run.comm)});
+      }
+    return result;
+  }
+} // namespace mortise

@@ -1,0 +1,319 @@
+#include <deal.II/base/mpi.h>
+
+#include <mortise/base/error.h>
+#include <mortise/mortar/shared_displacements.h>
+#include <mortise/mortar/slave_normals.h>
+#include <mortise/problem/scene/scene_couplings.h>
+#include <mortise/problem/support/rigid_motions.h>
+#include <mortise/problem/support/weak_ties.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of the slave surface. Collective.
+    Tensor<1, dim>
+    mean_normal(const TieSupport &tie, const MPI_Comm comm)
+    {
+      Tensor<1, dim> sum;
+      for (const auto &place : tie.places)
+        sum += place.area * place.normal;
+      sum               = Utilities::MPI::sum(sum, comm);
+      const double norm = sum.norm();
+      return norm > 0. ? sum / norm : sum;
+    }
+  } // namespace
+
+  std::vector<bool>
+  SceneCouplings::blocked_dofs(const unsigned int       b,
+                               const std::vector<bool> &taken) const
+  {
+    const auto       &numbering = spaces.fields.displacement.numbering;
+    std::vector<bool> blocked;
+    for (const auto dof : spaces.bodies[b]->dof_handler.locally_owned_dofs())
+      blocked.push_back(
+        taken[numbering.owned().index_within_set(numbering(b, dof))] ||
+        (spaces.constraints[b].is_constrained(dof) &&
+         !spaces.bodies[b]->conformity.is_constrained(dof)));
+    return blocked;
+  }
+
+  void
+  SceneCouplings::check_constants(const unsigned int               i,
+                                  const std::vector<PartnerState> &states) const
+  {
+    const std::string name    = couplings[i].interface->name();
+    const auto       &rows    = couplings[i].multipliers->rows();
+    unsigned int      n_fixed = 0, n_covered = 0;
+    const bool  slides = couplings[i].directions == TiedDirections::normal;
+    std::string lost;
+    for (unsigned int s = 0; s < states.size(); ++s)
+      if (states[s].cover != Cover::none)
+        for (unsigned int c = 0; c < (slides ? 1 : dim); ++c)
+          {
+            ++n_covered;
+            if (rows[s].hold_constants[c])
+              continue;
+            ++n_fixed;
+            if (!states[s].can_follow[c] || !lost.empty())
+              continue;
+            std::ostringstream text;
+            text << "Interface " << name << ": nothing is tied "
+                 << (slides ? "along the normal" :
+                              std::string("in direction ") + "xyz"[c])
+                 << " at "
+                 << couplings[i]
+                      .interface->slave()
+                      .cells[s]
+                      ->face(couplings[i].interface->slave().face_numbers[s])
+                      ->center()
+                 << ", since other interfaces determine all displacements of "
+                    "the slave there; exchange slave and master";
+            lost = text.str();
+          }
+    if (slides)
+      if (const auto place =
+            find_sharp_edge(*spaces.bodies[interfaces[i].slave.body],
+                            couplings[i].interface->slave()))
+        {
+          std::ostringstream text;
+          text
+            << "Interface " << name << ": bodies slide across an edge of "
+            << side_text(run.parameters, interfaces[i].slave) << " at "
+            << *place
+            << ", where the surface has no normal: the edge ends within a smooth "
+               "patch. Make what lies on either side of it boundaries, and "
+               "interfaces, of their own, or refine a mesh that is too "
+               "coarse for a round surface";
+          lost = text.str();
+        }
+    throw_if_any(lost, run.comm);
+    n_fixed   = Utilities::MPI::sum(n_fixed, run.comm);
+    n_covered = Utilities::MPI::sum(n_covered, run.comm);
+    if (n_covered == 0)
+      run.log.warning("interface " + name +
+                      ": the surfaces hardly meet; nothing is tied");
+    else if (n_fixed == n_covered)
+      run.log.warning(
+        "interface " + name +
+        ": no multipliers are left, since every displacement of both "
+        "surfaces is prescribed; nothing is tied");
+  }
+
+  void
+  SceneCouplings::number_multipliers()
+  {
+    const auto          states = partner_states(couplings);
+    SharedDisplacements shared(couplings,
+                               states,
+                               spaces.fields.displacement.numbering,
+                               run.comm);
+    // supports of one boundary take nothing from each other
+    std::map<std::string, std::vector<bool>> taken_before;
+    for (const unsigned int i : shared.order())
+      {
+        const std::vector<bool> &taken =
+          interfaces[i].direction ?
+            taken_before
+              .try_emplace(interfaces[i].displacement_path, shared.taken())
+              .first->second :
+            shared.taken();
+        const SideParameters &slave    = interfaces[i].slave;
+        const Body           &body     = *spaces.bodies[slave.body];
+        Coupling             &coupling = couplings[i];
+        coupling.multipliers =
+          std::make_unique<MultiplierSpace>(body,
+                                            coupling.interface->slave(),
+                                            states[i],
+                                            blocked_dofs(slave.body, taken),
+                                            coupling.directions,
+                                            coupling.is_contact);
+        shared.take(i);
+      }
+    types::global_dof_index mine = 0, first = 0, total = 0;
+    for (const Coupling &coupling : couplings)
+      mine += coupling.multipliers->n_owned();
+    const auto counts = Utilities::MPI::all_gather(run.comm, mine);
+    for (unsigned int rank = 0; rank < counts.size(); ++rank)
+      {
+        if (rank < Utilities::MPI::this_mpi_process(run.comm))
+          first += counts[rank];
+        total += counts[rank];
+      }
+    owned = IndexSet(total);
+    owned.add_range(first, first + mine);
+    for (Coupling &coupling : couplings)
+      {
+        coupling.multipliers->number(coupling.interface->slave(), first);
+        first += coupling.multipliers->n_owned();
+      }
+  }
+
+  std::vector<TieSupport>
+  SceneCouplings::tie_supports() const
+  {
+    std::vector<TieSupport> ties;
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      {
+        const InterfaceReport &report = couplings[i].interface->report();
+        ties.push_back({couplings[i].interface->name(),
+                        interfaces[i].slave.body,
+                        interfaces[i].is_support ? TieSupport::ground :
+                                                   interfaces[i].master.body,
+                        multiplier_moments(couplings[i], owned, run.comm),
+                        report.covered_area / report.slave_area,
+                        couplings[i].directions,
+                        {},
+                        {}});
+        const BodySurface &slave = couplings[i].interface->slave();
+        for (unsigned int s = 0; s < slave.faces.size(); ++s)
+          {
+            const auto   face = slave.cells[s]->face(slave.face_numbers[s]);
+            const double area = couplings[i].interface->coverage()[s] *
+                                std::pow(slave.faces[s].size, 2);
+            for (const unsigned int v : face->vertex_indices())
+              ties.back().places.push_back(
+                {face->vertex(v),
+                 area,
+                 slave.direction.value_or(slave.faces[s].vertex_normals[v])});
+          }
+      }
+    return ties;
+  }
+
+  void
+  SceneCouplings::choose_multipliers()
+  {
+    number_multipliers();
+    std::vector<bool> tried(couplings.size(), false);
+    auto              ties = tie_supports();
+    auto              weak = weak_ties(spaces.bodies, spaces.dirichlet, ties);
+    for (unsigned int k = 0; k < weak.size();)
+      {
+        const unsigned int   i     = weak[k++];
+        InterfaceParameters &given = interfaces[i];
+        const auto          &master =
+          run.parameters.bodies[given.master.body].boundaries;
+        const auto is_prescribed = [&](const std::string &boundary) {
+          const auto side = master.find(boundary);
+          return side != master.end() && side->second.displacement;
+        };
+        if (tried[i] || is_patch(i) ||
+            std::any_of(given.master.boundaries.begin(),
+                        given.master.boundaries.end(),
+                        is_prescribed))
+          continue;
+        tried[i] = true;
+        std::swap(given.slave, given.master);
+        Coupling other =
+          make_coupling(given, given.name, faces_of(given, given.slave));
+        integrate(given, other);
+        std::swap(couplings[i], other);
+        number_multipliers();
+        const auto other_ties = tie_supports();
+        const auto still =
+          weak_ties(spaces.bodies, spaces.dirichlet, other_ties);
+        if (still.size() < weak.size())
+          {
+            run.log.line("  interface " + given.name +
+                         ": slave and master exchanged, since too few "
+                         "displacements of the slave are left for multipliers");
+            ties = other_ties;
+            weak = still;
+            k    = 0;
+          }
+        else
+          {
+            std::swap(given.slave, given.master);
+            std::swap(couplings[i], other);
+            number_multipliers();
+          }
+      }
+    const auto states = partner_states(couplings);
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      check_constants(i, states[i]);
+    for (unsigned int i = 0; i < couplings.size(); ++i)
+      if (interfaces[i].preload)
+        ties[i].released = mean_normal(ties[i], run.comm);
+    check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
+    if (have_contact())
+      supports = std::move(ties);
+  }
+
+  std::vector<TieSupport>
+  SceneCouplings::supports_of(const std::vector<bool> &active,
+                              const std::vector<bool> &is_preloaded) const
+  {
+    auto         ties  = supports;
+    unsigned int first = 0;
+    for (unsigned int i = 0; i < ties.size(); ++i)
+      {
+        TieSupport &tie = ties[i];
+        if (!is_preloaded[i])
+          tie.released.reset();
+        std::vector<MultiplierMoment> pressing;
+        for (unsigned int k = 0; k < tie.multipliers.size(); ++k)
+          if (active[first + k])
+            pressing.push_back(tie.multipliers[k]);
+        first += tie.multipliers.size();
+        tie.multipliers = std::move(pressing);
+      }
+    return ties;
+  }
+
+  void
+  SceneCouplings::check_held(const std::vector<bool> &active,
+                             const std::vector<bool> &is_preloaded) const
+  {
+    check_rigid_motions(spaces.bodies,
+                        spaces.dirichlet,
+                        supports_of(active, is_preloaded));
+  }
+
+  FreeMotions
+  SceneCouplings::free_motions(const std::vector<bool> &active,
+                               const std::vector<bool> &is_preloaded) const
+  {
+    return find_free_motions(spaces.bodies,
+                             spaces.dirichlet,
+                             supports_of(active, is_preloaded));
+  }
+
+  void
+  SceneCouplings::select(const std::vector<bool> &active)
+  {
+    for (Coupling &coupling : couplings)
+      select_multipliers(active, owned, run.comm, coupling);
+  }
+
+  std::string
+  SceneCouplings::count_by_name(
+    const std::vector<types::global_dof_index> &indices) const
+  {
+    std::vector<unsigned int> counts;
+    auto first = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+    for (const Coupling &coupling : couplings)
+      {
+        const auto end = first + coupling.multipliers->n_owned();
+        counts.push_back(
+          std::count_if(indices.begin(), indices.end(), [&](const auto k) {
+            return k >= first && k < end;
+          }));
+        first = end;
+      }
+    Utilities::MPI::sum(counts, run.comm, counts);
+    std::string names;
+    for (unsigned int i = 0; i < counts.size(); ++i)
+      if (counts[i] > 0)
+        names += (names.empty() ? "" : ", ") + couplings[i].interface->name() +
+                 " (" + std::to_string(counts[i]) + ")";
+    return names;
+  }
+} // namespace mortise

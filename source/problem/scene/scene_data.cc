@@ -1,0 +1,352 @@
+#include <mortise/base/error.h>
+#include <mortise/base/quotes.h>
+#include <mortise/base/rigid_motion.h>
+#include <mortise/operators/boundary_area.h>
+#include <mortise/problem/input/formulation.h>
+#include <mortise/problem/scene/scene_data.h>
+
+#include <algorithm>
+#include <array>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  std::vector<Material>
+  materials(const Parameters &parameters)
+  {
+    std::vector<Material> result;
+    for (const BodyParameters &body : parameters.bodies)
+      result.push_back(make_material(
+        body.material, is_mixed(body), [&](const std::string &name) {
+          return parameters.where("Body " + body.name + "/Material/" + name);
+        }));
+    return result;
+  }
+
+  namespace
+  {
+    /// One component of a given vector field: an expression, the exact
+    /// solution's, or free.
+    struct Component
+    {
+      Component(const std::string &text,
+                const std::string &where,
+                const double       time)
+        : exact(text == "exact")
+        , free(text == "-")
+        , expression(exact || free ? "0" : text, where, time)
+        , what(where + ": " + in_quotes(text))
+      {}
+
+      bool        exact, free;
+      Expression  expression;
+      std::string what; ///< for messages
+    };
+
+    std::vector<Component>
+    components(const Components  &texts,
+               const std::string &where,
+               const double       time)
+    {
+      std::vector<Component> result;
+      for (unsigned int c = 0; c < dim; ++c)
+        result.emplace_back(texts[c], where + ", component " + "xyz"[c], time);
+      return result;
+    }
+
+    /// At all times.
+    bool
+    all_zero(const std::vector<Component> &field)
+    {
+      return std::all_of(
+        field.begin(), field.end(), [](const Component &component) {
+          return !component.exact && component.expression.is_constant() &&
+                 !component.expression.depends_on_time() &&
+                 component.expression.value(Point<dim>()) == 0.;
+        });
+    }
+
+    /// Values of @p field at x, components that are "exact" from @p exact_value.
+    template <typename ExactValue>
+    Tensor<1, dim>
+    evaluate(const std::vector<Component> &field,
+             const Point<dim>             &x,
+             FieldChecks                  &checks,
+             const ExactValue             &exact_value)
+    {
+      Tensor<1, dim> value;
+      for (unsigned int c = 0; c < dim; ++c)
+        if (!field[c].exact)
+          value[c] = checks(field[c].expression.value(x), x, field[c].what);
+      if (field[0].exact || field[1].exact || field[2].exact)
+        {
+          const Tensor<1, dim> exact = exact_value(x);
+          for (unsigned int c = 0; c < dim; ++c)
+            if (field[c].exact)
+              value[c] = exact[c];
+        }
+      return value;
+    }
+
+    using VectorField = std::function<Tensor<1, dim>(const Point<dim> &)>;
+
+    /// @p factor times what evaluate() gives joins @p fields.
+    void
+    add_unless_zero(std::vector<VectorField>     &fields,
+                    const std::vector<Component> &field,
+                    FieldChecks                  &checks,
+                    const VectorField            &exact_value,
+                    const double                  factor = 1.)
+    {
+      if (!all_zero(field))
+        fields.push_back([=, &checks](const Point<dim> &x) {
+          return factor * evaluate(field, x, checks, exact_value);
+        });
+    }
+
+    /// A force or moment of a boundary; zero if it is not given.
+    Tensor<1, dim>
+    total(const std::optional<Components> &texts,
+          const std::string               &where,
+          const double                     time,
+          FieldChecks                     &checks)
+    {
+      Tensor<1, dim> value;
+      for (unsigned int c = 0; texts && c < dim; ++c)
+        value[c] =
+          checks(Expression((*texts)[c], where, time).value(Point<dim>()),
+                 Point<dim>(),
+                 where + ": " + in_quotes((*texts)[c]));
+      return value;
+    }
+  } // namespace
+
+  bool
+  anything_acts(const Parameters &parameters)
+  {
+    const double time      = parameters.steps.first_time();
+    const auto   is_vector = [&](const std::optional<Components> &given) {
+      return given && !all_zero(components(*given, "", time));
+    };
+    const auto is_number = [&](const std::optional<std::string> &given) {
+      return given && !all_zero({Component(*given, "", time)});
+    };
+    const auto has_loads = [&](const BodyParameters &body) {
+      return is_vector(body.body_force) || is_number(body.temperature) ||
+             (body.material.density > 0. && is_vector(parameters.gravity)) ||
+             std::any_of(body.boundaries.begin(),
+                         body.boundaries.end(),
+                         [&](const auto &entry) {
+                           const BoundaryParameters &given = entry.second;
+                           return is_number(given.pressure) ||
+                                  is_vector(given.traction) ||
+                                  is_vector(given.force) ||
+                                  is_vector(given.moment) ||
+                                  is_vector(given.displacement);
+                         });
+    };
+    const auto moves = [&](const InterfaceParameters &interface) {
+      return is_number(interface.offset) || is_number(interface.preload);
+    };
+    return parameters.exact_solution.kind == ExactKind::expressions ||
+           std::any_of(parameters.bodies.begin(),
+                       parameters.bodies.end(),
+                       has_loads) ||
+           std::any_of(parameters.interfaces.begin(),
+                       parameters.interfaces.end(),
+                       moves);
+  }
+
+  bool
+  have_real_gaps(const Parameters &parameters)
+  {
+    return std::any_of(parameters.interfaces.begin(),
+                       parameters.interfaces.end(),
+                       [](const InterfaceParameters &interface) {
+                         return interface.law == "contact" &&
+                                interface.mesh_gap == "real";
+                       });
+  }
+
+  Loads
+  SceneData::loads(const Body &body) const
+  {
+    FieldChecks          &watch = checks;
+    const auto            exact = solution;
+    const BodyParameters &given = parameters.bodies[body.index];
+    const std::string     path  = "Body " + body.name;
+    const unsigned int    b     = body.index;
+    Loads                 loads;
+    const auto            balance = [=](const Point<dim> &p) {
+      return exact->body_force(p, b);
+    };
+    if (!given.body_force &&
+        parameters.exact_solution.kind == ExactKind::expressions)
+      loads.body_force = balance;
+    else
+      {
+        std::vector<VectorField> forces;
+        if (given.body_force)
+          add_unless_zero(forces,
+                          components(*given.body_force,
+                                     parameters.where(path + "/Body force"),
+                                     time),
+                          watch,
+                          balance);
+        if (parameters.gravity && given.material.density > 0.)
+          add_unless_zero(forces,
+                          components(*parameters.gravity,
+                                     parameters.where("Gravity"),
+                                     time),
+                          watch,
+                          balance,
+                          given.material.density);
+        if (!forces.empty())
+          loads.body_force = [forces](const Point<dim> &x) {
+            Tensor<1, dim> sum;
+            for (const VectorField &force : forces)
+              sum += force(x);
+            return sum;
+          };
+      }
+
+    loads.thermal_strain = thermal_strain(given);
+
+    for (const auto &entry : given.boundaries)
+      {
+        const BoundaryParameters &boundary = entry.second;
+        const std::string         where    = path + "/Boundary " + entry.first;
+        const auto id = body.boundary_id(entry.first, parameters.where(where));
+        if (boundary.traction)
+          {
+            const auto field = components(*boundary.traction,
+                                          parameters.where(where + "/Traction"),
+                                          time);
+            if (!all_zero(field))
+              loads.tractions.push_back(
+                {id,
+                 [=, &watch](const Point<dim>     &x,
+                             const Tensor<1, dim> &normal) {
+                   return evaluate(field, x, watch, [&](const Point<dim> &p) {
+                     return exact->stress(p, b) * normal;
+                   });
+                 }});
+          }
+        if (boundary.force || boundary.moment)
+          {
+            const auto traction =
+              equivalent_traction(boundary_area(body, id),
+                                  total(boundary.force,
+                                        parameters.where(where + "/Force"),
+                                        time,
+                                        watch),
+                                  total(boundary.moment,
+                                        parameters.where(where + "/Moment"),
+                                        time,
+                                        watch));
+            loads.tractions.push_back(
+              {id, [traction](const Point<dim> &x, const Tensor<1, dim> &) {
+                 return traction(x);
+               }});
+          }
+        if (boundary.pressure && *boundary.pressure == "exact")
+          loads.tractions.push_back(
+            {id, [=](const Point<dim> &x, const Tensor<1, dim> &normal) {
+               return (normal * (exact->stress(x, b) * normal)) * normal;
+             }});
+        else if (boundary.pressure)
+          {
+            const std::string here = parameters.where(where + "/Pressure");
+            const Expression  pressure(*boundary.pressure, here, time);
+            const std::string what =
+              here + ": " + in_quotes(*boundary.pressure);
+            loads.tractions.push_back(
+              {id,
+               [=, &watch](const Point<dim> &x, const Tensor<1, dim> &normal) {
+                 return -watch(pressure.value(x), x, what) * normal;
+               }});
+          }
+      }
+    return loads;
+  }
+
+  std::function<double(const Point<dim> &)>
+  SceneData::thermal_strain(const BodyParameters &given) const
+  {
+    if (!given.temperature)
+      return {};
+    const std::string where =
+      parameters.where("Body " + given.name + "/Temperature");
+    const Expression  temperature(*given.temperature, where, time);
+    const std::string what = where + ": " + in_quotes(*given.temperature);
+    return [temperature,
+            what,
+            expansion = given.material.thermal_expansion,
+            &watch    = checks](const Point<dim> &x) {
+      return expansion * watch(temperature.value(x), x, what);
+    };
+  }
+
+  std::function<double(const Point<dim> &)>
+  SceneData::offset(const InterfaceParameters &given) const
+  {
+    const std::string where = parameters.where(
+      given.is_support ? given.displacement_path :
+                         "Interface " + given.name + "/Offset");
+    const Expression expression(given.offset, where, time);
+    if (expression.is_constant() && !expression.depends_on_time() &&
+        expression.value(Point<dim>()) == 0.)
+      return {};
+    const std::string what = where + ": " + in_quotes(given.offset);
+    return [expression, what, &watch = checks](const Point<dim> &x) {
+      return watch(expression.value(x), x, what);
+    };
+  }
+
+  std::optional<double>
+  SceneData::preload(const InterfaceParameters &given) const
+  {
+    if (!given.preload || time > given.preload_until.value_or(time))
+      return {};
+    const std::string where =
+      parameters.where("Interface " + given.name + "/Preload");
+    return checks(Expression(*given.preload, where, time).value(Point<dim>()),
+                  Point<dim>(),
+                  where + ": " + in_quotes(*given.preload));
+  }
+
+  std::vector<DirichletCondition>
+  SceneData::dirichlet(const Body &body) const
+  {
+    FieldChecks                    &watch = checks;
+    const auto                      exact = solution;
+    const unsigned int              b     = body.index;
+    std::vector<DirichletCondition> conditions;
+    for (const auto &entry : parameters.bodies[b].boundaries)
+      if (entry.second.displacement)
+        {
+          const std::string where =
+            "Body " + body.name + "/Boundary " + entry.first;
+          const auto field =
+            components(*entry.second.displacement,
+                       parameters.where(where + "/Displacement"),
+                       time);
+          DirichletCondition condition;
+          condition.boundary =
+            body.boundary_id(entry.first, parameters.where(where));
+          for (unsigned int c = 0; c < dim; ++c)
+            condition.fixed[c] = !field[c].free;
+          const Tensor<2, dim> axes =
+            RigidMotion(entry.second.displacement_axes, {}).rotation;
+          if (!all_zero(field))
+            condition.value = [=, &watch](const Point<dim> &x) {
+              return axes * evaluate(field, x, watch, [&](const Point<dim> &p) {
+                       return exact->displacement(p, b);
+                     });
+            };
+          conditions.push_back(condition);
+        }
+    return conditions;
+  }
+} // namespace mortise
