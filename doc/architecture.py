@@ -9,14 +9,14 @@ import re
 import sys
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
-ROOMS = ["base", "material", "body", "interface", "mortar", "contact", "operators", "solvers", "adapt", "output", "problem"]
+ROOMS = ["base", "material", "contact", "body", "interface", "mortar", "operators", "solvers", "adapt", "output", "problem"]
 HOLDS = {
     "base": "types, expressions, log, timers, errors",
     "material": "laws at a point, exact solutions",
     "body": "meshes, elements, spaces, conformity",
     "interface": "surfaces, search, projection, clipping",
     "mortar": "multipliers, D and M",
-    "contact": "what presses: active sets",
+    "contact": "laws of interfaces, active sets",
     "operators": "stiffness without a matrix, its levels, loads",
     "solvers": "linear solvers, preconditioners, Newton",
     "adapt": "errors of cells, smoothness, cut meshes",

@@ -2,7 +2,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/mortar/multiplier_space.h>
-#include <mortise/mortar/slave_normals.h>
+#include <mortise/mortar/slave_frames.h>
 
 #include <algorithm>
 #include <array>
@@ -139,6 +139,7 @@ namespace mortise
         const unsigned int n   = own.n_nodes();
         FaceRows           rows;
         rows.begin = {0};
+        rows.frames.assign(n, Frame(unit_symmetric_tensor<dim>()));
         for (unsigned int r = 0; r < dim * n; ++r)
           {
             rows.index.push_back(of_nodes.rows[s][r]);

@@ -38,7 +38,7 @@ namespace mortise
               for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
                 if (!representatives || !rows.is_represented[e])
                   for (unsigned int c = 0; c < dim; ++c)
-                    if (!rows.normals.empty() || c == r / n)
+                    if (direction[c] != 0.)
                       weights[c * n + k][rows.index[e]] +=
                         rows.weight[e] * direction[c];
             });

@@ -309,7 +309,6 @@ namespace mortise
   void
   add_offset(const Coupling                                  &coupling,
              const std::function<double(const Point<dim> &)> &offset,
-             const std::vector<std::vector<Tensor<1, dim>>>  &normals,
              Vector                                          &rhs)
   {
     const BodySurface &slave = coupling.interface->slave();
@@ -327,7 +326,7 @@ namespace mortise
           std::vector<Tensor<1, dim>> values;
           for (unsigned int k = 0; k < n; ++k)
             values.push_back(offset(face_point(slave.faces[s], nodes[k])) *
-                             normals[s][k]);
+                             coupling.frames[s][k][0]);
           for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
             {
               double along = 0.;

@@ -232,17 +232,16 @@ namespace mortise
         }
     }
 
-    /// The coefficients in N of what has @p values at nodes.
+    /// The coefficients in N of the field with the normals of @p frames at nodes.
     std::vector<Tensor<1, dim>>
-    in_functions(const std::vector<Tensor<1, dim>> &values,
-                 const FaceTrace                   &trace)
+    in_functions(const std::vector<Frame> &frames, const FaceTrace &trace)
     {
       const FullMatrix<double> &functions =
         face_nodal_basis(trace.shape, trace.degree).functions;
-      std::vector<Tensor<1, dim>> result(values.size());
-      for (unsigned int j = 0; j < values.size(); ++j)
-        for (unsigned int k = 0; k < values.size(); ++k)
-          result[j] += functions(j, k) * values[k];
+      std::vector<Tensor<1, dim>> result(frames.size());
+      for (unsigned int j = 0; j < frames.size(); ++j)
+        for (unsigned int k = 0; k < frames.size(); ++k)
+          result[j] += functions(j, k) * frames[k][0];
       return result;
     }
 
@@ -250,18 +249,18 @@ namespace mortise
     /// right
     /// on its covered part, @p moments being those of multipliers there.
     void
-    set_along_normals(const SurfaceFace                 &face,
-                      const FaceTrace                   &trace,
-                      const std::vector<Tensor<1, dim>> &normals,
-                      const NormalMoments               &moments,
-                      LocalCoupling                     &local)
+    set_along_normals(const SurfaceFace        &face,
+                      const FaceTrace          &trace,
+                      const std::vector<Frame> &frames,
+                      const NormalMoments      &moments,
+                      LocalCoupling            &local)
     {
       /// So much less is put right what lives on the rest of the face.
       constexpr double   share = 1e-9;
-      const unsigned int n     = normals.size();
+      const unsigned int n     = frames.size();
       local.along_normals      = projected_products<Tensor<1, dim>>(
         face, trace, [&](const dealii::Vector<double> &phi) {
-          return interpolated(normals, phi);
+          return interpolated(frames, phi);
         });
       FullMatrix<double> mass(n, n), inverse(n, n);
       local.constraint.mTmult(mass, local.multiplier);
@@ -309,19 +308,19 @@ namespace mortise
   } // namespace
 
   std::vector<LocalCoupling>
-  integrate_coupling(InterfaceHandler     &interface,
-                     const bool            with_master_mass,
-                     const MultiplierBasis basis,
-                     const bool            may_lead,
-                     const std::vector<std::vector<Tensor<1, dim>>> &normals)
+  integrate_coupling(InterfaceHandler                      &interface,
+                     const bool                             with_master_mass,
+                     const MultiplierBasis                  basis,
+                     const bool                             may_lead,
+                     const std::vector<std::vector<Frame>> &frames)
   {
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
     // empty where the normal does not turn
     std::vector<std::vector<Tensor<1, dim>>> turning(couplings.size());
     std::vector<NormalMoments>               normal_moments(couplings.size());
-    for (unsigned int s = 0; s < normals.size(); ++s)
-      if (are_unlike(normals[s]))
-        turning[s] = in_functions(normals[s], interface.slave().traces[s]);
+    for (unsigned int s = 0; s < frames.size(); ++s)
+      if (are_unlike(frames[s]))
+        turning[s] = in_functions(frames[s], interface.slave().traces[s]);
     FullMatrix<double> slave_values, master_values, weighted, places, moment;
 
     interface.visit_pairs([&](const unsigned int       s,
@@ -393,7 +392,7 @@ namespace mortise
           if (!turning[s].empty() && !couplings[s].is_dual())
             set_along_normals(interface.slave().faces[s],
                               interface.slave().traces[s],
-                              normals[s],
+                              frames[s],
                               normal_moments[s],
                               couplings[s]);
           set_leaders(interface, s, may_lead, couplings[s]);

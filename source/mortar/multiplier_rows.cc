@@ -308,12 +308,14 @@ namespace mortise
         result.by_face.push_back(
           rows_in_dofs(slave.traces[s].basis(),
                        {dofs[s].begin(), dofs[s].begin() + n_directions}));
+        FaceRows &rows = result.by_face.back();
+        rows.frames    = frames[s];
         if (n_directions == dim)
-          shared.compare(result.by_face[s]);
+          shared.compare(rows);
         else
           {
-            result.by_face[s].normals       = normals[s];
-            result.by_face[s].along_normals = along_normals[s];
+            rows.hold_constants.fill(rows.hold_constants[0]);
+            rows.along_normals = along_normals[s];
           }
       }
     shared.exchange();
@@ -329,9 +331,12 @@ namespace mortise
   }
 
   void
-  MultiplierSpace::number(const BodySurface &slave, const Index first)
+  MultiplierSpace::number(const BodySurface &slave,
+                          const Index        first,
+                          const unsigned int first_owned)
   {
     numbered     = make_rows(slave, first);
     first_number = first;
+    owned_range  = {first_owned, n_owned()};
   }
 } // namespace mortise

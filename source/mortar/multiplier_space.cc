@@ -1,10 +1,11 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/body/elements/cell_face.h>
+#include <mortise/mortar/coupling.h>
 #include <mortise/mortar/multiplier_faces.h>
 #include <mortise/mortar/multiplier_rules.h>
 #include <mortise/mortar/multiplier_space.h>
-#include <mortise/mortar/slave_normals.h>
+#include <mortise/mortar/slave_frames.h>
 #include <mortise/mortar/stranded_vertices.h>
 
 #include <algorithm>
@@ -212,28 +213,32 @@ namespace mortise
   } // namespace
 
   MultiplierSpace::MultiplierSpace(const Body                      &body,
-                                   const BodySurface               &slave,
+                                   const Coupling                  &coupling,
                                    const std::vector<PartnerState> &partners,
-                                   const std::vector<bool>         &blocked,
-                                   const TiedDirections             directions,
-                                   const bool presses_only)
+                                   const std::vector<bool>         &blocked)
     : body(body)
-    , n_directions(directions == TiedDirections::all ? dim : 1)
-    , presses_only(presses_only)
+    , frames(coupling.frames)
+    , n_directions(coupling.law.held == HeldDirections::all ? dim : 1)
+    , presses_only(coupling.law.is_one_sided())
   {
+    const BodySurface &slave = coupling.interface->slave();
     for (const PartnerState &partner : partners)
       {
         has_dual.push_back(partner.has_dual);
         along_normals.push_back(partner.along_normals);
       }
-    const bool slides = directions == TiedDirections::normal;
-    if (slides)
-      normals = slave_normals(body, slave);
-    const std::vector<MultiplierFace> faces = collect_multiplier_faces(
-      body,
-      slave,
-      partners,
-      slides ? blocked_normals(body, slave, normals, blocked) : blocked);
+    if (n_directions == dim)
+      for (auto &of_face : frames)
+        std::fill(of_face.begin(),
+                  of_face.end(),
+                  Frame(unit_symmetric_tensor<dim>()));
+    const std::vector<MultiplierFace> faces =
+      collect_multiplier_faces(body,
+                               slave,
+                               partners,
+                               n_directions == dim ?
+                                 blocked :
+                                 blocked_normals(body, slave, frames, blocked));
 
     MultiplierRecords      records;
     MultiplierPlaces       on_surface;

@@ -1,4 +1,5 @@
 // See normal_multipliers.h.
+#include <mortise/mortar/coupling.h>
 #include <mortise/mortar/normal_multipliers.h>
 
 #include "multiplier_sums.h"
@@ -39,9 +40,8 @@ namespace mortise
           const double          w) {
         const LocalCoupling &local = coupling.local[s];
         const FaceTrace     &trace = coupling.interface->slave().traces[s];
-        const double own = on_constants(local.constraint, i, trace.basis());
-        const double along =
-          direction * coupling.multipliers->rows()[s].normals[i];
+        const double own   = on_constants(local.constraint, i, trace.basis());
+        const double along = direction * coupling.frames[s][i][0];
         sums[area_sum](index) += w * own * along;
         sums[gap_sum](index) += w * (local.gap_moment[i] * direction);
         sums[stiffness_sum](index) += w * own * along * local.penalty;

@@ -99,7 +99,7 @@ namespace mortise
             find_free(coupling.interface->slave().traces[s]);
             for (const auto &partner : coupling.local[s].partners)
               find_free(coupling.interface->master_traces()[partner.master]);
-            if (coupling.directions == TiedDirections::normal)
+            if (coupling.law.held == HeldDirections::normal)
               state.can_follow = {{can_follow_normal(
                 coupling.interface->slave(), s, state.can_follow)}};
             all.back().push_back(state);

@@ -12,24 +12,18 @@ namespace mortise
   double
   largest_penetration(const Coupling          &coupling,
                       const TraceDisplacement &displacement,
-                      const GapOfSurfaces     &gap,
+                      const Offset            &offset,
                       const MPI_Comm           comm)
   {
     InterfaceHandler &interface = *coupling.interface;
-    DisplacementJump  jump_at(interface, displacement, comm);
+    InterfacePoints   point_at(interface, displacement, offset, comm);
     double            largest = 0.;
     interface.visit_pairs([&](const unsigned int       s,
                               const unsigned int       m,
                               const IntegrationPoints &points) {
-      jump_at.reinit(s);
+      point_at.reinit(s);
       for (unsigned int q = 0; q < points.size(); ++q)
-        {
-          const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
-          const auto     normal = face_normal(interface.slave().faces[s], xi);
-          largest =
-            std::max(largest,
-                     -gap.open(points, q, normal, jump_at(m, points, q)));
-        }
+        largest = std::max(largest, -coupling.law.gap(point_at(m, points, q)));
     });
     return Utilities::MPI::max(largest, comm);
   }

@@ -67,24 +67,22 @@ namespace mortise
 
   /// Does the face bend, by its normals at nodes, beyond rounding?
   inline bool
-  are_unlike(const std::vector<dealii::Tensor<1, 3>> &normals)
+  are_unlike(const std::vector<Frame> &frames)
   {
     constexpr double rounding = 1e-12;
-    return std::any_of(normals.begin(),
-                       normals.end(),
-                       [&](const dealii::Tensor<1, 3> &normal) {
-                         return (normal - normals[0]).norm() > rounding;
-                       });
+    return std::any_of(frames.begin(), frames.end(), [&](const Frame &frame) {
+      return (frame[0] - frames[0][0]).norm() > rounding;
+    });
   }
 
   /// That where nodal functions have the values @p phi, not of unit length.
   inline dealii::Tensor<1, 3>
-  interpolated(const std::vector<dealii::Tensor<1, 3>> &normals,
-               const dealii::Vector<double>            &phi)
+  interpolated(const std::vector<Frame>     &frames,
+               const dealii::Vector<double> &phi)
   {
     dealii::Tensor<1, 3> normal;
-    for (unsigned int k = 0; k < normals.size(); ++k)
-      normal += phi(k) * normals[k];
+    for (unsigned int k = 0; k < frames.size(); ++k)
+      normal += phi(k) * frames[k][0];
     return normal;
   }
 } // namespace mortise

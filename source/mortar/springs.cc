@@ -44,15 +44,17 @@ namespace mortise
     public:
       FaceCompliance(const Coupling &coupling, const unsigned int s)
         : local(coupling.local[s])
+        , frames(coupling.frames[s])
         , rows(coupling.multipliers->rows()[s])
+        , held(coupling.law.held)
       {
         std::vector<Roots> at_nodes(local.springs.begin(), local.springs.end());
         for (unsigned int k = 0; k < at_nodes.size(); ++k)
           roots.push_back(root_of_compliance(at_nodes[k].along,
                                              at_nodes[k].across,
-                                             local.spring_normals[k]));
-        if (!local.is_dual() && rows.normals.empty() &&
-            are_unlike(local.spring_normals))
+                                             frames[k][0]));
+        if (!local.is_dual() && held == HeldDirections::all &&
+            are_unlike(frames))
           set_turning(coupling.interface->slave(), s, at_nodes);
       }
 
@@ -99,7 +101,7 @@ namespace mortise
                 along += phi(k) * at_nodes[k].along;
                 across += phi(k) * at_nodes[k].across;
               }
-            const auto normal = interpolated(local.spring_normals, phi);
+            const auto normal = interpolated(frames, phi);
             return root_of_compliance(along, across, normal / normal.norm());
           });
         // the product of all with their masses, a side at a time
@@ -133,10 +135,10 @@ namespace mortise
           turning.empty() ? (local.is_dual() ? local.weights[i] : mass(i, j)) *
                               roots[i] * roots[j] :
                             turning[i * roots.size() + j];
-        if (!rows.normals.empty())
+        if (held == HeldDirections::normal)
           {
             FullMatrix<double> along(1, 1);
-            along(0, 0) = rows.normals[i] * (product * rows.normals[j]);
+            along(0, 0) = frames[i][0] * (product * frames[j][0]);
             return along;
           }
         FullMatrix<double> all(dim, dim);
@@ -147,7 +149,9 @@ namespace mortise
       }
 
       const LocalCoupling             &local;
+      const std::vector<Frame>        &frames;
       const MultiplierSpace::FaceRows &rows;
+      const HeldDirections             held;
       std::vector<Tensor<2, dim>>      roots; ///< by node
       /// Where the normal turns: int psi_i K^{-1} psi_j at i n + j; else empty.
       std::vector<Tensor<2, dim>> turning;
@@ -155,20 +159,17 @@ namespace mortise
   } // namespace
 
   void
-  set_springs(const std::function<Stiffness(const Point<dim> &)> &stiffness,
-              const std::vector<std::vector<Tensor<1, dim>>>     &normals,
-              Coupling                                           &coupling)
+  set_springs(Coupling &coupling)
   {
+    if (!coupling.law.is_compliant())
+      return;
     const BodySurface &slave = coupling.interface->slave();
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       if (!coupling.local[s].partners.empty())
-        {
-          LocalCoupling &local = coupling.local[s];
-          local.spring_normals = normals[s];
-          for (const Point<2> &xi :
-               face_nodes(slave.traces[s].shape, slave.traces[s].degree))
-            local.springs.push_back(stiffness(face_point(slave.faces[s], xi)));
-        }
+        for (const Point<2> &xi :
+             face_nodes(slave.traces[s].shape, slave.traces[s].degree))
+          coupling.local[s].springs.push_back(
+            coupling.law.stiffness(face_point(slave.faces[s], xi)));
   }
 
   void
@@ -197,30 +198,5 @@ namespace mortise
       assembler.add(row(), column(), block, 1., false);
     });
     assembler.create(compliance, partition.comm);
-  }
-
-  Stiffness
-  penalty_of(const Coupling &coupling, const unsigned int s, double penalty)
-  {
-    // the square of the share, since what is held in points alone hardly holds
-    // coarse functions: measured, see doc/active_sets.md
-    penalty *= std::pow(coupling.local[s].active_share, 2);
-    if (penalty == 0.)
-      return {0., 0.};
-    Stiffness   result{penalty,
-                     coupling.directions == TiedDirections::all ? penalty : 0.};
-    const auto &springs = coupling.local[s].springs;
-    if (springs.empty())
-      return result;
-    double normal = 0., tangential = 0.;
-    for (const Stiffness &spring : springs)
-      {
-        normal += spring.normal / springs.size();
-        tangential += spring.tangential / springs.size();
-      }
-    result.normal = 1. / (1. / penalty + 1. / normal);
-    result.tangential =
-      tangential > 0. ? 1. / (1. / penalty + 1. / tangential) : 0.;
-    return result;
   }
 } // namespace mortise

@@ -13,29 +13,6 @@ namespace mortise
 
   namespace
   {
-    Point<dim>
-    slave_point(const IntegrationPoints &points, const unsigned int q)
-    {
-      return {points.slave_x[0][q], points.slave_x[1][q], points.slave_x[2][q]};
-    }
-  } // namespace
-
-  double
-  GapOfSurfaces::open(const IntegrationPoints &points,
-                      const unsigned int       q,
-                      const Tensor<1, dim>    &normal,
-                      const Tensor<1, dim>    &jump) const
-  {
-    const Point<dim> position = slave_point(points, q);
-    Tensor<1, dim>   between  = jump;
-    if (of_meshes)
-      for (unsigned int c = 0; c < dim; ++c)
-        between[c] += points.master_x[c][q] - position[c];
-    return normal * between + (offset ? offset(position) : 0.);
-  }
-
-  namespace
-  {
     /// Of displacements with wave number @p k on a layer of this @p depth, free on its other side, by
     /// that of a half-space: it bends.
     double
@@ -114,41 +91,6 @@ namespace mortise
       return result;
     }
 
-    /// Per area, of contact. @p open: a length; @p pressure: positive if pressing; @p c: see violation_energies().
-    double
-    violation_of_contact(const double open,
-                         const double pressure,
-                         const double c)
-    {
-      const double of_gap      = c * open * open,
-                   of_pressure = pressure * pressure / c;
-      if (open > 0. && pressure > 0.)
-        return std::min(of_gap, of_pressure);
-      return (open < 0. ? of_gap : 0.) + (pressure < 0. ? of_pressure : 0.);
-    }
-
-    /// Per area, of a tie or a spring. @p open: along the normal; @p traction: on the master.
-    double
-    violation_of_spring(const double          open,
-                        const Tensor<1, dim> &jump,
-                        const Tensor<1, dim> &traction,
-                        const Tensor<1, dim> &normal,
-                        const Stiffness      &spring,
-                        const double          c)
-    {
-      const double pull   = normal * traction;
-      double       square = 0.;
-      if (spring.normal > 0.)
-        square +=
-          std::pow((open + pull / spring.normal) / (1. + c / spring.normal), 2);
-      if (spring.tangential > 0.)
-        square += (jump - (normal * jump) * normal +
-                   (traction - pull * normal) / spring.tangential)
-                    .norm_square() /
-                  std::pow(1. + c / spring.tangential, 2);
-      return c * square;
-    }
-
     /// From coefficients on a face with this @p trace.
     Tensor<1, dim>
     traction_at(const Point<2>            &xi,
@@ -198,11 +140,11 @@ namespace mortise
   violation_energies(const Coupling                         &coupling,
                      const TraceDisplacement                &displacement,
                      const std::vector<std::vector<double>> &tractions,
-                     const InterfaceLaw                     &law,
+                     const Offset                           &offset,
                      const MPI_Comm                          comm)
   {
     InterfaceHandler &interface = *coupling.interface;
-    DisplacementJump  jump_at(interface, displacement, comm);
+    InterfacePoints   point_at(interface, displacement, offset, comm);
     Violations        result;
     result.energies.resize(interface.slave().faces.size(), 0.);
     std::vector<Pressing> of_slaves(interface.slave().faces.size()),
@@ -219,50 +161,34 @@ namespace mortise
       const double       c     = stiffness_of_sides(face,
                                           slave,
                                           interface.master_traces()[m],
-                                          coupling.is_contact);
-      jump_at.reinit(s);
+                                          coupling.law.is_one_sided());
+      point_at.reinit(s);
       for (unsigned int q = 0; q < points.size(); ++q)
         {
-          const Point<2>       xi(points.slave_xi[0][q], points.slave_xi[1][q]);
-          const Tensor<1, dim> normal   = face_normal(face, xi),
-                               jump     = jump_at(m, points, q);
-          const Tensor<1, dim> traction = traction_at(xi, slave, tractions[s]);
-          const double         open     = law.gap.open(points, q, normal, jump);
-          double               of_point;
-          if (coupling.is_contact)
-            {
-              const double pressure = traction * normal;
-              for (Pressing *face : {&of_slaves[s], &of_masters[m]})
-                face->add(points.weight[q], pressure > c * open);
-              of_point = violation_of_contact(open, pressure, c);
-            }
-          else
-            {
-              Stiffness spring;
-              if (law.stiffness)
-                spring = law.stiffness(slave_point(points, q));
-              if (coupling.directions == TiedDirections::normal)
-                spring.tangential = 0.;
-              of_point =
-                violation_of_spring(open, jump, traction, normal, spring, c);
-            }
-          result.energies[s] += points.weight[q] * of_point;
+          const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
+          InterfacePoint point = point_at(m, points, q);
+          point.traction       = traction_at(xi, slave, tractions[s]);
+          if (coupling.law.is_one_sided())
+            for (Pressing *of : {&of_slaves[s], &of_masters[m]})
+              of->add(points.weight[q], coupling.law.presses(point, c));
+          result.energies[s] +=
+            points.weight[q] * coupling.law.violation(point, c);
           const auto     &rows = coupling.multipliers->rows()[s];
           TractionAtPoint at{xi,
-                             slave_point(points, q),
-                             normal,
-                             -traction,
+                             point.position,
+                             point.normal,
+                             -point.traction,
                              points.weight[q],
                              {}};
           for (unsigned int c = 0; c < dim; ++c)
-            at.is_known[c] = rows.hold_constants[rows.normals.empty() ? c : 0];
+            at.is_known[c] = rows.hold_constants[c];
           on_slaves[s].push_back(at);
           at.xi = Point<2>(points.master_eta[0][q], points.master_eta[1][q]);
           at.x  = {points.master_x[0][q],
                    points.master_x[1][q],
                    points.master_x[2][q]};
           at.normal   = face_normal(interface.master_faces()[m], at.xi);
-          at.traction = traction;
+          at.traction = point.traction;
           on_masters[m].push_back(at);
         }
     });

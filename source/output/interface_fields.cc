@@ -129,7 +129,7 @@ namespace mortise
         !coupling.local[s].partners.empty() &&
         cover_of(coupling.interface->coverage()[s], true) != Cover::none;
       std::vector<FaceField> fields{{"traction", dim, {}}};
-      if (coupling.is_contact)
+      if (coupling.law.is_one_sided())
         fields.insert(fields.end(),
                       {{"pressure", 1, {}}, {"gap", 1, {}}, {"status", 1, {}}});
       else
@@ -147,7 +147,7 @@ namespace mortise
            multiplier) // of which the slave bears the opposite
         fields[0].coefficients.push_back(-value);
       spread(fields[0]);
-      if (!coupling.is_contact)
+      if (!coupling.law.is_one_sided())
         {
           fields[1].coefficients = gap_coefficients(coupling, s);
           return fields;
@@ -208,8 +208,8 @@ namespace mortise
           fields_on_face(coupling,
                          s,
                          coefficients[s],
-                         coupling.is_contact ? contact[s] :
-                                               std::vector<double>());
+                         coupling.law.is_one_sided() ? contact[s] :
+                                                       std::vector<double>());
         fields.push_back(
           {"displacement", dim, displacement_on(surface, s, displacement)});
         if (piece.of_points.empty())

@@ -256,19 +256,21 @@ namespace mortise::testing
       Coupling &coupling = couplings[0];
       coupling.interface = std::make_unique<InterfaceHandler>(
         "glue", side(0), side(1), InterfaceOptions(), comm);
-      coupling.is_contact = presses_only;
-      coupling.directions =
-        presses_only ? TiedDirections::normal : TiedDirections::all;
-      coupling.local = integrate_coupling(*coupling.interface, true, basis);
-      states         = partner_states(couplings)[0];
+      if (presses_only)
+        coupling.law = {Law::contact, HeldDirections::normal};
+      coupling.frames = slave_frames(*bodies[0], coupling.interface->slave());
+      coupling.local  = integrate_coupling(*coupling.interface, true, basis);
+      states          = partner_states(couplings)[0];
 
       std::vector<bool> blocked;
       for (const auto dof : bodies[0]->dof_handler.locally_owned_dofs())
         blocked.push_back(constraints[0].is_constrained(dof) &&
                           !bodies[0]->conformity.is_constrained(dof));
       const BodySurface &slave = coupling.interface->slave();
-      coupling.multipliers     = std::make_unique<MultiplierSpace>(
-        *bodies[0], slave, states, blocked, coupling.directions, presses_only);
+      coupling.multipliers     = std::make_unique<MultiplierSpace>(*bodies[0],
+                                                               coupling,
+                                                               states,
+                                                               blocked);
       const auto counts =
         dealii::Utilities::MPI::all_gather(comm,
                                            coupling.multipliers->n_owned());

@@ -201,17 +201,15 @@ namespace mortise::testing
                                            surface(1, "zmin"),
                                            InterfaceOptions(),
                                            MPI_COMM_WORLD);
-      coupling.local = integrate_coupling(*coupling.interface, false, basis);
+      coupling.frames = slave_frames(*bodies[0], coupling.interface->slave());
+      coupling.local  = integrate_coupling(*coupling.interface, false, basis);
       std::vector<bool> blocked(bodies[0]->dof_handler.n_dofs(), false);
       if (reduced)
         for (unsigned int i = 0; i < blocked.size(); ++i)
           blocked[i] = open[0].is_constrained(i) &&
                        !bodies[0]->conformity.is_constrained(i);
-      coupling.multipliers =
-        std::make_unique<MultiplierSpace>(*bodies[0],
-                                          coupling.interface->slave(),
-                                          partner_states(couplings)[0],
-                                          blocked);
+      coupling.multipliers = std::make_unique<MultiplierSpace>(
+        *bodies[0], coupling, partner_states(couplings)[0], blocked);
       coupling.multipliers->number(coupling.interface->slave(), 0);
       const auto rows =
         dealii::complete_index_set(coupling.multipliers->n_owned());

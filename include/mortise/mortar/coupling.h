@@ -9,6 +9,7 @@
 #include <mortise/mortar/coupling_matrix.h>
 #include <mortise/mortar/local_coupling.h>
 #include <mortise/mortar/multiplier_space.h>
+#include <mortise/mortar/normal_multipliers.h>
 
 #include <functional>
 #include <memory>
@@ -19,12 +20,13 @@ namespace mortise
   /// One interface with everything that was integrated over it.
   struct Coupling
   {
+    InterfaceLaw                      law;
     std::unique_ptr<InterfaceHandler> interface;
-    std::vector<LocalCoupling>        local; ///< by slave face
-    TiedDirections                    directions = TiedDirections::all;
-    bool                              is_spring  = false;
-    bool                              is_contact = false; ///< it never pulls
+    std::vector<std::vector<Frame>>   frames; ///< see slave_frames()
+    std::vector<LocalCoupling>        local;  ///< by slave face
     std::unique_ptr<MultiplierSpace>  multipliers;
+    /// By owned multiplier, of contact; else empty.
+    std::vector<NormalMultiplier> normal_multipliers;
   };
 
   /// By coupling and slave face; after the integration of all that share a
@@ -56,13 +58,10 @@ namespace mortise
                    const CouplingPartition     &partition,
                    bool                         with_frames);
 
-  /// Set what interface @p coupling is as a spring from @p stiffness at points of the slave.
-  /// @p normals: slave_normals().
+  /// Set the stiffness of the law of @p coupling at the nodes of slave faces,
+  /// where it is compliant.
   void
-  set_springs(
-    const std::function<Stiffness(const dealii::Point<dim> &)> &stiffness,
-    const std::vector<std::vector<dealii::Tensor<1, dim>>>     &normals,
-    Coupling                                                   &coupling);
+  set_springs(Coupling &coupling);
 
   /// C with B u - C lambda = g: int psi K^{-1} psi of springs, K their
   /// stiffness; lumped where multipliers are dual, which is as good as these
@@ -71,11 +70,6 @@ namespace mortise
   assemble_compliance(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition,
                       SparseMatrix                &compliance);
-
-  /// The penalties along normals and across them, where @p penalty is that of a
-  /// tie: less where a spring gives way.
-  Stiffness
-  penalty_of(const Coupling &coupling, unsigned int s, double penalty);
 
   /// Set which multipliers take part, for what preconditioners see of it. @p active: by owned
   /// multiplier. Collective.
@@ -157,13 +151,11 @@ namespace mortise
 
   /// Add int psi . n offset to the right hand side of B u = g: the gap that is
   /// left between the bodies, on top of that between their meshes. @p offset: at
-  /// points of the slave, a length; @p normals: slave_normals(). The caller
-  /// compresses (add).
+  /// points of the slave, a length. The caller compresses (add).
   void
   add_offset(
     const Coupling                                                  &coupling,
     const std::function<double(const dealii::Point<dim> &position)> &offset,
-    const std::vector<std::vector<dealii::Tensor<1, dim>>>          &normals,
     Vector                                                          &rhs);
 
   /// What undoes multiplier_coefficients(). The caller compresses (insert).

@@ -13,9 +13,10 @@
 
 #include <deal.II/lac/full_matrix.h>
 
+#include <mortise/contact/interface_law.h>
 #include <mortise/interface/interface_handler.h>
+#include <mortise/mortar/slave_frames.h>
 
-#include <limits>
 #include <vector>
 
 namespace mortise
@@ -24,14 +25,6 @@ namespace mortise
   {
     standard,
     dual
-  };
-
-  /// Of a thin layer: traction by opening, along its normal and across, force
-  /// per volume. Infinite where nothing opens.
-  struct Stiffness
-  {
-    double normal     = std::numeric_limits<double>::infinity();
-    double tangential = std::numeric_limits<double>::infinity();
   };
 
   /// Integrals over the covered part of one slave face. Functions N are those
@@ -62,7 +55,6 @@ namespace mortise
     std::vector<dealii::Tensor<1, dim>> position_moment; ///< int psi_i x_slave
     std::vector<Partner>                partners;
     std::vector<Stiffness>              springs; ///< by node; empty: a tie
-    std::vector<dealii::Tensor<1, dim>> spring_normals; ///< likewise
     /// Standard multipliers that stand for pressures, where the normal turns:
     /// the traction of psi_k at node i of n, at k n + i; else empty, and it is
     /// the normal at node k there. It is psi_k n, n interpolated from the
@@ -85,13 +77,12 @@ namespace mortise
   };
 
   /// Clip @p interface and integrate; one entry per slave face. @p may_lead: let slaves follow
-  /// where that pays. @p normals: slave_normals() where multipliers are pressures,
+  /// where that pays. @p frames: slave_frames() where multipliers are along normals,
   /// else empty. Collective.
   std::vector<LocalCoupling>
-  integrate_coupling(
-    InterfaceHandler                                       &interface,
-    bool                                                    with_master_mass,
-    MultiplierBasis                                         basis,
-    bool                                                    may_lead = true,
-    const std::vector<std::vector<dealii::Tensor<1, dim>>> &normals  = {});
+  integrate_coupling(InterfaceHandler                      &interface,
+                     bool                                   with_master_mass,
+                     MultiplierBasis                        basis,
+                     bool                                   may_lead = true,
+                     const std::vector<std::vector<Frame>> &frames   = {});
 } // namespace mortise

@@ -26,6 +26,7 @@
 #include <mortise/interface/body_surface.h>
 #include <mortise/mortar/coupling_matrix.h>
 #include <mortise/mortar/multiplier_faces.h>
+#include <mortise/mortar/slave_frames.h>
 
 #include <array>
 #include <tuple>
@@ -34,12 +35,19 @@
 
 namespace mortise
 {
-  /// What multipliers hold together: all components of displacements, or those
-  /// along the normal of the slave, where bodies slide.
-  enum class TiedDirections : unsigned char
+  struct Coupling;
+
+  /// The multipliers of one coupling among those that this rank owns of all
+  /// couplings.
+  struct MultiplierRange
   {
-    all,
-    normal
+    unsigned int first = 0, size = 0;
+
+    unsigned int
+    end() const
+    {
+      return first + size;
+    }
   };
 
   class MultiplierSpace
@@ -59,8 +67,8 @@ namespace mortise
     /// lambda_index_j with row = c (degree + 1)^2 + k, k the nodes of the face,
     /// psi as in LocalCoupling. Most nodes have a multiplier of their own.
     /// Along normals, value_c(xi) = sum_i psi_i(xi) sum_k directions_ki,c sum_j
-    /// weight_j lambda_index_j with row = k: the normal at node k, where k = i,
-    /// or along_normals.
+    /// weight_j lambda_index_j with row = k: the normal of the frame of node k,
+    /// where k = i, or along_normals.
     struct FaceRows
     {
       std::vector<unsigned int> begin;
@@ -71,12 +79,12 @@ namespace mortise
       std::vector<bool> is_represented;
       /// Those that are no value at a node, but a coefficient.
       std::vector<Coefficient> coefficients;
-      /// By component, that along the normal being the first: is there a
-      /// multiplier that is one on the whole face? If not, constant tractions
-      /// do not pass.
+      /// By component, the same for all along normals: is there a multiplier
+      /// that is one on the whole face? If not, constant tractions do not pass.
       std::array<bool, dim> hold_constants{};
-      /// Of nodes, where bodies slide; else empty.
-      std::vector<dealii::Tensor<1, dim>> normals;
+      /// By node: the directions of its multipliers, in rows, those of the
+      /// axes where all components are held.
+      std::vector<Frame> frames;
       /// See LocalCoupling.
       std::vector<dealii::Tensor<1, dim>> along_normals;
 
@@ -90,35 +98,27 @@ namespace mortise
         if (!along_normals.empty())
           for (unsigned int i = 0; i < n; ++i)
             visit(i, along_normals[row * n + i]);
-        else if (!normals.empty())
-          visit(row, normals[row]);
         else
-          {
-            dealii::Tensor<1, dim> component;
-            component[row / n] = 1.;
-            visit(row % n, component);
-          }
+          visit(row % n, frames[row % n][row / n]);
       }
 
       unsigned int
       n_nodes() const
       {
-        return normals.empty() ? (begin.size() - 1) / dim : normals.size();
+        return frames.size();
       }
     };
 
-    /// Decide which multipliers there are. @p blocked: whether a locally owned displacement dof
-    /// (position in the owned range) is prescribed by a boundary condition or
-    /// belongs to an
-    /// earlier interface. @p partners: by face of @p slave. @p presses_only: multipliers
-    /// have the sign of the pressure: values at nodes where they are dual, else
-    /// Bernstein coefficients of the same polynomials. Collective.
+    /// Decide which multipliers @p coupling has, whose slave is a boundary of @p body. @p partners: by slave
+    /// face. @p blocked: whether a locally owned displacement dof (position in
+    /// the owned range) is prescribed by a boundary condition or belongs to an
+    /// earlier interface. Where the law is one-sided, multipliers have the sign
+    /// of the pressure: values at nodes where they are dual, else Bernstein
+    /// coefficients of the same polynomials. Collective.
     MultiplierSpace(const Body                      &body,
-                    const BodySurface               &slave,
+                    const Coupling                  &coupling,
                     const std::vector<PartnerState> &partners,
-                    const std::vector<bool>         &blocked,
-                    TiedDirections directions   = TiedDirections::all,
-                    bool           presses_only = false);
+                    const std::vector<bool>         &blocked);
 
     /// Multipliers owned by this rank.
     unsigned int
@@ -142,10 +142,17 @@ namespace mortise
       return owned_dofs;
     }
 
+    /// Those of this rank; valid after number().
+    const MultiplierRange &
+    range() const
+    {
+      return owned_range;
+    }
+
     /// Number the owned multipliers from @p first on and collect the rows of this rank's slave
-    /// faces. Collective.
+    /// faces. @p first_owned: the number that this rank owns of couplings before. Collective.
     void
-    number(const BodySurface &slave, Index first);
+    number(const BodySurface &slave, Index first, unsigned int first_owned = 0);
 
     struct Rows
     {
@@ -192,9 +199,9 @@ namespace mortise
     Rows
     make_rows(const BodySurface &slave, Index first) const;
 
-    const Body                                      &body;
-    std::vector<std::vector<dealii::Tensor<1, dim>>> normals; ///< by face
-    unsigned int      n_directions; ///< dim, or 1: along the normals
+    const Body                     &body;
+    std::vector<std::vector<Frame>> frames; ///< by face, see FaceRows
+    unsigned int      n_directions;         ///< dim, or 1: along the normals
     bool              presses_only;
     std::vector<bool> has_dual;                                     ///< by face
     std::vector<std::vector<dealii::Tensor<1, dim>>> along_normals; ///< by face
@@ -204,8 +211,9 @@ namespace mortise
     /// component.
     std::vector<std::pair<Index, unsigned int>> places;
     dealii::AffineConstraints<double>
-          reduction; ///< in the body's numbering; closed
-    Rows  numbered;
-    Index first_number = 0;
+                    reduction; ///< in the body's numbering; closed
+    Rows            numbered;
+    Index           first_number = 0;
+    MultiplierRange owned_range;
   };
 } // namespace mortise

@@ -2,12 +2,19 @@
 // which signs and results of contact follow.
 #pragma once
 
-#include <mortise/mortar/coupling.h>
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <mortise/base/types.h>
+#include <mpi.h>
 
 #include <vector>
 
 namespace mortise
 {
+  struct Coupling;
+
   /// One multiplier: the pressure at a node of the slave, or a coefficient of
   /// it that has its sign.
   struct NormalMultiplier

@@ -1,7 +1,7 @@
 // How deep bodies are inside each other between the nodes of their contact.
 #pragma once
 
-#include <mortise/mortar/violation.h>
+#include <mortise/mortar/interface_points.h>
 
 namespace mortise
 {
@@ -11,6 +11,6 @@ namespace mortise
   double
   largest_penetration(const Coupling          &coupling,
                       const TraceDisplacement &displacement,
-                      const GapOfSurfaces     &gap,
+                      const Offset            &offset,
                       MPI_Comm                 comm);
 } // namespace mortise

@@ -214,7 +214,7 @@ namespace mortise
           return;
         const auto share_of = [&](const LocalCoupling::Partner &partner,
                                   const unsigned int            c) {
-          return coupling.directions == TiedDirections::all ?
+          return coupling.law.held == HeldDirections::all ?
                    1. :
                    std::pow(coupling.interface->master_faces()[partner.master]
                               .frame.normal[c],

@@ -31,7 +31,12 @@ namespace mortise
               const unsigned int s,
               const double       of_tie) const
       {
-        const Stiffness result = penalty_of(coupling, s, of_tie);
+        const LocalCoupling &local = coupling.local[s];
+        // the square of the share, since what is held in points alone hardly
+        // holds coarse functions: doc/measurements/active_sets.md
+        const Stiffness result =
+          coupling.law.penalty(of_tie * std::pow(local.active_share, 2),
+                               local.springs);
         return along_normals ? result.normal - result.tangential :
                                result.tangential;
       }
@@ -309,9 +314,9 @@ namespace mortise
       {
         Couplings of_kind{along_normals, {}};
         for (const Coupling &coupling : couplings)
-          if (along_normals ? coupling.is_spring ||
-                                coupling.directions == TiedDirections::normal :
-                              coupling.directions == TiedDirections::all)
+          if (along_normals ? coupling.law.is_compliant() ||
+                                coupling.law.held == HeldDirections::normal :
+                              coupling.law.held == HeldDirections::all)
             of_kind.all.push_back(&coupling);
         if (!along_normals && !of_kind.all.empty())
           penalties.push_back(make_penalty(level, number, of_kind));

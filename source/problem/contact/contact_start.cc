@@ -29,7 +29,7 @@ namespace mortise
     {
       unsigned int n = 0;
       for (const InterfaceParameters &interface : run.parameters.interfaces)
-        if (interface.law == "contact")
+        if (interface.law == Law::contact)
           {
             const unsigned int degree =
               run.parameters.bodies[interface.slave.body].degree;

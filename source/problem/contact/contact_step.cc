@@ -55,15 +55,29 @@ namespace mortise
       const auto      &all = discretisation.interfaces().all();
       for (unsigned int i = 0; i < all.size(); ++i)
         {
-          const auto &pressing = discretisation.pressing()[i];
-          for (unsigned int k = 0; k < all[i].multipliers->n_owned(); ++k)
+          for (const NormalMultiplier &multiplier : all[i].normal_multipliers)
             {
-              places.surfaces.push_back(pressing.empty() ? 0 : 1 + i);
-              places.points.push_back(pressing.empty() ? Point<dim>() :
-                                                         pressing[k].place);
+              places.surfaces.push_back(1 + i);
+              places.points.push_back(multiplier.place);
             }
+          places.surfaces.resize(all[i].multipliers->range().end(), 0);
+          places.points.resize(places.surfaces.size());
         }
       return places;
+    }
+
+    /// By owned multiplier: NormalMultiplier::stiffness, or zero.
+    std::vector<double>
+    gap_stiffness(const Discretisation &discretisation)
+    {
+      std::vector<double> result;
+      for (const Coupling &coupling : discretisation.interfaces().all())
+        {
+          for (const NormalMultiplier &multiplier : coupling.normal_multipliers)
+            result.push_back(multiplier.stiffness);
+          result.resize(coupling.multipliers->range().end(), 0.);
+        }
+      return result;
     }
   } // namespace
 
@@ -77,7 +91,7 @@ namespace mortise
     , solver(solver)
     , preloads(preloads)
     , set(discretisation.one_sided(),
-          discretisation.gap_stiffness(),
+          gap_stiffness(discretisation),
           first_multiplier(discretisation.linear_system()),
           run.comm)
     , places(multiplier_places(discretisation))
@@ -156,8 +170,8 @@ namespace mortise
           add_scaled(x, 1., increments.start(rhs, *residual));
       }
     double area = 0.;
-    for (const auto &multipliers : discretisation.pressing())
-      for (const NormalMultiplier &multiplier : multipliers)
+    for (const Coupling &coupling : discretisation.interfaces().all())
+      for (const NormalMultiplier &multiplier : coupling.normal_multipliers)
         area += multiplier.area;
     // what rounding leaves between meshes that touch is closed
     const double closed =

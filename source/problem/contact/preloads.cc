@@ -3,7 +3,6 @@
 #include <deal.II/lac/full_matrix.h>
 
 #include <mortise/base/error.h>
-#include <mortise/mortar/slave_normals.h>
 #include <mortise/problem/contact/preloads.h>
 
 #include <algorithm>
@@ -38,15 +37,12 @@ namespace mortise
           given.preload)
         {
           const Coupling &coupling = couplings.all()[i];
-          const auto      normals =
-            slave_normals(*discretisation.bodies()[given.slave.body],
-                          coupling.interface->slave());
-          Tensor<1, dim> sum;
-          double         number = 0.;
-          for (const auto &of_face : normals)
-            for (const Tensor<1, dim> &normal : of_face)
+          Tensor<1, dim>  sum;
+          double          number = 0.;
+          for (const auto &of_face : coupling.frames)
+            for (const Frame &frame : of_face)
               {
-                sum += normal;
+                sum += frame[0];
                 number += 1.;
               }
           const auto n_patches =
@@ -72,7 +68,7 @@ namespace mortise
           units.push_back({discretisation.linear_system().zero_vector(), {}});
           Vector &w = units.back().rhs.multiplier;
           add_offset(
-            coupling, [](const Point<dim> &) { return 1.; }, normals, w);
+            coupling, [](const Point<dim> &) { return 1.; }, w);
           w.compress(VectorOperation::add);
         }
     values.resize(indices.size(), 0.);

@@ -11,51 +11,54 @@ namespace mortise
 {
   using namespace dealii;
 
-  std::function<Stiffness(const Point<dim> &)>
-  spring_stiffness(const Parameters          &parameters,
-                   const InterfaceParameters &interface)
+  namespace
   {
-    if (!interface.normal_stiffness || !interface.tangential_stiffness)
-      return {};
-    const auto evaluator = [&](const std::string &name,
-                               const std::string &text) {
-      const std::string where =
-        parameters.where("Interface " + interface.name + "/" + name);
-      return [expression = Expression(text, where), where, text](
-               const Point<dim> &x) {
-        const double value = expression.value(x);
-        if (!(value > 0. && value <= largest_number) &&
-            !(value == 0. && expression.is_constant()))
-          {
-            std::ostringstream message;
-            message << where << ": got " << in_quotes(text) << ", which is "
-                    << value << " at " << x << "; allowed: positive values";
-            throw InputError(message.str());
-          }
-        return value;
-      };
-    };
-    return [normal = evaluator("Normal stiffness", *interface.normal_stiffness),
-            tangential =
-              evaluator("Tangential stiffness",
-                        *interface.tangential_stiffness)](const Point<dim> &x) {
-      return Stiffness{normal(x), tangential(x)};
-    };
-  }
+    std::function<double(const Point<3> &)>
+    positive_stiffness(const std::string &where, const std::string &text)
+    {
+      return
+        [expression = Expression(text, where), where, text](const Point<3> &x) {
+          const double value = expression.value(x);
+          if (!(value > 0. && value <= largest_number) &&
+              !(value == 0. && expression.is_constant()))
+            {
+              std::ostringstream message;
+              message << where << ": got " << in_quotes(text) << ", which is "
+                      << value << " at " << x << "; allowed: positive values";
+              throw InputError(message.str());
+            }
+          return value;
+        };
+    }
+  } // namespace
 
-  TiedDirections
-  tied_directions(const Parameters          &parameters,
-                  const InterfaceParameters &interface)
+  InterfaceLaw
+  interface_law(const Parameters          &parameters,
+                const InterfaceParameters &interface)
   {
-    if (interface.law == "slide" || interface.law == "contact")
-      return TiedDirections::normal;
-    if (!interface.tangential_stiffness)
-      return TiedDirections::all;
-    const Expression tangential(*interface.tangential_stiffness,
-                                parameters.where("Interface " + interface.name +
-                                                 "/Tangential stiffness"));
-    return tangential.is_constant() && tangential.value(Point<dim>()) == 0. ?
-             TiedDirections::normal :
-             TiedDirections::all;
+    InterfaceLaw law;
+    law.law = interface.law;
+    if (interface.law == Law::slide || interface.law == Law::contact)
+      law.held = HeldDirections::normal;
+    law.has_mesh_gap =
+      interface.law == Law::contact && !interface.ignores_mesh_gap;
+    if (interface.law != Law::spring)
+      return law;
+    const auto where = [&](const std::string &name) {
+      return parameters.where("Interface " + interface.name + "/" + name);
+    };
+    const std::string across = where("Tangential stiffness");
+    law.stiffness =
+      [normal = positive_stiffness(where("Normal stiffness"),
+                                   *interface.normal_stiffness),
+       tangential =
+         positive_stiffness(across, *interface.tangential_stiffness)](
+        const Point<3> &x) {
+        return Stiffness{normal(x), tangential(x)};
+      };
+    const Expression tangential(*interface.tangential_stiffness, across);
+    if (tangential.is_constant() && tangential.value(Point<3>()) == 0.)
+      law.held = HeldDirections::normal;
+    return law;
   }
 } // namespace mortise

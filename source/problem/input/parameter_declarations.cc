@@ -81,7 +81,7 @@ namespace mortise
         interface.law,
         "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
         "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those within Search distance at the start. spring: a thin layer or glue of the stiffnesses below.",
-        Allowed::one_of({"tie", "slide", "contact", "spring"}));
+        Allowed::one_of(interface_law_names()));
       section.add(
         "Normal stiffness",
         interface.normal_stiffness,
@@ -113,7 +113,7 @@ namespace mortise
         {"a number"});
       section.add(
         "Mesh gap",
-        interface.mesh_gap,
+        interface.ignores_mesh_gap,
         "Law = contact: what lies between the meshes, or how far they overlap. real: a gap or an "
         "interference; ignored: they stand for surfaces that coincide, as facets of different size on one "
         "circle do. Offset comes on top of it.",

@@ -38,13 +38,14 @@ namespace mortise
                     const std::optional<std::string> &stiffness,
                     const bool                        may_be_zero)
     {
-      if (!stiffness && interface.law == "spring")
+      if (!stiffness && interface.law == Law::spring)
         parameters.fail(path,
                         "nothing with Law = spring",
                         "an expression in x, y, z");
-      if (stiffness && interface.law != "spring")
+      if (stiffness && interface.law != Law::spring)
         parameters.fail(path,
-                        in_quotes(*stiffness) + " with Law = " + interface.law,
+                        in_quotes(*stiffness) +
+                          " with Law = " + name_of(interface.law),
                         "nothing: only Law = spring has stiffnesses");
       if (!stiffness)
         return;
@@ -80,10 +81,10 @@ namespace mortise
                             "none");
           return;
         }
-      if (interface.law != "tie")
+      if (interface.law != Law::tie)
         parameters.fail(path,
                         in_quotes(*interface.preload) +
-                          " with Law = " + interface.law,
+                          " with Law = " + name_of(interface.law),
                         "nothing: only Law = tie has a preload");
       check_number(parameters, path, *interface.preload);
     }

@@ -40,7 +40,7 @@ namespace mortise
       result.name       = support_name(parameters, body, boundary);
       result.slave      = {b, {boundary}};
       result.master     = result.slave;
-      result.law        = "slide";
+      result.law        = Law::slide;
       result.offset     = displacement;
       result.is_support = true;
       result.displacement_path =

@@ -56,23 +56,21 @@ namespace mortise
       Vector        status; ///< one where it presses, else zero
     };
 
-    /// @p first: of its multipliers, among the owned ones.
     ContactSummary
-    contact_summary(const Coupling                      &coupling,
-                    const std::vector<NormalMultiplier> &multipliers,
-                    const unsigned int                   first,
-                    const ContactState                  &state,
-                    const std::vector<bool>             &undecided,
-                    const RunContext                    &run)
+    contact_summary(const Coupling          &coupling,
+                    const ContactState      &state,
+                    const std::vector<bool> &undecided,
+                    const RunContext        &run)
     {
-      const MPI_Comm comm  = run.comm;
-      const auto    &about = run.parameters.output.moments_about;
-      ContactSummary result;
-      Tensor<1, dim> force, moment;
-      double         work = 0., least = std::numeric_limits<double>::max();
-      for (unsigned int k = 0; k < multipliers.size(); ++k)
+      const MPI_Comm     comm  = run.comm;
+      const auto        &about = run.parameters.output.moments_about;
+      const unsigned int first = coupling.multipliers->range().first;
+      ContactSummary     result;
+      Tensor<1, dim>     force, moment;
+      double             work = 0., least = std::numeric_limits<double>::max();
+      for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
         {
-          const NormalMultiplier &of     = multipliers[k];
+          const NormalMultiplier &of     = coupling.normal_multipliers[k];
           const bool              active = state.status.begin()[first + k] > 0.;
           const double            pressure = state.pressure.begin()[first + k];
           least = std::min(least, state.gap.begin()[first + k]);
@@ -201,30 +199,20 @@ namespace mortise
     const ContactState      state(discretisation, solved);
     const TraceDisplacement displacement =
       discretisation.trace_displacement(solved.load, fields.solutions);
-    unsigned int first = 0;
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       {
-        if (interfaces[i].is_contact)
+        if (interfaces[i].law.is_one_sided())
           {
             const double moved =
               relative_motion(run, discretisation, i, fields);
             check_partners(run, discretisation, i, moved);
             ContactSummary contact =
-              contact_summary(interfaces[i],
-                              discretisation.pressing()[i],
-                              first,
-                              state,
-                              solved.undecided,
-                              run);
+              contact_summary(interfaces[i], state, solved.undecided, run);
             const InterfaceParameters &given =
               discretisation.interfaces().sides()[i];
-            contact.motion_max = moved;
-            contact.penetration_max =
-              largest_penetration(interfaces[i],
-                                  displacement,
-                                  {solved.data.offset(given),
-                                   given.mesh_gap == "real"},
-                                  run.comm);
+            contact.motion_max      = moved;
+            contact.penetration_max = largest_penetration(
+              interfaces[i], displacement, solved.data.offset(given), run.comm);
             if (contact.undecided > 0)
               run.log.warning(
                 "interface " + given.name + ": at " +
@@ -245,7 +233,6 @@ namespace mortise
                 "slave, which finer ones would see");
             summary.interfaces[i].contact = contact;
           }
-        first += interfaces[i].multipliers->n_owned();
       }
   }
 
@@ -259,7 +246,7 @@ namespace mortise
     for (const Coupling &coupling : discretisation.interfaces().all())
       {
         auto &by_face = result.emplace_back();
-        if (!coupling.is_contact)
+        if (!coupling.law.is_one_sided())
           continue;
         const auto &traces = coupling.interface->slave().traces;
         by_face.resize(traces.size());

@@ -41,17 +41,11 @@ namespace mortise
           const Vector         &multiplier,
           const unsigned int    i)
   {
-    Vector       result(multiplier);
-    unsigned int k = 0, j = 0;
-    for (const Coupling &coupling : discretisation.interfaces().all())
-      {
-        for (const unsigned int end = k + coupling.multipliers->n_owned();
-             k < end;
-             ++k)
-          if (j != i)
-            result.begin()[k] = 0.;
-        ++j;
-      }
+    const MultiplierRange &range =
+      discretisation.interfaces().all()[i].multipliers->range();
+    Vector result(multiplier);
+    std::fill(result.begin(), result.begin() + range.first, 0.);
+    std::fill(result.begin() + range.end(), result.end(), 0.);
     return result;
   }
 

@@ -3,7 +3,6 @@
 #include <mortise/adapt/residuals.h>
 #include <mortise/output/extremes.h>
 #include <mortise/output/functionals.h>
-#include <mortise/problem/input/interface_law.h>
 #include <mortise/problem/results/contact_results.h>
 #include <mortise/problem/results/step_results.h>
 
@@ -64,15 +63,14 @@ namespace mortise
     std::vector<InterfaceViolation> result;
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       {
-        const InterfaceParameters &given  = interfaces.sides()[i];
-        const Violations           broken = violation_energies(
-          interfaces.all()[i],
-          displacement,
-          fields.tractions[i],
-          {{offset_with(solved.data.offset(given), solved.shortenings[i]),
-                      given.law == "contact" && given.mesh_gap == "real"},
-                     spring_stiffness(run.parameters, given)},
-          run.comm);
+        const InterfaceParameters &given = interfaces.sides()[i];
+        const Violations           broken =
+          violation_energies(interfaces.all()[i],
+                             displacement,
+                             fields.tractions[i],
+                             offset_with(solved.data.offset(given),
+                                         solved.shortenings[i]),
+                             run.comm);
         const InterfaceHandler &interface = *interfaces.all()[i].interface;
         const auto             &cells     = interface.slave().cells;
         InterfaceViolation of{given.name, 0., given.slave.body, {}, {}, {}};

@@ -1,5 +1,4 @@
 #include <mortise/base/error.h>
-#include <mortise/mortar/slave_normals.h>
 #include <mortise/operators/body_volume.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/support/rigid_motions.h>
@@ -63,7 +62,6 @@ namespace mortise
       }
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
       interface_summaries.push_back(couplings.summary(i));
-    prepare_contact();
     stage.details(std::to_string(system.owned_multiplier.size()) +
                   " multipliers");
   }
@@ -179,23 +177,15 @@ namespace mortise
           offset && load.rhs.multiplier.size() > 0)
         {
           const Coupling &coupling = couplings.all()[i];
-          add_offset(
-            coupling,
-            offset,
-            slave_normals(*spaces.bodies[couplings.sides()[i].slave.body],
-                          coupling.interface->slave()),
-            load.rhs.multiplier);
+          add_offset(coupling, offset, load.rhs.multiplier);
           load.rhs.multiplier.compress(VectorOperation::add);
         }
-    double *given = load.rhs.multiplier.begin();
-    for (unsigned int i = 0; i < couplings.all().size(); ++i)
-      {
-        for (unsigned int k = 0; k < normal_multipliers_of_contact[i].size();
-             ++k)
-          if (couplings.sides()[i].mesh_gap == "real")
-            given[k] += normal_multipliers_of_contact[i][k].gap;
-        given += couplings.all()[i].multipliers->n_owned();
-      }
+    for (const Coupling &coupling : couplings.all())
+      if (coupling.law.has_mesh_gap)
+        for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
+          load.rhs.multiplier
+            .begin()[coupling.multipliers->range().first + k] +=
+            coupling.normal_multipliers[k].gap;
     for (const FreePressure &free : free_pressures)
       {
         if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)

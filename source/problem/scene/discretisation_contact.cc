@@ -1,61 +1,17 @@
 // What Discretisation knows of contact.
-#include <mortise/base/error.h>
 #include <mortise/problem/scene/discretisation.h>
 
-#include <algorithm>
 #include <numeric>
 
 namespace mortise
 {
-  void
-  Discretisation::prepare_contact()
-  {
-    std::string nowhere;
-    for (const Coupling &coupling : couplings.all())
-      {
-        auto &all = normal_multipliers_of_contact.emplace_back();
-        if (!coupling.is_contact)
-          continue;
-        all = normal_multipliers(coupling, system.owned_multiplier, run.comm);
-        if (std::any_of(all.begin(), all.end(), [](const auto &multiplier) {
-              return !(multiplier.area > 0.);
-            }))
-          nowhere = coupling.interface->name();
-      }
-    throw_if_any(
-      nowhere.empty() ?
-        "" :
-        "Interface " + nowhere +
-          ": a multiplier of the contact has no area, since too "
-          "little of its faces has a partner; move the surfaces, or exchange slave and master",
-      run.comm);
-  }
-
   std::vector<bool>
   Discretisation::one_sided() const
   {
     std::vector<bool> result;
     for (const Coupling &coupling : couplings.all())
-      result.insert(result.end(),
-                    coupling.multipliers->n_owned(),
-                    coupling.is_contact);
-    return result;
-  }
-
-  std::vector<double>
-  Discretisation::gap_stiffness() const
-  {
-    std::vector<double> result;
-    for (unsigned int i = 0; i < couplings.all().size(); ++i)
-      {
-        for (const NormalMultiplier &multiplier :
-             normal_multipliers_of_contact[i])
-          result.push_back(multiplier.stiffness);
-        if (normal_multipliers_of_contact[i].empty())
-          result.insert(result.end(),
-                        couplings.all()[i].multipliers->n_owned(),
-                        0.);
-      }
+      result.resize(coupling.multipliers->range().end(),
+                    coupling.law.is_one_sided());
     return result;
   }
 
@@ -68,15 +24,10 @@ namespace mortise
     system.coupling.vmult(moved, x.displacement); // of inactive ones, too
     result = load.rhs.multiplier;
     result -= moved;
-    double *gap = result.begin();
-    for (unsigned int i = 0; i < couplings.all().size(); ++i)
-      {
-        for (const NormalMultiplier &multiplier :
-             normal_multipliers_of_contact[i])
-          *gap++ /= multiplier.area;
-        if (normal_multipliers_of_contact[i].empty())
-          gap += couplings.all()[i].multipliers->n_owned();
-      }
+    for (const Coupling &coupling : couplings.all())
+      for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
+        result.begin()[coupling.multipliers->range().first + k] /=
+          coupling.normal_multipliers[k].area;
     return result;
   }
 

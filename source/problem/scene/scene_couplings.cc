@@ -2,7 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/interface/smooth_patches.h>
-#include <mortise/mortar/slave_normals.h>
+#include <mortise/mortar/slave_frames.h>
 #include <mortise/problem/input/interface_law.h>
 #include <mortise/problem/scene/scene_couplings.h>
 #include <mortise/problem/scene/scene_data.h>
@@ -85,15 +85,15 @@ namespace mortise
     options.slave_boundary  = boundary(given.slave);
     options.master_boundary = boundary(given.master);
     Coupling coupling;
-    coupling.is_spring  = given.law == "spring";
-    coupling.is_contact = given.law == "contact";
-    coupling.directions = tied_directions(run.parameters, given);
+    coupling.law = interface_law(run.parameters, given);
     coupling.interface =
       std::make_unique<InterfaceHandler>(name,
                                          std::move(slave_surface),
                                          std::move(master_surface),
                                          options,
                                          run.comm);
+    coupling.frames = slave_frames(*spaces.bodies[given.slave.body],
+                                   coupling.interface->slave());
     return coupling;
   }
 
@@ -101,19 +101,17 @@ namespace mortise
   SceneCouplings::integrate(const InterfaceParameters &given,
                             Coupling                  &coupling) const
   {
-    const auto normals = slave_normals(*spaces.bodies[given.slave.body],
-                                       coupling.interface->slave());
+    const InterfaceLaw &law = coupling.law;
     coupling.local =
       integrate_coupling(*coupling.interface,
                          spaces.choice.method != SolverMethod::direct,
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
-                         !coupling.is_spring && !given.is_support,
-                         coupling.directions == TiedDirections::normal ?
-                           normals :
-                           std::vector<std::vector<Tensor<1, dim>>>());
-    if (const auto stiffness = spring_stiffness(run.parameters, given))
-      set_springs(stiffness, normals, coupling);
+                         !law.is_compliant() && !given.is_support,
+                         law.held == HeldDirections::normal ?
+                           coupling.frames :
+                           std::vector<std::vector<Frame>>());
+    set_springs(coupling);
   }
 
   void
@@ -175,16 +173,16 @@ namespace mortise
     const bool is_rounding = report.distance_max < 1e-6 * size;
     if (is_rounding)
       return;
-    if (!couplings[i].is_contact)
+    if (!couplings[i].law.is_one_sided())
       {
         if (report.distance_mean > facets + 1e-3 * size)
           run.log.warning(
-            text + ", which Law = " + given.law +
+            text + ", which Law = " + name_of(given.law) +
             " takes for closed: rotations of the bodies then bring moments that are not there. Allowed: meshes "
             "that touch; for an interference that is drawn Law = contact, or Offset in its place");
         return;
       }
-    if (given.mesh_gap == "real" &&
+    if (couplings[i].law.has_mesh_gap &&
         report.sagitta_mean > 0.1 * std::fabs(report.gap_mean))
       run.log.warning(
         text + "; straight faces on a round surface are " + off_by +

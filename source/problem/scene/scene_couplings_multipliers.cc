@@ -2,7 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/mortar/shared_displacements.h>
-#include <mortise/mortar/slave_normals.h>
+#include <mortise/mortar/slave_frames.h>
 #include <mortise/problem/scene/scene_couplings.h>
 #include <mortise/problem/support/rigid_motions.h>
 #include <mortise/problem/support/weak_ties.h>
@@ -52,8 +52,8 @@ namespace mortise
     const std::string name    = couplings[i].interface->name();
     const auto       &rows    = couplings[i].multipliers->rows();
     unsigned int      n_fixed = 0, n_covered = 0;
-    const bool  slides = couplings[i].directions == TiedDirections::normal;
-    std::string lost;
+    const bool        slides = couplings[i].law.held == HeldDirections::normal;
+    std::string       lost;
     for (unsigned int s = 0; s < states.size(); ++s)
       if (states[s].cover != Cover::none)
         for (unsigned int c = 0; c < (slides ? 1 : dim); ++c)
@@ -128,13 +128,8 @@ namespace mortise
         const SideParameters &slave    = interfaces[i].slave;
         const Body           &body     = *spaces.bodies[slave.body];
         Coupling             &coupling = couplings[i];
-        coupling.multipliers =
-          std::make_unique<MultiplierSpace>(body,
-                                            coupling.interface->slave(),
-                                            states[i],
-                                            blocked_dofs(slave.body, taken),
-                                            coupling.directions,
-                                            coupling.is_contact);
+        coupling.multipliers           = std::make_unique<MultiplierSpace>(
+          body, coupling, states[i], blocked_dofs(slave.body, taken));
         shared.take(i);
       }
     types::global_dof_index mine = 0, first = 0, total = 0;
@@ -149,10 +144,13 @@ namespace mortise
       }
     owned = IndexSet(total);
     owned.add_range(first, first + mine);
+    unsigned int n_before = 0;
     for (Coupling &coupling : couplings)
       {
-        coupling.multipliers->number(coupling.interface->slave(), first);
-        first += coupling.multipliers->n_owned();
+        coupling.multipliers->number(coupling.interface->slave(),
+                                     first + n_before,
+                                     n_before);
+        n_before = coupling.multipliers->range().end();
       }
   }
 
@@ -169,7 +167,7 @@ namespace mortise
                                                    interfaces[i].master.body,
                         multiplier_moments(couplings[i], owned, run.comm),
                         report.covered_area / report.slave_area,
-                        couplings[i].directions,
+                        couplings[i].law.held,
                         {},
                         {}});
         const BodySurface &slave = couplings[i].interface->slave();
@@ -244,15 +242,39 @@ namespace mortise
         ties[i].released = mean_normal(ties[i], run.comm);
     check_rigid_motions(spaces.bodies, spaces.dirichlet, ties);
     if (have_contact())
-      supports = std::move(ties);
+      {
+        supports = std::move(ties);
+        set_normal_multipliers();
+      }
+  }
+
+  void
+  SceneCouplings::set_normal_multipliers()
+  {
+    std::string nowhere;
+    for (Coupling &coupling : couplings)
+      if (coupling.law.is_one_sided())
+        {
+          coupling.normal_multipliers =
+            normal_multipliers(coupling, owned, run.comm);
+          for (const NormalMultiplier &multiplier : coupling.normal_multipliers)
+            if (!(multiplier.area > 0.))
+              nowhere = coupling.interface->name();
+        }
+    throw_if_any(
+      nowhere.empty() ?
+        "" :
+        "Interface " + nowhere +
+          ": a multiplier of the contact has no area, since too "
+          "little of its faces has a partner; move the surfaces, or exchange slave and master",
+      run.comm);
   }
 
   std::vector<TieSupport>
   SceneCouplings::supports_of(const std::vector<bool> &active,
                               const std::vector<bool> &is_preloaded) const
   {
-    auto         ties  = supports;
-    unsigned int first = 0;
+    auto ties = supports;
     for (unsigned int i = 0; i < ties.size(); ++i)
       {
         TieSupport &tie = ties[i];
@@ -260,9 +282,8 @@ namespace mortise
           tie.released.reset();
         std::vector<MultiplierMoment> pressing;
         for (unsigned int k = 0; k < tie.multipliers.size(); ++k)
-          if (active[first + k])
+          if (active[couplings[i].multipliers->range().first + k])
             pressing.push_back(tie.multipliers[k]);
-        first += tie.multipliers.size();
         tie.multipliers = std::move(pressing);
       }
     return ties;
@@ -298,15 +319,14 @@ namespace mortise
     const std::vector<types::global_dof_index> &indices) const
   {
     std::vector<unsigned int> counts;
-    auto first = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
     for (const Coupling &coupling : couplings)
       {
-        const auto end = first + coupling.multipliers->n_owned();
+        const auto first = coupling.multipliers->first(),
+                   end   = first + coupling.multipliers->n_owned();
         counts.push_back(
           std::count_if(indices.begin(), indices.end(), [&](const auto k) {
             return k >= first && k < end;
           }));
-        first = end;
       }
     Utilities::MPI::sum(counts, run.comm, counts);
     std::string names;

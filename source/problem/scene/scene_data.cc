@@ -164,8 +164,8 @@ namespace mortise
     return std::any_of(parameters.interfaces.begin(),
                        parameters.interfaces.end(),
                        [](const InterfaceParameters &interface) {
-                         return interface.law == "contact" &&
-                                interface.mesh_gap == "real";
+                         return interface.law == Law::contact &&
+                                !interface.ignores_mesh_gap;
                        });
   }
 

@@ -175,14 +175,15 @@ namespace mortise
     {
       double softest = std::numeric_limits<double>::max();
       for (const InterfaceParameters &interface : run.parameters.interfaces)
-        if (const auto stiffness = spring_stiffness(run.parameters, interface))
+        if (interface.law == Law::spring)
           {
-            const double size = extent(*bodies[interface.slave.body]).size;
+            const double size      = extent(*bodies[interface.slave.body]).size;
+            const InterfaceLaw law = interface_law(run.parameters, interface);
             for (const BoundaryFace &face : side_faces(
                    bodies, interface.slave, "Interface " + interface.name))
               {
                 const Stiffness at =
-                  stiffness(face.cell->face(face.number)->center());
+                  law.stiffness(face.cell->face(face.number)->center());
                 for (const double k : {at.normal, at.tangential})
                   if (k > 0.)
                     softest = std::min(softest, k * size);

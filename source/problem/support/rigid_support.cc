@@ -152,7 +152,7 @@ namespace mortise
   {
     TieResistance result{Support(2),
                          Support(2),
-                         tie.directions == TiedDirections::normal &&
+                         tie.held == HeldDirections::normal &&
                            !is_plane(tie, comm)};
     const auto    rows = [&](const MultiplierMoment &m) {
       Motion minus = row_of(master, m);

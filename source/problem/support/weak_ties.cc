@@ -85,7 +85,7 @@ namespace mortise
               {root * direction,
                root * outer_product(direction, Tensor<1, dim>(place.point))});
           };
-          if (tie.directions == TiedDirections::normal)
+          if (tie.held == HeldDirections::normal)
             add(place.normal);
           else
             for (unsigned int c = 0; c < dim; ++c)

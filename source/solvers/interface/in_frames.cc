@@ -18,7 +18,7 @@ namespace mortise
   namespace
   {
     /// What of a node a multiplier is.
-    struct Frame
+    struct RowFrame
     {
       int                     multiplier;
       std::array<double, dim> weight;
@@ -49,13 +49,13 @@ namespace mortise
         fetch_others(C);
       }
 
-      const std::vector<Frame> &
+      const std::vector<RowFrame> &
       owned(const unsigned int node) const
       {
         return of_owned[node];
       }
 
-      const std::vector<Frame> &
+      const std::vector<RowFrame> &
       operator()(const int node) const
       {
         return is_owned(node) ? of_owned[node - first] : others.at(node);
@@ -104,11 +104,11 @@ namespace mortise
         std::map<unsigned int, std::vector<int>> wanted;
         for (const int node : C.columns)
           if (!is_owned(node) &&
-              others.emplace(node, std::vector<Frame>()).second)
+              others.emplace(node, std::vector<RowFrame>()).second)
             wanted[std::upper_bound(firsts.begin(), firsts.end(), node) -
                    firsts.begin() - 1]
               .push_back(node);
-        std::map<unsigned int, std::vector<std::vector<Frame>>> answers;
+        std::map<unsigned int, std::vector<std::vector<RowFrame>>> answers;
         for (const auto &[rank, nodes] :
              Utilities::MPI::some_to_some(comm, wanted))
           for (const int node : nodes)
@@ -119,11 +119,11 @@ namespace mortise
             others[wanted[rank][i]] = lists[i];
       }
 
-      const MPI_Comm                    comm;
-      std::vector<int>                  firsts; ///< nodes, by rank
-      int                               first = 0;
-      std::vector<std::vector<Frame>>   of_owned;
-      std::map<int, std::vector<Frame>> others;
+      const MPI_Comm                       comm;
+      std::vector<int>                     firsts; ///< nodes, by rank
+      int                                  first = 0;
+      std::vector<std::vector<RowFrame>>   of_owned;
+      std::map<int, std::vector<RowFrame>> others;
     };
 
     using Entries = std::map<int, double>; ///< by column
@@ -163,11 +163,11 @@ namespace mortise
     for (unsigned int i = 0; i < C.size(); ++i)
       {
         const unsigned int n = C.lengths[i];
-        for (const Frame &row : frames_of.owned(i))
+        for (const RowFrame &row : frames_of.owned(i))
           {
             Entries &to = rows[row.multiplier];
             for (unsigned int k = 0; k < n; ++k)
-              for (const Frame &column : frames_of(columns[k]))
+              for (const RowFrame &column : frames_of(columns[k]))
                 {
                   double sum = 0.;
                   for (unsigned int c = 0; c < dim; ++c)

@@ -10,6 +10,7 @@
 #include <deal.II/base/point.h>
 
 #include <mortise/body/mesh/mesh_source.h>
+#include <mortise/contact/interface_law.h>
 #include <mortise/interface/search.h>
 #include <mortise/material/factory.h>
 #include <mortise/problem/input/parameter_file.h>
@@ -83,10 +84,10 @@ namespace mortise
     std::string    name;
     SideParameters slave; ///< carries the multiplier
     SideParameters master;
-    std::string    mesh_gap   = "real"; ///< or "ignored"; of contact
-    std::string    law        = "tie";  ///< or "slide", "contact", "spring"
-    std::string    multiplier = "dual";
-    std::string    offset     = "0";
+    Law            law              = Law::tie;
+    bool           ignores_mesh_gap = false; ///< of contact
+    std::string    multiplier       = "dual";
+    std::string    offset           = "0";
     /// Of a tie: the normal force it carries; up to which time.
     std::optional<std::string> preload;
     std::optional<double>      preload_until;

@@ -2,7 +2,6 @@
 // which stand while loads change. Other meshes need another one.
 #pragma once
 
-#include <mortise/mortar/normal_multipliers.h>
 #include <mortise/mortar/penetration.h>
 #include <mortise/output/checkpoint.h>
 #include <mortise/problem/scene/scene_couplings.h>
@@ -48,21 +47,9 @@ namespace mortise
     void
     show_active();
 
-    /// By interface, what its multipliers stand for; nothing of those without
-    /// contact.
-    const std::vector<std::vector<NormalMultiplier>> &
-    pressing() const
-    {
-      return normal_multipliers_of_contact;
-    }
-
     /// By owned multiplier: may it press only?
     std::vector<bool>
     one_sided() const;
-
-    /// By owned multiplier: NormalMultiplier::stiffness, or zero.
-    std::vector<double>
-    gap_stiffness() const;
 
     /// By owned multiplier, where that is of contact: the gap that @p x leaves, a length. @p load: of the same
     /// time. Collective.
@@ -141,8 +128,6 @@ namespace mortise
     void
     couple();
     void
-    prepare_contact();
-    void
     create_bulk();
     void
     find_free_pressures();
@@ -150,13 +135,12 @@ namespace mortise
     Vector
     prescribed_vector(const SceneLoad &load) const;
 
-    const RunContext                          &run;
-    SceneSpaces                                spaces;
-    SceneCouplings                             couplings;
-    BlockSystem                                system;
-    std::vector<FreePressure>                  free_pressures;
-    std::vector<double>                        volumes; ///< by body
-    std::vector<InterfaceSummary>              interface_summaries;
-    std::vector<std::vector<NormalMultiplier>> normal_multipliers_of_contact;
+    const RunContext             &run;
+    SceneSpaces                   spaces;
+    SceneCouplings                couplings;
+    BlockSystem                   system;
+    std::vector<FreePressure>     free_pressures;
+    std::vector<double>           volumes; ///< by body
+    std::vector<InterfaceSummary> interface_summaries;
   };
 } // namespace mortise

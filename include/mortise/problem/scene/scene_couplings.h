@@ -72,7 +72,7 @@ namespace mortise
       return std::any_of(couplings.begin(),
                          couplings.end(),
                          [](const Coupling &coupling) {
-                           return coupling.directions == TiedDirections::normal;
+                           return coupling.law.held == HeldDirections::normal;
                          });
     }
 
@@ -82,7 +82,7 @@ namespace mortise
       return std::any_of(couplings.begin(),
                          couplings.end(),
                          [](const Coupling &coupling) {
-                           return coupling.is_contact;
+                           return coupling.law.is_one_sided();
                          });
     }
 
@@ -92,7 +92,7 @@ namespace mortise
       return std::any_of(couplings.begin(),
                          couplings.end(),
                          [](const Coupling &coupling) {
-                           return coupling.is_spring;
+                           return coupling.law.is_compliant();
                          });
     }
 
@@ -151,6 +151,9 @@ namespace mortise
     check_overlap(unsigned int i) const;
     void
     number_multipliers();
+    /// Throws InputError where one has no area. Collective.
+    void
+    set_normal_multipliers();
     std::vector<TieSupport>
     tie_supports() const;
     /// The ties of active multipliers, in scenes with contact.

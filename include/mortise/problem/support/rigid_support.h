@@ -122,7 +122,7 @@ namespace mortise
     unsigned int                  slave, master; ///< bodies
     std::vector<MultiplierMoment> multipliers;   ///< of this rank
     double                        coverage;      ///< of the slave surface
-    TiedDirections                directions;
+    HeldDirections                held;
     struct Place
     {
       dealii::Point<dim>     point;

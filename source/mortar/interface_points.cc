@@ -1,13 +1,15 @@
-#include <mortise/mortar/displacement_jump.h>
+#include <mortise/mortar/interface_points.h>
 
 namespace mortise
 {
   using namespace dealii;
 
-  DisplacementJump::DisplacementJump(const InterfaceHandler  &interface,
-                                     const TraceDisplacement &displacement,
-                                     const MPI_Comm           comm)
+  InterfacePoints::InterfacePoints(const InterfaceHandler  &interface,
+                                   const TraceDisplacement &displacement,
+                                   const Offset            &offset,
+                                   const MPI_Comm           comm)
     : interface(interface)
+    , offset(offset)
   {
     const IndexSet owned    = displacement.free.locally_owned_elements();
     IndexSet       relevant = owned;
@@ -30,25 +32,34 @@ namespace mortise
   }
 
   void
-  DisplacementJump::reinit(const unsigned int s)
+  InterfacePoints::reinit(const unsigned int s)
   {
     slave    = s;
     of_slave = coefficients(interface.slave().traces[s]);
   }
 
-  Tensor<1, dim>
-  DisplacementJump::operator()(const unsigned int       m,
-                               const IntegrationPoints &points,
-                               const unsigned int       q)
+  InterfacePoint
+  InterfacePoints::operator()(const unsigned int       m,
+                              const IntegrationPoints &points,
+                              const unsigned int       q)
   {
     const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]),
       eta(points.master_eta[0][q], points.master_eta[1][q]);
-    return value(interface.master_traces()[m].basis(), masters[m], eta) -
-           value(interface.slave().traces[slave].basis(), of_slave, xi);
+    InterfacePoint result;
+    for (unsigned int c = 0; c < dim; ++c)
+      {
+        result.position[c] = points.slave_x[c][q];
+        result.mesh_gap[c] = points.master_x[c][q] - points.slave_x[c][q];
+      }
+    result.normal = face_normal(interface.slave().faces[slave], xi);
+    result.jump = value(interface.master_traces()[m].basis(), masters[m], eta) -
+                  value(interface.slave().traces[slave].basis(), of_slave, xi);
+    result.offset = offset ? offset(result.position) : 0.;
+    return result;
   }
 
-  DisplacementJump::Coefficients
-  DisplacementJump::coefficients(const FaceTrace &trace) const
+  InterfacePoints::Coefficients
+  InterfacePoints::coefficients(const FaceTrace &trace) const
   {
     const unsigned int n = trace.n_functions();
     Coefficients       result;
@@ -65,9 +76,9 @@ namespace mortise
   }
 
   Tensor<1, dim>
-  DisplacementJump::value(const TraceBasis   &basis,
-                          const Coefficients &coefficients,
-                          const Point<2>     &xi)
+  InterfacePoints::value(const TraceBasis   &basis,
+                         const Coefficients &coefficients,
+                         const Point<2>     &xi)
   {
     values.resize(basis.size());
     basis.evaluate(xi[0], xi[1], values.data());

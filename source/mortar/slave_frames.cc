@@ -1,7 +1,7 @@
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/mortar/nodal_block.h>
-#include <mortise/mortar/slave_normals.h>
+#include <mortise/mortar/slave_frames.h>
 
 #include <algorithm>
 #include <array>
@@ -118,26 +118,47 @@ namespace mortise
     return own;
   }
 
-  std::vector<std::vector<Tensor<1, dim>>>
-  slave_normals(const Body &body, const BodySurface &slave)
+  Frame
+  frame_of(const Tensor<1, dim> &normal)
+  {
+    unsigned int across = 0;
+    for (unsigned int c = 1; c < dim; ++c)
+      if (std::fabs(normal[c]) < std::fabs(normal[across]))
+        across = c;
+    Tensor<1, dim> tangent = -normal[across] * normal;
+    tangent[across] += 1.;
+    Frame frame;
+    frame[0] = normal;
+    frame[1] = tangent / tangent.norm();
+    frame[2] = cross_product_3d(frame[0], Tensor<1, dim>(frame[1]));
+    return frame;
+  }
+
+  std::vector<std::vector<Frame>>
+  slave_frames(const Body &body, const BodySurface &slave)
   {
     Normals normals = face_normals(slave);
     if (slave.direction)
+      for (auto &of_face : normals)
+        std::fill(of_face.begin(), of_face.end(), *slave.direction);
+    else
+      for_each_mean(body,
+                    slave,
+                    normals,
+                    [&](const unsigned int    s,
+                        const unsigned int    k,
+                        const Tensor<1, dim> &mean) {
+                      if (!is_sharp(normals[s][k], mean))
+                        normals[s][k] = mean;
+                    });
+    std::vector<std::vector<Frame>> frames;
+    for (const auto &of_face : normals)
       {
-        for (auto &of_face : normals)
-          std::fill(of_face.begin(), of_face.end(), *slave.direction);
-        return normals;
+        frames.emplace_back();
+        for (const Tensor<1, dim> &normal : of_face)
+          frames.back().push_back(frame_of(normal));
       }
-    for_each_mean(body,
-                  slave,
-                  normals,
-                  [&](const unsigned int    s,
-                      const unsigned int    k,
-                      const Tensor<1, dim> &mean) {
-                    if (!is_sharp(normals[s][k], mean))
-                      normals[s][k] = mean;
-                  });
-    return normals;
+    return frames;
   }
 
   std::optional<Point<dim>>
@@ -163,10 +184,10 @@ namespace mortise
   }
 
   std::vector<bool>
-  blocked_normals(const Body                                     &body,
-                  const BodySurface                              &slave,
-                  const std::vector<std::vector<Tensor<1, dim>>> &normals,
-                  const std::vector<bool>                        &blocked)
+  blocked_normals(const Body                            &body,
+                  const BodySurface                     &slave,
+                  const std::vector<std::vector<Frame>> &frames,
+                  const std::vector<bool>               &blocked)
   {
     /// Of the square of a normal: less of it is rounding and curvature.
     constexpr double least_free_part = 1e-6;
@@ -181,7 +202,7 @@ namespace mortise
                     n(dofs[0]) += 1.;
                     for (unsigned int c = 0; c < dim; ++c)
                       if (is_blocked(dofs[c]) < 0.5)
-                        free_parts(dofs[0]) += std::pow(normals[s][k][c], 2);
+                        free_parts(dofs[0]) += std::pow(frames[s][k][0][c], 2);
                   });
     n.compress(VectorOperation::add);
     free_parts.compress(VectorOperation::add);

@@ -1,10 +1,11 @@
-// How far the sides of an interface have moved against each other at its
-// quadrature points.
+// The sides of an interface at its quadrature points, where bodies are
+// displaced.
 #pragma once
 
 #include <mortise/mortar/coupling.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace mortise
@@ -16,21 +17,26 @@ namespace mortise
     Vector prescribed; ///< what is added to these
   };
 
-  class DisplacementJump
+  /// The gap that is left between bodies beside that of their meshes, at points
+  /// of the slave, a length; null: none.
+  using Offset = std::function<double(const dealii::Point<dim> &position)>;
+
+  class InterfacePoints
   {
   public:
-    /// @p interface must live on. Collective.
-    DisplacementJump(const InterfaceHandler  &interface,
-                     const TraceDisplacement &displacement,
-                     MPI_Comm                 comm);
+    /// @p interface must live on; @p offset is kept. Collective.
+    InterfacePoints(const InterfaceHandler  &interface,
+                    const TraceDisplacement &displacement,
+                    const Offset            &offset,
+                    MPI_Comm                 comm);
 
     /// Choose the slave face of the points to come.
     void
     reinit(unsigned int slave);
 
-    /// Displacement of the master face @p m less that of the slave at point @p q of @p points, which
-    /// are those of both; a length.
-    dealii::Tensor<1, dim>
+    /// Point @p q of @p points, which the slave face and the master face @p m share, without a
+    /// traction.
+    InterfacePoint
     operator()(unsigned int m, const IntegrationPoints &points, unsigned int q);
 
   private:
@@ -45,6 +51,7 @@ namespace mortise
           const dealii::Point<2> &xi);
 
     const InterfaceHandler   &interface;
+    const Offset              offset;
     Vector                    free, prescribed;
     std::vector<Coefficients> masters;
     unsigned int              slave = 0;

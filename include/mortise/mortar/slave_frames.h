@@ -1,5 +1,5 @@
-// Normals at the nodes of slave faces: those of the true surface, one for each
-// node that faces share, the mean of theirs.
+// Frames at the nodes of slave faces: the normal of the true surface, one for
+// each node that faces share, the mean of theirs, and two tangents.
 #pragma once
 
 #include <mortise/body/body.h>
@@ -10,6 +10,14 @@
 
 namespace mortise
 {
+  /// Orthonormal, in rows: the outward normal n, and tangents t1, t2 = n x t1.
+  using Frame = dealii::Tensor<2, dim>;
+
+  /// The frame of a normal of unit length. t1 lies in the plane of n and of the
+  /// axis that is most across it.
+  Frame
+  frame_of(const dealii::Tensor<1, dim> &normal);
+
   /// By function of a face: do faces that share its dof have the same node
   /// there? Not where nodes hang or degrees meet. @p dofs: of a component.
   std::vector<bool>
@@ -17,11 +25,11 @@ namespace mortise
                     const std::vector<dealii::types::global_dof_index> &dofs,
                     const Body                                         &body);
 
-  /// Outward, of unit length, by slave face and node, nodes as in TraceBasis.
-  /// Where nodes hang, degrees meet or edges are sharp, faces keep normals of
-  /// their own. All are the surface's direction if it has one. Collective.
-  std::vector<std::vector<dealii::Tensor<1, dim>>>
-  slave_normals(const Body &body, const BodySurface &slave);
+  /// By slave face and node, nodes as in TraceBasis. Where nodes hang, degrees
+  /// meet or edges are sharp, faces keep normals of their own. All normals are
+  /// the surface's direction if it has one. Collective.
+  std::vector<std::vector<Frame>>
+  slave_frames(const Body &body, const BodySurface &slave);
 
   /// A node of this rank where the normals of faces are more than 30 degrees
   /// off their mean. Collective.
@@ -33,9 +41,8 @@ namespace mortise
   /// @p blocked: likewise, whether a displacement is prescribed or belongs to
   /// an earlier interface. Collective.
   std::vector<bool>
-  blocked_normals(
-    const Body                                             &body,
-    const BodySurface                                      &slave,
-    const std::vector<std::vector<dealii::Tensor<1, dim>>> &normals,
-    const std::vector<bool>                                &blocked);
+  blocked_normals(const Body                            &body,
+                  const BodySurface                     &slave,
+                  const std::vector<std::vector<Frame>> &frames,
+                  const std::vector<bool>               &blocked);
 } // namespace mortise
