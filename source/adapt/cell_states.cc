@@ -43,7 +43,7 @@ namespace mortise
     }
 
     /// Of a cell of @p degree, in any unit: within a quarter what products with
-    /// the matrix-free operator take (doc/bulk.md).
+    /// the matrix-free operator take (doc/measurements/bulk.md).
     unsigned int
     work(const unsigned int degree)
     {

@@ -15,7 +15,7 @@ namespace mortise
   square_by_residual(const double change, const double before, const double now)
   {
     // of 106 residuals on meshes of all kinds one in a hundred was smaller by
-    // more, or larger (doc/adaptivity.md)
+    // more, or larger (doc/measurements/adaptivity.md)
     constexpr double least = 0.15 * 0.15;
     if (!(before > 0.))
       return square_by_residual_unseen;

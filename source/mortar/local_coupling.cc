@@ -52,7 +52,7 @@ namespace mortise
         }
     }
 
-    /// Fewest iterations: doc/tuning.md.
+    /// Fewest iterations: doc/measurements/tuning.md.
     constexpr double penalty_factor = 1.8;
 
     /// Of the layer of cells behind a face; layers one behind the other add up.
@@ -74,7 +74,7 @@ namespace mortise
     /// How many times as many nodes on an area a slave needs at least to
     /// follow. Where multipliers do not move the master's nodes, those that
     /// meet on a large face do not couple with each other, but two projections
-    /// are needed in place of one: doc/tuning.md.
+    /// are needed in place of one: doc/measurements/tuning.md.
     double
     least_density_ratio(const unsigned int degree)
     {
@@ -82,11 +82,11 @@ namespace mortise
     }
 
     /// A slave that is stiffer than this follows badly where it is covered in
-    /// part: doc/tuning.md.
+    /// part: doc/measurements/tuning.md.
     constexpr double largest_modulus_ratio = 100.;
 
     /// Nodes with dual multipliers follow at no cost, so that they do wherever
-    /// that takes no more than one iteration: doc/tuning.md.
+    /// that takes no more than one iteration: doc/measurements/tuning.md.
     constexpr double       largest_dual_modulus_ratio = 4.;
     constexpr unsigned int largest_dual_degree        = 4;
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Iterations where a part of the multipliers is active: active_sets.py BENCHMARK
 
-BENCHMARK: the program benchmark_active_sets. Writes doc/active_sets.md."""
+BENCHMARK: the program benchmark_active_sets. Writes doc/measurements/active_sets.md."""
 import argparse
 import os
 import re
@@ -93,7 +93,7 @@ def main():
     head, *lines = report(os.path.abspath(parser.parse_args().benchmark))
     lines = "\n".join(lines).split("\n")
     lines = [head, f"\nAbove the goal of {GOAL}:", *missed(lines), *lines]
-    with open(os.path.join(TOP, "doc", "active_sets.md"), "w") as page:
+    with open(os.path.join(TOP, "doc", "measurements", "active_sets.md"), "w") as page:
         print(*lines, sep="\n", file=page)
 
 

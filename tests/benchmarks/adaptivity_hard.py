@@ -2,7 +2,7 @@
 """Meshes and degrees that follow from an error, where that is hard: adaptivity_hard.py MORTISE
 
 Errors at the L by fields, bodies of which one is far coarser, curved pairs without exact solution, the wave to 3e-4, contact in load steps, iterations with
-nearly incompressible, very different and flat bodies. Writes doc/adaptivity_hard.md; needs numpy."""
+nearly incompressible, very different and flat bodies. Writes its part of doc/measurements/adaptivity.md; needs numpy."""
 import argparse
 import base64
 import math
@@ -15,9 +15,10 @@ import zlib
 
 import numpy
 
-from adaptivity import BLOCKS, SPHERES, TOP, degrees, unknowns
+from adaptivity import BLOCKS, SPHERES, degrees, unknowns
 from adaptivity_scenes import SCENES, WAVE, most_iterations
 from contact import contact_of, last, outcome, westergaard
+from page import write_part
 
 PAIRS = ("curved_pair_1", "curved_pair_2")
 L_BODIES = {"slab": ((2 / 3, 2 / 3, 1), (-1, -1, -1)), "corner": ((1, 1, 1), (-1, -1, 0))}  # size of the coarsest cells, first corner
@@ -424,8 +425,7 @@ def main():
         values[name + "_rows"] = "\n".join(rows)
         print(f"{time.time() - begin:.0f} s", flush=True)
     values["minutes"] = (time.time() - begin) / 60
-    with open(os.path.join(TOP, "doc", "adaptivity_hard.md"), "w") as page:
-        page.write("".join(wrapped(line) for line in TEXT.format(**values).split("\n\n")).rstrip("\n") + "\n")
+    write_part("adaptivity.md", "hard", "".join(wrapped(line) for line in TEXT.format(**values).split("\n\n")).rstrip("\n") + "\n")
 
 
 def wrapped(paragraph):
@@ -438,80 +438,80 @@ def wrapped(paragraph):
     return "\n".join(filled) + "\n\n"
 
 
-TEXT = """# An error in place of a mesh, where that is hard
+TEXT = """## Hard scenes
 
-Regenerate: `tests/benchmarks/adaptivity_hard.py build/mortise` (writes this page). Intel Xeon with AVX-512, one core, the other one busy.
-The script takes {minutes:.0f} minutes. Other scenes: [adaptivity.md](adaptivity.md), [adaptivity_scenes.md](adaptivity_scenes.md).
+Regenerate: `tests/benchmarks/adaptivity_hard.py build/mortise` writes this section in {minutes:.0f} minutes. Intel Xeon with AVX-512, one core, the other one busy.
 
-Missed:
+What is missed:
 
-- Targets that are not met, with exit code 0. At the L: {l_met}. Bodies of which one is far coarser: {c_missed}.
-- Estimates 0.8 to 4 times the error in each cycle. At the L the largest are {l_worst}, the least {l_least}. Least and largest of others: {n_wrong};
+- Targets that are not met although the exit code is 0. At the L: {l_met}. Bodies of which one is far coarser: {c_missed}.
+- Estimates of 0.8 to 4 times the error in each cycle. At the L the largest are {l_worst}, the least is {l_least}. Least and largest of others: {n_wrong};
   the wave to 3e-4: {w_wrong}.
-- At most 14 iterations in each cycle, the most of all cycles: {n_missed}.
-- Ends with exit code 3: {n_ends}.
-- `Largest number of unknowns` is compared with an estimate of what the next cycle needs, of 0.95 to 1.01 of it at edges. Unknowns beyond the limit: {n_beyond}.
-- Unknowns at most 1.5 times those of the best degrees of bodies of which one is far coarser: {c_many}. The wave ends with {w_unknowns}, where
+- At most 14 iterations in each cycle. The most of all cycles: {n_missed}.
+- Runs that end with exit code 3: {n_ends}.
+- `Largest number of unknowns` is compared with an estimate of the next cycle's unknowns, which is 0.95 to 1.01 of them at edges. Unknowns beyond the limit: {n_beyond}.
+- At most 1.5 times the unknowns of the best degrees, for bodies of which one is far coarser: {c_many}. The wave ends with {w_unknowns} unknowns, where
   {w_first} meet the target.
-- Half-widths of contact by its area, to 0.1 %: to 1e-2 in energy they are up to {s_width} % off.
+- Half-widths of contact by its area to 0.1 %: at 1e-2 in energy they are off by up to {s_width} %.
 
-## Errors at the L by fields
+### Errors at the L by fields
 
-Stresses of `stress` in the `.vtu` files, polynomials on each cell, which the files hold exactly but for their four bytes; the energy of the
-difference is integrated over the cells that both meshes have in common, beside that of the whole. The reference is the L of 24 cells to 6.5e-3,
-{l_reference} unknowns, {l_seconds:.0f} s. Its own error, by its estimate {l_own} (which falls by a factor of {l_fall} in its last cycle), is added as a
-square to errors, not to those of slab and L. Runs and settings are those of [adaptivity_scenes.md](adaptivity_scenes.md). Cycles without a target
-end by `Largest number of unknowns`.
+The error is computed from the `stress` in the `.vtu` files, which hold the polynomials of each cell exactly but for single precision: the energy of
+the difference is integrated over the common refinement of both meshes and divided by the whole energy. The reference is the L of 24 cells at 6.5e-3,
+{l_reference} unknowns, {l_seconds:.0f} s. Its own error, {l_own} by its estimate (which falls by a factor of {l_fall} in its last cycle), is added to
+the errors as a square, but not to those of slab and L. Runs and settings are those of "Edges and contact". Cycles without a target end by
+`Largest number of unknowns`.
 
 | run | cycle | target | unknowns | estimate | error | estimate by error | slab | L |
 |---|---|---|---|---|---|---|---|---|
 {l_rows}
 
-## Iterations
+### Iterations
 
-Goal: at most 14 in each cycle. All to 1e-3, the plies to 3e-2, with `Largest number of unknowns` 2e5 (nu = 0.4999: 1e5). Spheres:
-`prm/thick_sphere.prm`; blocks: `prm/manufactured.prm`, where with other moduli the given displacement solves nothing and the error is not known.
-Moduli are those of the inner or lower body beside the other one; flat cells are as many times wider than high, long ones higher than wide. The
-error is that of the last cycle; 0 iterations: `direct`, or a solver that gave up at once.
+The goal is at most 14 in each cycle. All runs have the target 1e-3, the plies 3e-2, and `Largest number of unknowns` 2e5 (nu = 0.4999: 1e5). Spheres:
+`prm/thick_sphere.prm`. Blocks: `prm/manufactured.prm`; with other moduli its given displacement is not the solution, and the error is not known.
+Moduli are those of the inner or lower body beside the other one. Flat cells are so many times wider than high, long ones higher than wide. The
+error is that of the last cycle. 0 iterations: the method `direct`, or a solver that gave up at once.
 
 | scene | unknowns | degrees | iterations of cycles | method | estimate | error | by error | seconds | exit code |
 |---|---|---|---|---|---|---|---|---|---|
 {n_rows}
 
-## One body far coarser than the other
+### One body far coarser than the other
 
-`prm/manufactured.prm` with one cell below, from degree 1. Beside it degrees 1 to 8 of the lower and 1 to 4 of the upper body with the lower one
-halved up to three times: the fewest unknowns of at most 1.5 times those of the adaptive run that meet the target (candidates in the order of their
-unknowns, without those that have no finer body than one that failed). Seconds of all cycles; linear solves stop at a thousandth of the target.
+The scene is `prm/manufactured.prm` with one cell below, from degree 1. It is compared with degrees 1 to 8 of the lower and 1 to 4 of the upper body,
+the lower one halved up to three times: the fewest unknowns, at most 1.5 times those of the adaptive run, that meet the target. (Candidates are tried
+in the order of their unknowns; those of which no body is finer than in one that failed are left out.) Seconds are those of all cycles; linear solves
+stop at a thousandth of the target.
 
 | scene | target | error | estimate by error | unknowns | seconds | most iterations | best of one degree per body | unknowns | its error | seconds | ratio of unknowns |
 |---|---|---|---|---|---|---|---|---|---|---|---|
 {c_rows}
 
-## The source's curved pairs
+### The curved pairs
 
-`prm/curved_pair_1.prm` and `curved_pair_2.prm`, nu = 0.5, from degree 2, targets in energy. There is no exact solution: what is compared are the
-displacements at the three points of the scenes (`top`, `far top`, `far side`), the largest difference of a displacement over the largest
-displacement there, beside the adaptive run to 1e-5; uniform degree 8 differs from that by: {p_beside}. Beside each target the uniform degree, 2 to
-8, or 2 to 4 on halved cells, with the fewest unknowns whose error at the points is as small: the ratio of unknowns is {p_ratios}. Errors at points
-are about as squares of those in energy on smooth scenes, so this does not say whether targets are met.
+`prm/curved_pair_1.prm` and `curved_pair_2.prm`, nu = 0.5, from degree 2, with targets in energy. There is no exact solution. Compared are the
+displacements at the three points of the scenes (`top`, `far top`, `far side`): the largest difference of a displacement, divided by the largest
+displacement there, with the adaptive run to 1e-5 as the reference; uniform degree 8 differs from that by: {p_beside}. Beside each target stands the
+uniform degree, 2 to 8, or 2 to 4 on halved cells, with the fewest unknowns whose error at the points is as small; the ratio of unknowns is
+{p_ratios}. On smooth scenes errors at points behave as the squares of those in energy, so that this does not say whether targets are met.
 
 | scene | target | estimate | degrees | unknowns | seconds | most iterations | error at points | uniform | unknowns | its error | seconds | ratio of unknowns |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|
 {p_rows}
 
-## Contact that grows and recedes in load steps
+### Contact that grows and recedes in load steps
 
-`prm/wavy_surface.prm` from 16 and 36 cells with `Steps` to 1e-2, the pressure in quarters up to that of the scene and down again. Each step begins
-with the first mesh. Going down cycles and unknowns are {s_same} as going up, areas are {s_apart} apart. All steps take {s_seconds:.1f} s, each
-alone in a run of its own {s_alone:.1f} s together. Half-width: the area by the width of the strip, beside Westergaard's 2 / pi arcsin(sqrt(load /
-4)).
+`prm/wavy_surface.prm` from 16 and 36 cells with `Steps`, target 1e-2; the pressure rises in quarters to that of the scene and falls again. Each step
+begins with the first mesh. On the way down cycles and unknowns are {s_same} as on the way up, and areas are {s_apart} apart. All steps take
+{s_seconds:.1f} s, each alone in a run of its own {s_alone:.1f} s together. The half-width is the area divided by the width of the strip; the formula
+is Westergaard's 2 / pi arcsin(sqrt(load / 4)).
 
 | t | load | cycles | unknowns | half-width | beside the formula | estimate | most sets | most iterations | seconds, alone |
 |---|---|---|---|---|---|---|---|---|---|
 {s_rows}
 
-## The wave to 3e-4
+### The wave to 3e-4
 
 `prm/wavy_surface.prm` from 16 and 36 cells: exit code {w_code}, {w_unknowns} unknowns, {w_seconds:.0f} s without the exact solution, at most
 {w_iterations} iterations, error {w_error:.2e}, estimate {w_estimate:.2e}, {w_ratio:.2f} times. The error is first below 3e-4 with {w_first}

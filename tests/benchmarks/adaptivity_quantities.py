@@ -2,7 +2,7 @@
 """Errors of numbers: adaptivity_quantities.py MORTISE
 
 Cycles whose target is that of a displacement at a point or of a force, where exact values are known: estimates beside errors, and unknowns
-beside those of cycles for the energy. Writes doc/adaptivity_quantities.md and doc/adaptivity_quantities.png; needs numpy and matplotlib."""
+beside those of cycles for the energy. Writes its part of doc/measurements/adaptivity.md and doc/measurements/adaptivity_quantities.png; needs numpy and matplotlib."""
 import argparse
 import math
 import os
@@ -11,8 +11,9 @@ import statistics
 
 import numpy
 
-from adaptivity import CORNER as SEVEN_CUBES, TOP
+from adaptivity import CORNER as SEVEN_CUBES
 from contact import outcome
+from page import TOP, write_part
 
 STEP = 1e-30
 
@@ -364,7 +365,7 @@ def draw(runs, finest):
     for axes in (left, right):
         axes.grid(alpha=0.3)
     figure.tight_layout()
-    figure.savefig(os.path.join(TOP, "doc", "adaptivity_quantities.png"), dpi=100)
+    figure.savefig(os.path.join(TOP, "doc", "measurements", "adaptivity_quantities.png"), dpi=100)
 
 
 def normal(x):
@@ -418,90 +419,79 @@ def main():
         "ends": "\n".join(row_of_ends(name, of) for name, of in groups(runs)),
         "single": "\n".join(row_of_cycles(name, [c for run in of for c in run.first], [c for run in of for c in run.later]) for name, of in groups(finest)),
         "numbers": "\n".join(row_of_number(run) for run in finest), "energy": "\n".join(rows), "l": "\n".join(of_l)}
-    with open(os.path.join(TOP, "doc", "adaptivity_quantities.md"), "w") as page:
-        page.write(TEXT.format(**values))
+    write_part("adaptivity.md", "quantities", TEXT.format(**values))
 
 
-TEXT = """# The error of one number in place of a mesh
+TEXT = """## One number as the target
 
-Regenerate: `tests/benchmarks/adaptivity_quantities.py build/mortise` (writes this page and the plot). Intel Xeon with AVX-512, one core, the other one busy.
-The energy as target: [adaptivity.md](adaptivity.md).
+Regenerate: `tests/benchmarks/adaptivity_quantities.py build/mortise` writes this section and the plot. Intel Xeon with AVX-512, one core, the other one busy.
 
-Missed (goal: estimates 0.8 to 4 times the error in every cycle, 0.9 to 1.5 at the end, targets met by the true error, at most 14 iterations):
+What is missed (goals: estimates 0.8 to 4 times the error in every cycle and 0.9 to 1.5 at the end, targets met by the true error, at most 14 iterations):
 
-- Ends of {n_runs} runs: estimates are {low} to {high} times the error in 8 of 10, {middle} in the median; 0.8 to 4 in {in_goal}, 0.9 to 1.5 in {in_narrow}, below
-  0.8 in {below} (least {smallest}, most {largest}).
-- Single cycles: 0.8 to 4 in {later_in_goal}, below 0.8 in {later_below} (least {later_smallest}). First estimates: {first_in_goal}; {first_middle} times the error
+- At the end of {n_runs} runs estimates are {low} to {high} times the error in 8 of 10, {middle} in the median; 0.8 to 4 in {in_goal}, 0.9 to 1.5 in
+  {in_narrow}, below 0.8 in {below} (least {smallest}, most {largest}).
+- In single cycles they are 0.8 to 4 in {later_in_goal}, below 0.8 in {later_below} (least {later_smallest}). First estimates: {first_in_goal}; {first_middle} times the error
   in the median, {first_largest} at most.
 - The error is above the target in {n_above} of the {n_met} runs that end with exit code 0 (of {n_runs}): {above}.
-- More than 14 iterations of the problem or of its dual in {n_over} runs (linear solves stop at a thousandth of the target); most: {iterations}.
-- Unknowns: the number as target takes {energy_same}, beside runs for the energy that reach the same error of the number; beside those whose error just reaches the
-  target, which they cannot tell, {energy_target}.
+- The problem or its dual takes more than 14 iterations in {n_over} runs (linear solves stop at a thousandth of the target); most: {iterations}.
+- Unknowns: the number as the target takes {energy_same}, beside runs for the energy that reach the same error of the number. Beside those whose
+  error just reaches the target, which they cannot tell, it takes {energy_target}.
 
 ![Estimates over errors, and how many times the error they are](adaptivity_quantities.png)
 
-## All runs
+### All numbers
 
 `Quantity = tip, z` makes the target that of one number, a displacement at a point or a force. {n_numbers} numbers with known answers, {n_points} displacements and
-{n_forces} forces, each to 1e-2, 1e-3 and so on to 1e-6 (at the corner to 1e-3), from degree one (incompressible: two) and the mesh of the scene. Errors are |value /
-exact - 1|. Runs to neighbouring targets share cycles, and some end in the same one.
+{n_forces} forces, are computed to 1e-2, 1e-3 and so on to 1e-6 (at the corner to 1e-3), from degree one (incompressible bodies: two) and the mesh of
+the scene. Errors are |value / exact - 1|. Runs to neighbouring targets share cycles, and some end in the same one.
 
-- Hexahedra: `prm/thick_sphere.prm`, `prm/thick_cylinder.prm`, `prm/manufactured.prm` (curved blocks); tetrahedra: sphere and curved blocks; incompressible: sphere
-  and cylinder with Poisson's ratio 0.5; press fit: `prm/press_fit.prm`, which slides; corner: `prm/fichera.prm` from seven cubes.
-- Exact displacements are Lame's (press fit: with the pressure that closes the interference) or the given ones. Exact forces are Lame's stresses integrated by hand,
-  or stresses of the given displacement, by Gauss's rule with 24 x 24 points on the plane.
+- Hexahedra: `prm/thick_sphere.prm`, `prm/thick_cylinder.prm`, `prm/manufactured.prm` (curved blocks). Tetrahedra: sphere and curved blocks.
+  Incompressible: sphere and cylinder with Poisson's ratio 0.5. Press fit: `prm/press_fit.prm`, which slides. Corner: `prm/fichera.prm` from seven cubes.
+- Exact displacements are Lame's (press fit: with the pressure that closes the interference) or the given ones. Exact forces are Lame's stresses,
+  integrated by hand, or stresses of the given displacement, integrated by Gauss's rule with 24 x 24 points on the plane.
 
 | runs | numbers | runs | target met, by estimate | error above target | at most, times | estimate by error, 10 % | 50 % | 90 % | 0.8 to 4 | 0.9 to 1.5 |
 |---|---|---|---|---|---|---|---|---|---|---|
 {ends}
 
-Each cycle of the runs to the finest target: estimate by error. First estimates are those of the second cycle; single cycles all that follow.
+The next table has estimate by error in each cycle of the runs to the finest target. First estimates are those of the second cycle; single cycles are
+all that follow.
 
 | runs | single cycles | 10 % | 50 % | 90 % | 0.8 to 4 | first estimates | 10 % | 50 % | 90 % | 0.8 to 4 |
 |---|---|---|---|---|---|---|---|---|---|---|
 {single}
 
-`correction` in `summary.json`, the error with a sign as far as one is known: added to the value it leaves {corrections}; the first one {first_corrections}.
+The `correction` in `summary.json` is the error with a sign, as far as one is known. Added to the value it leaves {corrections}; the first one {first_corrections}.
 
-## How
+An error with a sign is small by chance now and then. Were it normally distributed with the deviation R ([how](../guide/adaptivity.md)), then 2 R would be
+0.8 to 4 times the error in {normal} of all cases and 0.9 to 1.5 times in {normal_narrow}. A number that is zero beside the other components of its
+displacement or force, to the tolerance of the solver, has no relative error: exit code {zero} (`prm/thick_sphere.prm` from degree 1 with `Quantity = at r 1, y`).
 
-- Of each cycle the dual problem is solved, too, with the same preconditioner, and what a cell has is the root of the product of both changes in energy. What
-  refinements brought to the number is known exactly, and a sign with it for each cell.
-- Where a tie has a `Preload` the dual problem carries no force along its normal and has a shortening of its own.
-- From degree to degree signs are taken as drawn by lot: contributions of cells add up like the root of the sum of squares R. Where cells are cut, sums keep their
-  sign.
-- The estimate is the root of the squares of the sum over cells that were cut, of 2 R over all, and of the tail of what no cell accounts for: prescribed values,
-  loads and ties are others on other meshes.
-- An error with a sign is small by chance now and then: were it normally distributed and R its deviation, 2 R would be 0.8 to 4 times the error in {normal} of all
-  cases, 0.9 to 1.5 times in {normal_narrow}. An accurate sign takes a solution in a richer space, which is the next cycle.
-- Cells are cut or raised by the smoothness of the solution alone, not by that of the dual one.
-- A number that is zero beside the other components of its displacement or force, to the tolerance of the solver, has no relative error: exit code {zero}
-  (`prm/thick_sphere.prm` from degree 1 with `Quantity = at r 1, y`).
+### Each number
 
-## Each number
-
-The finest target. Iterations: the most of all cycles, of the problem and of its dual. Seconds of all cycles, of one run.
+The table is for the finest target. Iterations: the most of all cycles, of the problem and of its dual. Seconds: all cycles of one run.
 
 | number | target | error | estimate | by error | cycles | unknowns | iterations | of the dual | seconds |
 |---|---|---|---|---|---|---|---|---|---|
 {numbers}
 
-## Unknowns beside the energy as target
+### Unknowns beside the energy as the target
 
-Runs for the energy, the first to 1e-1, the next to that by the root of 10, or to 0.9 times the estimate at the end of the last run if that is less; taken is the
-first that at its end has at most this error of the number, as the next one has, so that it is not small by chance there. No estimate tells this error in such a run.
-Of all runs {not_reached} have an error that is not reached with {most} unknowns and degree 8. At Fichera's corner the number as target takes {corner} times as many
-for the same error. Below 1e-4 and the finest target, at the corner both.
+The runs for the energy have targets that begin with 1e-1 and fall by the root of 10, or to 0.9 times the estimate at the end of the last run if that is
+less. The first run counts that has at most this error of the number at its end, if the next one has it as well, so that it is not small there by
+chance. No estimate tells this error in such a run. Of all runs {not_reached} have an error that is not reached with {most} unknowns and degree 8. At
+Fichera's corner the number as the target takes {corner} times as many unknowns for the same error. The table has 1e-4 and the finest target, at the
+corner both.
 
 | number | target | its error | unknowns | energy, the same error | ratio | energy, the target | ratio |
 |---|---|---|---|---|---|---|---|
 {energy}
 
-## Beside an edge
+### Beside an edge
 
-`prm/l_interface.prm` with a load of 0.1 on its top in place of the plate; no exact solution. Errors beside the last value of a run to 1e-3 (tip: 2e-4); its own
-estimate is in the last column: errors below it are not known to a digit. Beside it a run for the energy to 1.5e-2: the cycle from which on the error of the number
-stays at most that of the run, or the target.
+`prm/l_interface.prm` with a load of 0.1 on its top in place of the plate; there is no exact solution. Errors are relative to the last value of a run to
+1e-3 (tip: 2e-4), whose own estimate is in the last column: smaller errors are not known to a digit. Beside it stands a run for the energy to 1.5e-2:
+the cycle from which on the error of the number stays at most that of the run, or the target.
 
 | number | target | error | estimate | unknowns | energy, the same error | energy, the target | estimate of the reference |
 |---|---|---|---|---|---|---|---|

@@ -2,7 +2,7 @@
 """Meshes and degrees that follow from an error, scenes with edges and contact: adaptivity_scenes.py MORTISE [--peers DIRECTORY]
 
 Inclusions, re-entrant edges, a crack, waves and balls: estimates, errors where they are known, rates, iterations, seconds, the same on 3 ranks; and, with
---peers, NGSolve and CalculiX on Fichera's corner (ngsolve_fichera.py and calculix_fichera.py in DIRECTORY, tests/benchmarks say). Writes doc/adaptivity_scenes.md and .png; needs matplotlib."""
+--peers, NGSolve and CalculiX on Fichera's corner (ngsolve_fichera.py and calculix_fichera.py in DIRECTORY, tests/benchmarks say). Writes its part of doc/measurements/adaptivity.md and adaptivity_scenes.png; needs matplotlib."""
 import argparse
 import json
 import math
@@ -10,8 +10,9 @@ import os
 import subprocess
 import sys
 
-from adaptivity import CORNER, TOP, degrees, error, rows_of_cycles, seconds, unknowns
+from adaptivity import CORNER, degrees, error, rows_of_cycles, seconds, unknowns
 from contact import MODULUS, contact_of, last, run, westergaard
+from page import TOP, write_part
 
 COARSE = ["Body inner/Degree=1", "Body outer/Degree=1", "Body inner/Mesh/Subdivisions=1, 1", "Body outer/Mesh/Subdivisions=2, 1"]
 WAVE = [f"Body {body}/{s}" for body, cells in (("lower", "2, 1, 8"), ("upper", "3, 1, 12")) for s in ("Degree=1", "Mesh/Refine near=", f"Mesh/Subdivisions={cells}")]
@@ -204,7 +205,7 @@ def draw(plots, programs):
     axes[0].legend(fontsize=6)
     axes[1].legend(fontsize=7)
     figure.tight_layout()
-    figure.savefig(os.path.join(TOP, "doc", "adaptivity_scenes.png"), dpi=100)
+    figure.savefig(os.path.join(TOP, "doc", "measurements", "adaptivity_scenes.png"), dpi=100)
 
 
 def main():
@@ -217,97 +218,101 @@ def main():
     fichera, programs = corner(mortise, arguments.peers)
     draw(plots, programs)
     tables = {"whole": whole, "cycles": cycles, "rates": rates, "touches": touches, "ranks": ranks, "fichera": fichera}
-    with open(os.path.join(TOP, "doc", "adaptivity_scenes.md"), "w") as page:
-        page.write(TEXT.format(**{name: "\n".join(rows) for name, rows in tables.items()}))
+    write_part("adaptivity.md", "edges", TEXT.format(**{name: "\n".join(rows) for name, rows in tables.items()}))
 
 
-TEXT = """# Edges and contact from coarse meshes
+TEXT = """## Edges and contact
 
-Regenerate: `tests/benchmarks/adaptivity_scenes.py build/mortise --peers tests/benchmarks` (writes this page and the plot; without NGSolve leave out
-`--peers`). Intel Xeon with AVX-512, one core.
+Regenerate: `tests/benchmarks/adaptivity_scenes.py build/mortise --peers tests/benchmarks` writes this section and the plot; without NGSolve leave
+out `--peers`. Intel Xeon with AVX-512, one core; the other core was busy, which makes seconds 1.3 to 2 times too long.
 
-Missed:
+What is missed:
 
-- Unknowns at the L: three cubes have an error of 7.6e-2 with 1,800 unknowns, but 1e-1 is only met with 9,510; 24 cells have 2.6e-2 with 45,024, and 2.5e-2 is met
-  with 119,916 (errors by fields: [adaptivity_hard.md](adaptivity_hard.md)). With the slab as slave 1e-1 takes 38,229.
-- 1e-3 at the stiff cube and 1e-2 at the crack are not reached with 2 million unknowns: cells are isotropic, errors at edges fall as N^-0.5.
-- At the crack estimates are 1.54 to 1.55 times the error from cycle 4 on, though the error falls by exactly the root of 2 from cycle to cycle: 15,245 unknowns would meet
-  1e-1 (taken: 64,349), 134,841 3e-2 (545,541). Goal at the end 0.9 to 1.5; beyond it, too: a shell 0.84. The largest of a cycle is 2.34 (crack, cycle 2), the least 0.84.
-- The wave meets 1e-3 with 212,445 unknowns, but ends with 368,021: there the estimate is 1.92 times the error.
-- Radius of the contact by its area, to 0.1 %: to 2e-3 the ball 0.06 %, the paraboloid 0.12 %, to 1e-2 0.5 and 0.4 %. The half-width of the wave is 3.1 % off at 1e-2 and
-  0.8 % at 1e-3: the area is known to a cell. Largest pressures are off by 1e-4 to 4e-4 at 1e-2.
+- Unknowns of the L: three cubes have an error of 7.6e-2 with 1,800 unknowns, but 1e-1 is only accepted with 9,510. The L of 24 cells has 2.6e-2
+  with 45,024 unknowns, and 2.5e-2 is accepted with 119,916 (the errors are computed from fields, see "Hard scenes"). With the slab as the slave 1e-1 takes 38,229.
+- The stiff cube does not reach 1e-3 and the crack does not reach 1e-2 with 2 million unknowns: cells are isotropic, and errors at edges fall as N^-0.5.
+- At the crack estimates are 1.54 to 1.55 times the error from cycle 4 on, although the error falls by exactly the root of 2 from cycle to cycle:
+  15,245 unknowns would meet 1e-1 (64,349 are taken) and 134,841 would meet 3e-2 (545,541). The goal at the end is 0.9 to 1.5; a shell has 0.84.
+  Over all cycles the largest is 2.34 (crack, cycle 2) and the least 0.84.
+- The wave meets 1e-3 with 212,445 unknowns, but ends with 368,021, since its estimate is 1.92 times the error there.
+- The radius of contact by its area (goal: 0.1 %) is off by 0.06 % for the ball and 0.12 % for the paraboloid at 2e-3, and by 0.5 and 0.4 % at 1e-2.
+  The half-width of the wave is off by 3.1 % at 1e-2 and by 0.8 % at 1e-3: the area is known up to one cell. Largest pressures are off by 1e-4 to 4e-4 at 1e-2.
 - First estimates of contact are up to 1.25 (paraboloid).
-- Seconds: the other core was busy, which makes them 1.3 to 2 times too long.
-- NGSolve with the corner named in advance takes 0.1 to 0.6 of the unknowns and, down to 3e-2, less time (Fichera's corner).
+- NGSolve takes 0.1 to 0.6 of the unknowns at Fichera's corner, and less time down to 3e-2, if it is told where the corner is.
 
 ![Scenes, and Fichera's corner beside NGSolve](adaptivity_scenes.png)
 
-## All scenes
+### All scenes with edges or contact
 
-Goals: the error below the target, the estimate 0.9 to 1.5 times the error at the end, at most 14 iterations. From degree 1. Seconds without reading meshes, of all
-cycles, without the exact solution of the wave; medians of 3, from 1.5e-2 down of 1.
+Goals: the error is below the target, the estimate is 0.9 to 1.5 times the error at the end, and no cycle has more than 14 iterations. All begin
+with degree 1. Seconds are those of all cycles without the reading of meshes and without the exact solution of the wave; they are medians of 3, below 1.5e-2 of 1.
 
 - Shells: `prm/thick_sphere.prm` from 3 and 12 cells, the inner shell a thousand times as stiff or as soft as the outer one, Lame's solution.
-- Stiff cube: `prm/inclusion.prm`, a cube a thousand times as stiff within a block, an octant; no exact solution.
+- Stiff cube: `prm/inclusion.prm`, an octant of a block around a cube that is a thousand times as stiff; no exact solution.
 - L: `prm/l_interface.prm`, seven cubes around a re-entrant corner of the interface; no exact solution. The slave is the L, of 3 or 24 cells, or the slab below.
-- Crack: `prm/crack.prm`, the edge of a crack on the interface, exact solution of mode I.
-- Wave: `prm/wavy_surface.prm` from 16 and 36 cells, beside Westergaard's displacement. Ball: `prm/hertz_adaptive.prm`; paraboloid:
-  `prm/hertz_half_spaces.prm`; no exact solution.
+- Crack: `prm/crack.prm`, the edge of a crack on the interface, with the exact solution of mode I.
+- Wave: `prm/wavy_surface.prm` from 16 and 36 cells, with Westergaard's displacement. Ball: `prm/hertz_adaptive.prm`. Paraboloid:
+  `prm/hertz_half_spaces.prm`. The last two have no exact solution.
 
 | scene | target | estimate | error | estimate by error | met | unknowns | seconds | most iterations |
 |---|---|---|---|---|---|---|---|---|
 {whole}
 
-## Rates
+### Rates at edges and in contact
 
-r of N^-r by least squares, of the last half of the cycles (at least four) and of all. Goals: 1 and more where there is contact; 0.5 at edges is what isotropic cells give.
+The table has r of N^-r by least squares, for the last half of the cycles (at least four) and for all. The goal for contact is 1 and more; at edges
+isotropic cells give 0.5.
 
 | scene | estimates, last half | errors, last half | estimates, all | errors, all | unknowns of the last half |
 |---|---|---|---|---|---|
 {rates}
 
-## Contact
+### Contact
 
-Half-width of the wave beside 1/3 and pressure beside 8.6311; radius and largest pressure of ball and paraboloid beside Hertz's for the force. Goal: radius to 1e-3.
-Westergaard's exact displacement is that of `tests/benchmarks/contact.py` (`westergaard`). How far the load moves, by its root, is not the energy error: with cells
-graded twice at p = 2 and 3 times at p = 4 errors are 6.9e-3 and 2.4e-4, roots 5.0e-3 and 2.0e-3.
-Hertz's formulas hold to about (a/R)^2 = 1e-2 for the ball (a circle is not his parabola), to about (1/16)^3 for the paraboloid, between blocks of 16 radii.
+The half-width of the wave is compared with 1/3 and its pressure with 8.6311; radius and largest pressure of ball and paraboloid are compared with
+Hertz's for the computed force. The goal is a radius to 1e-3. Westergaard's exact displacement is that of `tests/benchmarks/contact.py`
+(`westergaard`). The root of the work of the load is not the energy error here: with cells graded twice at p = 2 and three times at p = 4 errors are
+6.9e-3 and 2.4e-4, and those roots 5.0e-3 and 2.0e-3. Hertz's formulas hold to about (a/R)^2 = 1e-2 for the ball, since a circle is not his
+parabola, and to about (1/16)^3 for the paraboloid between blocks of 16 radii.
 
 | scene | target | unknowns | width or radius - 1 | largest pressure - 1 | sets of the last cycle | iterations of all of them |
 |---|---|---|---|---|---|---|
 {touches}
 
-## One rank and three
+### One rank and three
 
-Goal: the same cells, degrees and unknowns in every cycle.
+The goal is the same cells, degrees and unknowns in every cycle.
 
 | scene | target | cycles | unknowns | the same | estimates apart | most iterations |
 |---|---|---|---|---|---|---|
 {ranks}
 
-## NGSolve and CalculiX on Fichera's corner
+### NGSolve and CalculiX on Fichera's corner
 
-The same solution and loads, one core all; of each program the run with the least seconds that meets the target.
+All programs have the same solution and loads and one core; the table shows of each the fastest run that meets the target.
 
-`tests/benchmarks/ngsolve_fichera.py`, version 6.2.2608: one conforming mesh of tetrahedra. hp: the corner is named in
-advance, `RefineHP` with as many levels as the order, 33 or about 300 elements before that, one solve. h: orders 1 to 4, ZZ, bisection, solves of all cycles (in
-brackets with recovering fluxes). The faster of BDDC with CG and a sparse Cholesky factor; above 50,000 unknowns BDDC. Seconds of NGSolve are spaces, assembling and solving; of Mortise all stages and
-cycles, errors and estimates included, from seven cubes without a hint at the corner. NGSolve has no hp refinement of hexahedra at a vertex. Its series end at about 40,000 to
-85,000 unknowns.
+NGSolve 6.2.2608 (`tests/benchmarks/ngsolve_fichera.py`) has one conforming mesh of tetrahedra. In the series "hp" the corner is named in advance:
+`RefineHP` with as many levels as the order, on 33 or about 300 elements, and one solve. In the series "h" the orders are 1 to 4 with ZZ estimates
+and bisection, and seconds are those of the solves of all cycles (in brackets with the recovery of fluxes). The faster of BDDC with CG and a sparse
+Cholesky factorisation counts, above 50,000 unknowns BDDC. Seconds of NGSolve are those for spaces, assembly and solution; those of Mortise are all
+stages and cycles with errors and estimates, from seven cubes without a hint where the corner is. NGSolve has no hp refinement of hexahedra at a
+vertex. Its series end at about 40,000 to 85,000 unknowns.
 
-`tests/benchmarks/calculix_fichera.py`, version 2.20: one conforming mesh of seven cubes, uniformly refined, C3D8 and C3D20, up to 90,000 unknowns; seconds are those of `ccx`,
-reading and writing included, with the fastest of its solvers (iterative ones stop at 0.5 % of the mean load). Errors fall as N^-0.30 and N^-0.36.
+CalculiX 2.20 (`tests/benchmarks/calculix_fichera.py`) has one conforming mesh of seven cubes, uniformly refined, C3D8 and C3D20, with up to 90,000
+unknowns. Its seconds are those of `ccx` with reading and writing and the fastest of its solvers (iterative ones stop at 0.5 % of the mean load). Its
+errors fall as N^-0.30 and N^-0.36.
 
 | target | Mortise, error | unknowns | seconds | NGSolve hp, error | unknowns | seconds | NGSolve h, error | unknowns | seconds | CalculiX, error | unknowns | seconds |
 |---|---|---|---|---|---|---|---|---|---|---|---|---|
 {fichera}
 
-## Each cycle
+### Each cycle at edges and in contact
 
-Where there is no exact solution: the force on the loaded plane beside that of the finest run (of the stiff cube less the square of its estimate; of the L that with 24 cells, itself
-1.1e-2 off), minus 1, and its root. The plane is moved by a given amount, so that the root is the error in energy as far as ties hold exactly. At the L of three cells they do not:
-the root of cycle 2 is 3.0e-2 where fields have an error of 7.6e-2, and with the slab as slave the force falls below the limit in cycle 3. What the finest run lacks is
-missing from all roots of the L.
+Where there is no exact solution, "force" is the force on the loaded plane divided by that of the finest run, minus 1, and its root. (For the stiff
+cube the square of the estimate is subtracted from the reference; for the L the reference is that with 24 cells, which is itself 1.1e-2 off.) The plane
+is moved by a given amount, so that the root is the error in energy as far as the ties hold exactly. At the L of three cells they do not: in cycle 2
+the root is 3.0e-2 where the fields have an error of 7.6e-2, and with the slab as the slave the force falls below the limit in cycle 3. All roots of
+the L lack the error of the finest run.
 
 | scene and target | cycle | degrees | cells | unknowns | error | estimate | by error | iterations |
 |---|---|---|---|---|---|---|---|---|

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Products without a matrix, one core and two: bulk_operator.py BENCHMARK_BULK [PAGE]
+"""Products without a matrix, one core and two: bulk_operator.py BENCHMARK_BULK
 
-Runs the program benchmark_bulk (ninja benchmark_bulk) on one and two ranks and writes PAGE, doc/bulk.md unless said."""
+Runs the program benchmark_bulk (ninja benchmark_bulk) on one and two ranks and writes the part of doc/measurements/bulk.md that
+is about processors of this kind, with or without AVX-512."""
 import os
 import subprocess
 import sys
 
+from page import write_part
 from processor import on_ranks
-
-TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 
 def rows(program, ranks):
@@ -41,27 +41,17 @@ def workspace_per_dof(p, number):
 
 def main():
     (one, *peaks, bandwidth, caches, width), (two, *_) = (rows(os.path.abspath(sys.argv[1]), ranks) for ranks in (1, 2))
-    page = sys.argv[2] if len(sys.argv) > 2 else os.path.join(TOP, "doc", "bulk.md")
-    argument = "" if len(sys.argv) < 3 else " " + os.path.relpath(page, TOP)
     with open("/sys/devices/system/cpu/cpu0/cache/index0/size") as size:
         first_cache = size.read().strip().rstrip("K")
     model = next(line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name"))
-    text = ["# Products with the stiffness without a matrix", "",
-            f"Regenerate: `ninja -C build benchmark_bulk && tests/benchmarks/bulk_operator.py build/benchmark_bulk{argument}`.",
-            f"Million displacements per second and core on {model}, registers of {width:.0f} bytes, medians of nine products on",
-            "0.3 million displacements per core; gathering, scattering and the ghost entries' place included, no communication.",
-            "`shell octant`: curved cells, nine numbers per point; `box`: constant Jacobians. Tetrahedra, six to a",
-            "hexahedron, with dense matrices of the reference cell, on curved cells from p = 6 on by sum factorisation in",
-            "collapsed coordinates." + ("" if argument else " The same on a processor without AVX-512: [bulk_avx2.md](bulk_avx2.md)."), "",
+    text = [f"## {'With' if width == 64 else 'Without'} AVX-512", "",
+            f"{model}, registers of {width:.0f} bytes.", "",
             "| mesh | p | dofs | double | single | double, both cores | single, both cores |", "|---|---|---|---|---|---|---|"]
     for (mesh, p, dofs, double, single), (*_, double2, single2) in zip(one, two):
         text.append(f"| {mesh.strip()} | {p} | {dofs} | {double} | {single} | {double2} | {single2} |")
-    text += ["", "## What bounds them", "",
-             f"One core does {peaks[0]:.0f} Gflop/s in double and {peaks[1]:.0f} in single precision (multiplications with additions, in",
-             f"registers), and moves {bandwidth:.0f} GB/s (a = b + s c on as many bytes as these products read and write),",
-             f"{caches:.0f} GB/s on {12 * 125 * width / 1e3:.0f} kB, the workspace of {width / 8:.0f} cells of degree 4 (first cache: {first_cache} KiB).",
-             "Counted for curved hexahedra (functions of the script): flops, bytes from and to memory, and bytes that the passes over lines",
-             "read from and write to the workspace; bounds in million dofs per second:", "",
+    text += ["", "What bounds the products:", "",
+             f"One core does {peaks[0]:.0f} Gflop/s in double and {peaks[1]:.0f} in single precision. It moves {bandwidth:.0f} GB/s from and to memory,",
+             f"and {caches:.0f} GB/s on the {12 * 125 * width / 1e3:.0f} kB that are the workspace of {width / 8:.0f} cells of degree 4 (first cache: {first_cache} KiB).", "",
              "| p | precision | per dof: flops | bytes | of the workspace | measured | Gflop/s | GB/s | of the workspace | "
              "bound by flops | by bytes | by the workspace |", "|---|---|---|---|---|---|---|---|---|---|---|---|"]
     shares = {"double": [], "single": []}
@@ -74,11 +64,10 @@ def main():
                 text.append(f"| {p} | {name} | " + " | ".join(f"{count:.0f}" for count in counts) + f" | {rate:.0f} | " +
                             " | ".join(f"{rate * count / 1e3:.0f}" for count in counts) + " | " +
                             " | ".join(f"{bound:.0f}" for bound in bounds) + " |")
-    text += ["", "Of the lowest bound " + ", ".join(
-        f"products in {name} precision reach {min(share)[0]:.2f} to {max(share)[0]:.2f} ("
+    text += ["", "Products reach of their lowest bound " + ", ".join(
+        f"in {name} precision {min(share)[0]:.2f} to {max(share)[0]:.2f} ("
         f"{' and '.join(sorted({what for _, what in share}))})" for name, share in shares.items()) + "."]
-    with open(page, "w") as out:
-        out.write("\n".join(text) + "\n")
+    write_part("bulk.md", f"{width:.0f} bytes", "\n".join(text))
     print("\n".join(text))
 
 

@@ -2,8 +2,8 @@
 """Contact without friction: contact.py MORTISE [--peers DIRECTORY]
 
 Press fits beside bodies that slide, balls, waves, a punch and a layer beside formulas, a flange that lifts, what active sets cost
-beside one solve, and with --peers NGSolve (ngsolve_pressfit.py in DIRECTORY) on the press fit of spheres. Writes doc/contact.md and,
-with matplotlib, doc/contact_flange.png."""
+beside one solve, and with --peers NGSolve (ngsolve_pressfit.py in DIRECTORY) on the press fit of spheres. Writes doc/measurements/contact.md and,
+with matplotlib, doc/measurements/contact_flange.png."""
 import argparse
 import json
 import math
@@ -248,7 +248,7 @@ def flange(mortise):
     right.set_ylabel("kN")
     figure.legend(loc="upper right", bbox_to_anchor=(0.88, 0.88))
     figure.tight_layout()
-    figure.savefig(os.path.join(TOP, "doc", "contact_flange.png"), dpi=100)
+    figure.savefig(os.path.join(TOP, "doc", "measurements", "contact_flange.png"), dpi=100)
 
 
 def costs(mortise):
@@ -322,7 +322,7 @@ def main():
         for row in rows(mortise):
             tables[-1].append(row)
             print(row, flush=True)
-    with open(os.path.join(TOP, "doc", "contact.md"), "w") as page:
+    with open(os.path.join(TOP, "doc", "measurements", "contact.md"), "w") as page:
         page.write(TEXT.format(*("\n".join(rows) for rows in tables)))
 
 

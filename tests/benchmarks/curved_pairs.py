@@ -4,7 +4,7 @@
 Each pair of bodies that meet in a curved surface is computed with meshes that do not match, n against
 3n/2 cells across, and as one body with one conforming mesh, in tetrahedra and in hexahedra. Compared is
 u_z along a vertical line and along a line on the interface, seen from both bodies. Writes
-doc/curved_pairs.csv, doc/curved_pairs.md and, with matplotlib and pyvista, doc/curved_pairs.png."""
+doc/measurements/curved_pairs.csv, doc/measurements/curved_pairs.md and, with matplotlib and pyvista, doc/measurements/curved_pairs.png."""
 import csv
 import json
 import math
@@ -132,15 +132,15 @@ def picture(mortise):
         axes[row, 2].legend(fontsize=7, loc="lower left")
         axes[row, 2].grid(alpha=0.3)
     figure.tight_layout()
-    figure.savefig(os.path.join(TOP, "doc", "curved_pairs.png"), dpi=80)
+    figure.savefig(os.path.join(TOP, "doc", "measurements", "curved_pairs.png"), dpi=80)
 
 
 def write(table):
-    with open(os.path.join(TOP, "doc", "curved_pairs.csv"), "w") as file:
+    with open(os.path.join(TOP, "doc", "measurements", "curved_pairs.csv"), "w") as file:
         writer = csv.DictWriter(file, table[0].keys())
         writer.writeheader()
         writer.writerows(table)
-    with open(os.path.join(TOP, "doc", "curved_pairs.md"), "w") as file:
+    with open(os.path.join(TOP, "doc", "measurements", "curved_pairs.md"), "w") as file:
         file.write("# The source's two examples\n\nRegenerate: `tests/benchmarks/curved_pairs.py build/mortise` (writes this page, "
                    "`curved_pairs.csv` and `curved_pairs.png`).\n\n![u_z of both pairs, tied and conforming](curved_pairs.png)\n\n"
                    "`prm/curved_pair_1.prm` and `curved_pair_2.prm` (our dimensions, E = 10 and nu = 0.5 as in the source), n against 3n/2 cells across, beside one\n"

@@ -2,7 +2,7 @@
 """Two bodies meshed by gmsh, each on its own, tied: files.py [--beside PROGRAM] MORTISE
 
 Boxes and plates of tetrahedra that were not refined, over degrees, on one and two ranks, medians of --repeats runs. With
---beside another program, of an earlier commit say, runs in turn. Writes doc/files.md."""
+--beside another program, of an earlier commit say, runs in turn. Writes doc/measurements/files.md."""
 import argparse
 import json
 import os
@@ -109,7 +109,7 @@ def main():
              f"Two boxes, and two plates a fiftieth as high as wide, each meshed by gmsh with edges of its own, tetrahedra of straight edges, not "
              f"refined; seconds,\nmedians of {given.repeats}, on {model} {width}; tolerance 1e-8.{note}\n",
              head, "|" + "---|" * (head.count("|") - 1), *rows(programs, given.repeats)]
-    with open(os.path.join(TOP, "doc", "files.md"), "w") as page:
+    with open(os.path.join(TOP, "doc", "measurements", "files.md"), "w") as page:
         print(*lines, sep="\n", file=page)
 
 

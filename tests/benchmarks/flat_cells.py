@@ -2,7 +2,7 @@
 """Iterations and times on flat cells: flat_cells.py MORTISE
 
 Two layers of height h on a unit square, prm/patch.prm, whose meshes match or do not, in hexahedra and in
-tetrahedra; films on a block. Writes doc/flat_cells.md."""
+tetrahedra; films on a block. Writes doc/measurements/flat_cells.md."""
 import json
 import os
 import statistics
@@ -141,7 +141,7 @@ It pays from where the cells of a body are 25 times as wide as high (other bodie
 
 Goal: at most twice the seconds of cubes (the first row of each degree is near that). It is missed: a factorisation costs 3 to 5 solves. It stands for all load steps.
 """
-    open(os.path.join(TOP, "doc", "flat_cells.md"), "w").write(text)
+    open(os.path.join(TOP, "doc", "measurements", "flat_cells.md"), "w").write(text)
 
 
 if __name__ == "__main__":

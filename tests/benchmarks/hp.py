@@ -3,7 +3,7 @@
 
 Runs prm/fichera.prm, whose displacement behaves as r^0.6 at a corner of the interface, with all cells halved
 (h, degree 2), with rising degree on one mesh (p), and with cells halved once more at the corner for each
-degree (hp), also with the upper body in tetrahedra that shrink towards the corner (hp, tet). Writes doc/hp.csv, doc/hp.md and, with matplotlib, doc/hp.png."""
+degree (hp), also with the upper body in tetrahedra that shrink towards the corner (hp, tet). Writes doc/measurements/hp.csv, doc/measurements/hp.md and, with matplotlib, doc/measurements/hp.png."""
 import csv
 import json
 import math
@@ -63,13 +63,13 @@ def exponent(rows, power):
 
 
 def write(rows):
-    with open(os.path.join(TOP, "doc", "hp.csv"), "w") as file:
+    with open(os.path.join(TOP, "doc", "measurements", "hp.csv"), "w") as file:
         table = csv.DictWriter(file, rows[0].keys())
         table.writeheader()
         table.writerows(rows)
     b = exponent([r for r in rows if r["kind"] == "hp"], 0.25)
     b_tet = exponent([r for r in rows if r["kind"] == "hp, tet"], 0.25)
-    with open(os.path.join(TOP, "doc", "hp.md"), "w") as file:
+    with open(os.path.join(TOP, "doc", "measurements", "hp.md"), "w") as file:
         file.write("# hp on a corner of the interface\n\nRegenerate: `tests/benchmarks/hp.py build/mortise` (writes this page, `hp.csv` "
                    "and `hp.png`).\n\n![Energy error over degrees of freedom](hp.png)\n\n"
                    "`prm/fichera.prm`: Fichera's corner, two bodies tied along an L whose re-entrant vertex is the corner, displacement "
@@ -99,7 +99,7 @@ def write(rows):
     for axis in axes:
         axis.grid(True, which="both", alpha=0.3)
     figure.tight_layout()
-    figure.savefig(os.path.join(TOP, "doc", "hp.png"), dpi=90)
+    figure.savefig(os.path.join(TOP, "doc", "measurements", "hp.png"), dpi=90)
 
 
 if __name__ == "__main__":

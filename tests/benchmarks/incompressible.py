@@ -3,7 +3,7 @@
 
 Errors of the thick sphere and cylinder over Poisson's ratio, tied beside conforming; iterations to 1e-8 over
 degree, mesh, nu, moduli, slave and ranks, and of a clamped cube; time and memory of nu = 0.5 beside the
-displacement form at nu = 0.3. Writes doc/incompressible.csv and doc/incompressible.md. With --part (errors,
+displacement form at nu = 0.3. Writes doc/measurements/incompressible.csv and doc/measurements/incompressible.md. With --part (errors,
 iterations, time or none) the rows of the other parts are those of the last run."""
 import argparse
 import csv
@@ -20,7 +20,7 @@ import time
 from processor import on_ranks, openblas
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-FILES = os.path.join(TOP, "doc", "incompressible")
+FILES = os.path.join(TOP, "doc", "measurements", "incompressible")
 STAGES = ("spaces", "interface_search", "interface_clipping", "coupling", "bulk", "solver_setup", "solve")  # as run_time.py
 RATIOS = ("0.3", "0.49", "0.4999", "0.499999", "0.5")
 LAYERS = ("inner", "outer")

@@ -1,5 +1,5 @@
 // Inf-sup constants of one case, as one line of JSON. Not a test: inf_sup.py
-// makes the tables of doc/inf_sup.md of them.
+// makes the tables of doc/measurements/inf_sup.md of them.
 //
 //   inf_sup pressure [KEY=VALUE]...
 //     degree, source, cells, extent, subdivisions, distort, refine (see "Refine

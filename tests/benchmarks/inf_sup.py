@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Inf-sup constants of pressures and multipliers: inf_sup.py [BENCHMARK_INF_SUP [TABLE ...]]
 
-Runs the program benchmark_inf_sup (ninja benchmark_inf_sup) on all cases, two at a time, into doc/inf_sup.csv and writes
-doc/inf_sup.md from it; without a program it only writes the page again. With names of tables
+Runs the program benchmark_inf_sup (ninja benchmark_inf_sup) on all cases, two at a time, into doc/measurements/inf_sup.csv and writes
+doc/measurements/inf_sup.md from it; without a program it only writes the page again. With names of tables
 only those are computed, the other rows are kept. The page itself is in inf_sup_report.py."""
 import concurrent.futures
 import csv
@@ -14,7 +14,7 @@ import sys
 import inf_sup_report
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-DOC = os.path.join(os.path.dirname(os.path.dirname(HERE)), "doc")
+DOC = os.path.join(os.path.dirname(os.path.dirname(HERE)), "doc", "measurements")
 DEGREES = range(1, 7)
 
 

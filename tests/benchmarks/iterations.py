@@ -2,7 +2,7 @@
 """Iterations of the iterative solvers to 1e-8: iterations.py MORTISE [TABLE ...]
 
 Over degree and mesh, ranks, contrast of moduli, ratio of sizes, Poisson's ratio, refinement, and
-tetrahedra. Writes doc/iterations.md. TABLE: words of the titles of those to measure; the others are
+tetrahedra. Writes doc/measurements/iterations.md. TABLE: words of the titles of those to measure; the others are
 kept as the page has them."""
 import argparse
 import json
@@ -21,7 +21,7 @@ SIMPLEX_MESHES = {2: ("2,1:3,2", "4,2:6,3", "8,4:12,6"), 3: ("2,1:3,2", "4,2:6,3
                   5: ("1,1:2,1", "2,1:3,2", "4,2:5,3"), 6: ("1,1:2,1", "2,1:3,2", "3,2:4,3"), 7: ("1,1:1,1", "1,1:2,1", "2,1:3,2"),
                   8: ("1,1:1,1", "1,1:2,1", "2,1:3,2")}
 METHODS = ("saddle point", "condensed")
-PAGE = os.path.join(TOP, "doc", "iterations.md")
+PAGE = os.path.join(TOP, "doc", "measurements", "iterations.md")
 kept = {}  # rows by title
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """What a scene skips, and Mortise without an interface beside a plain program of deal.II.
-Not a test: it writes doc/skipping.md.
+Not a test: it writes doc/measurements/skipping.md.
 
   ninja -C build mortise benchmark_plain
   tests/benchmarks/plain.py build/mortise build/benchmark_plain
@@ -194,7 +194,7 @@ stage did not run and is absent there. Errors: there is an exact solution to com
     yield f"""## No interface: beside a plain program
 
 `prm/thick_sphere_conforming.prm` without fields, points and resultants, beside
-[`plain_elasticity.cc`](../tests/benchmarks/plain_elasticity.cc), which knows only deal.II, in the same space on the same
+[`plain_elasticity.cc`](../../tests/benchmarks/plain_elasticity.cc), which knows only deal.II, in the same space on the same
 mesh: conjugate gradients to a relative residual of 1e-8, either without a matrix (multigrid in the degree, Chebyshev
 smoothers, single precision, algebraic multigrid at degree 1; `MatrixFree` has one lane in Debian's deal.II) or with a
 matrix and algebraic multigrid (where that is affordable, one run). Seconds of the whole process, peak memory of all
@@ -230,7 +230,7 @@ def main():
     options.at_start = memory_at_start(options.plain), memory_at_start(options.mortise)
     cases = [measure(options, p, size, int(ranks)) for ranks in options.ranks.split(",")
              for size in range(len(SIZES)) for p in MESHES]
-    with open(os.path.join(TOP, "doc", "skipping.md"), "w") as file:
+    with open(os.path.join(TOP, "doc", "measurements", "skipping.md"), "w") as file:
         file.write("\n".join(report(scenes, cases, options.at_start)) + "\n")
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Press fits, and what a rotation of one part changes in the other: press_fit.py MORTISE
 
-A shell pressed into another, cylinder and sphere, that slide on each other. Writes doc/press_fit.md."""
+A shell pressed into another, cylinder and sphere, that slide on each other. Writes doc/measurements/press_fit.md."""
 import argparse
 import json
 import math
@@ -97,7 +97,7 @@ def main():
              "solution of Lamé.\nTolerance 1e-13.", *rates(mortise),
              "\n## A rotation of the outer part\n\nBy 0.001 about the axis: how far it moves a point of the inner part, over what that point moves "
              "without. It would move nothing if\nmeshes held the circle and the sphere; they hold them to the order of the cells. Goal: below 1e-9.", *rotations(mortise)]
-    with open(os.path.join(TOP, "doc", "press_fit.md"), "w") as page:
+    with open(os.path.join(TOP, "doc", "measurements", "press_fit.md"), "w") as page:
         print(*lines, sep="\n", file=page)
 
 

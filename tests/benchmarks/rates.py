@@ -5,7 +5,7 @@ Thick sphere and cylinder, tied (inner layer n cells per patch edge or around, o
 3/2 or 5/4) beside conforming twins (n cells everywhere, the size of the tied scene's coarser side),
 the manufactured solution with a clamped interface rim, and the errors 1e-4 and 1e-6 on meshes that
 do not nest; in hexahedra, and in tetrahedra and both (slave on master). With --tetrahedra only the latter
-are run, and the other rows of the last run kept. Writes doc/rates.csv, doc/rates.md and, with matplotlib, doc/rates.png."""
+are run, and the other rows of the last run kept. Writes doc/measurements/rates.csv, doc/measurements/rates.md and, with matplotlib, doc/measurements/rates.png."""
 import csv
 import json
 import math
@@ -108,7 +108,7 @@ def earlier_rows():
             return None if text == "" else int(text) if text.isdigit() else float(text)
         except ValueError:
             return text
-    with open(os.path.join(TOP, "doc", "rates.csv")) as file:
+    with open(os.path.join(TOP, "doc", "measurements", "rates.csv")) as file:
         rows = [{"scene": row["scene"], "cells": row.get("cells", "hex on hex"), **{k: number(v) for k, v in row.items() if k not in ("scene", "cells")}}
                 for row in csv.DictReader(file)]
     return [row for row in rows if row["cells"] == "hex on hex"]
@@ -142,11 +142,11 @@ def main():
 
 
 def write(rows):
-    with open(os.path.join(TOP, "doc", "rates.csv"), "w") as file:
+    with open(os.path.join(TOP, "doc", "measurements", "rates.csv"), "w") as file:
         table = csv.DictWriter(file, rows[0].keys())
         table.writeheader()
         table.writerows(rows)
-    with open(os.path.join(TOP, "doc", "rates.md"), "w") as file:
+    with open(os.path.join(TOP, "doc", "measurements", "rates.md"), "w") as file:
         file.write("# Errors and rates\n\nRegenerate: `tests/benchmarks/rates.py build/mortise` "
                    "(writes this page, `rates.csv` and `rates.png`).\n`n`: cells per patch edge (around, per side) of the inner or "
                    "lower body, `ratio` its number to the other body's; rates\nagainst the row above; `/ conforming`: energy error "
@@ -173,7 +173,7 @@ def write(rows):
     plot.title("Thick sphere, tied at mid radius, 2 : 3 cells")
     plot.legend()
     plot.grid(True, which="both", alpha=0.3)
-    plot.savefig(os.path.join(TOP, "doc", "rates.png"), dpi=110)
+    plot.savefig(os.path.join(TOP, "doc", "measurements", "rates.png"), dpi=110)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Time and memory against the energy error on the thick sphere, Mortise beside other programs.
-Not a test: it writes doc/run_time.csv, doc/run_time.md and doc/pictures/run_time.png.
+Not a test: it writes run_time.csv, its part of run_time.md and run_time.png in doc/measurements.
 
   pip install ngsolve numpy matplotlib; apt-get install python3-getfem++ calculix-ccx
   tests/benchmarks/run_time.py build/mortise --peers DIRECTORY
@@ -25,9 +25,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plot
 import numpy
 
+from page import TOP, write_part
 from processor import on_ranks, openblas
 
-TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 STAGES = ("spaces", "interface_search", "interface_clipping", "coupling", "bulk", "solver_setup", "solve")
 COUPLING = STAGES[1:4]
 MEDIANS = ("seconds", "process", "memory_mib")
@@ -258,19 +258,12 @@ def introduction(rows, page):
     with open("/proc/cpuinfo") as file:
         processor = next(line.split(":")[1].strip() for line in file if line.startswith("model name"))
     runs, disturbed = [r["runs"] for r in rows if r["mesh"] != HUGE], sum(not r["undisturbed"] for r in rows)
-    return f"""# Time and memory against the error
+    return f"""## {"Without" if page.endswith("avx2") else "With"} AVX-512
 
-Regenerate: `tests/benchmarks/run_time.py build/mortise --peers DIRECTORY --huge{"" if page == "run_time" else " --page " + page}` (writes this page,
-[all rows]({page}.csv) and the picture; `DIRECTORY` holds the peers' scripts, without it Mortise alone).
+`tests/benchmarks/run_time.py build/mortise --peers DIRECTORY --huge{"" if page == "run_time" else " --page " + page}` writes this section,
+[all rows]({page}.csv) and the picture. {processor}, {os.cpu_count()} cores, {min(runs)} to {max(runs)} runs of a row; {disturbed} of {len(rows)} rows have a *.
 
-![Time, memory and stages](pictures/{page}.png)
-
-`prm/thick_sphere.prm` and its conforming twin to a residual of 1e-8, degree p (p4:3: 4 in the inner body, 3 in the
-outer one), subdivisions inner : outer (1 : 2 cells across nest, as in the peers' n 1). "Solve" is all stages but mesh, postprocess and output; of the peers the wall
-time without mesh and errors. "Process" is the whole process, start-up included. {processor}, {os.cpu_count()} cores,
-shared with other work: all programs in turn, in random order, {min(runs)} to {max(runs)} runs of a row. Times are median [least], the
-median over the runs that other processes left the cores to; * marks the {disturbed} of {len(rows)} rows without such a run, which
-take longer than on idle cores. An error's goal is met by the better of one and two ranks. Lines of the picture join what nothing else beats.
+![Time, memory and stages]({page}.png)
 """
 
 
@@ -285,7 +278,7 @@ def errors_reached(rows, missed):
         lines.append((f"{target:.0e}", f"{goal:g}", *(text_of(fastest(tied, target, program="Mortise", cores=n)) for n in (2, 1)),
                       *(text_of(fastest(tied, target, program=peers, cores=n)) for n in (2, 1)), before))
         twins.append((f"{target:.0e}", *(text_of(fastest(conforming, target, program=p, cores=n)) for p in ("Mortise", "NGSolve") for n in (2, 1))))
-    return ("## An error\n\nSeconds of solve of the fastest row, tied:\n\n" +
+    return ("### An error\n\nSeconds of solve of the fastest row, tied:\n\n" +
             table(("energy error", "goal, two cores", "Mortise, two cores", "one core", "best peer, two cores", "one core", "peer when goals were set"), lines) +
             "\nConforming:\n\n" + table(("energy error", "Mortise, two cores", "one core", "NGSolve, two cores", "one core"), twins))
 
@@ -301,7 +294,7 @@ def sizes_reached(rows, missed):
         text = [" ".join(f"{seconds_of(r)}, {r['memory_mib'] / 1024:.2g} GiB, process {r['process']:.3g}"
                          for r in pick(found, cores=n)) or "not run" for n in (2, 1)]
         lines.append((name, f"{goal:g} s" + (f", {memory:g} GiB" if memory else ""), *text, before))
-    return "## A size\n\nSeconds of solve, peak memory of all ranks, seconds of the process:\n\n" + table(("", "goal, two cores", "two cores", "one core", "peer when goals were set"), lines)
+    return "### A size\n\nSeconds of solve, peak memory of all ranks, seconds of the process:\n\n" + table(("", "goal, two cores", "two cores", "one core", "peer when goals were set"), lines)
 
 
 def per_dof(rows, missed):
@@ -319,7 +312,7 @@ def per_dof(rows, missed):
                 missed.append(f"share of the coupling, p = {degree}, {CORES[n]}: {share:.0%} instead of 10 %")
             lines.append((str(degree), CORES[n], *(f"{r['dofs']:,} ({r['mesh']}), {e:.2f}{'' if r['undisturbed'] else ' *'}, {r['iterations']} iterations" for r, e in zip(pair, each)),
                           f"{ratio:.2f}", f"{share:.1%}"))
-    return ("## Tied beside conforming, about 500,000 dofs\n\nMicroseconds of solve per dof. Goals: ratio 1.15, coupling "
+    return ("### Tied beside conforming, about 500,000 dofs\n\nMicroseconds of solve per dof. Goals: ratio 1.15, coupling "
             "(search, clipping, its matrices) 10 % of solve.\n\n" +
             table(("p", "cores", "tied: dofs, us per dof", "conforming", "ratio", "coupling"), lines))
 
@@ -332,7 +325,7 @@ def ratios(rows):
                 lines.append((str(degree), mesh, f"{r['dofs']:,}", seconds_of(r), f"{1e6 * r['seconds'] / r['dofs']:.2f}",
                               f"{r['memory_mib']:.0f}", str(r["iterations"]), f"{sum(r[s] for s in COUPLING):.2g}",
                               *(f"{r[s]:.2g}" for s in ("solver_setup", "solve"))))
-    return ("## Ratios of sizes far from 1\n\nOne core; the inner body is the slave. Seconds of solve, of its coupling, solver setup and "
+    return ("### Ratios of sizes far from 1\n\nOne core; the inner body is the slave. Seconds of solve, of its coupling, solver setup and "
             "solution.\n\n" +
             table(("p", "subdivisions", "dofs", "seconds", "us per dof", "MiB", "iterations", "coupling", "solver setup", "solution"), lines))
 
@@ -340,7 +333,7 @@ def ratios(rows):
 def report(rows, page):
     missed = []
     parts = [introduction(rows, page), errors_reached(rows, missed), sizes_reached(rows, missed), per_dof(rows, missed), ratios(rows)]
-    return "\n".join(parts) + "\n## Goals missed\n\n" + ("\n".join("- " + m for m in missed) or "None.") + "\n"
+    return "\n".join(parts) + "\n### Goals missed\n\n" + ("\n".join("- " + m for m in missed) or "None.") + "\n"
 
 
 def main():
@@ -351,10 +344,10 @@ def main():
     parser.add_argument("--minutes", type=float, default=60, help="after which no run is repeated any more")
     parser.add_argument("--patience", type=float, default=10, help="seconds to wait for idle cores before a run")
     parser.add_argument("--huge", action="store_true", help="10 million dofs, once on two cores (16 GiB)")
-    parser.add_argument("--page", default="run_time", help="what the page, its rows and its picture in doc/ are called")
+    parser.add_argument("--page", default="run_time", help="what the part of doc/measurements/run_time.md, its rows and its picture are called")
     parser.add_argument("--report", action="store_true", help="page and picture again from the rows")
     options = parser.parse_args()
-    path = os.path.join(TOP, "doc", options.page + ".csv")
+    path = os.path.join(TOP, "doc", "measurements", options.page + ".csv")
     if options.report:
         rows = read_csv(path)
     else:
@@ -374,9 +367,8 @@ def main():
             if options.huge:
                 rows += measured_rows(list(jobs_of_mortise(mortise, "tied", "hexahedra", {4: (HUGE,)}, (2,))), 1, options, work)
         write_csv(rows, path)
-    draw(rows, os.path.join(TOP, "doc", "pictures", options.page + ".png"))
-    with open(os.path.join(TOP, "doc", options.page + ".md"), "w") as file:
-        file.write(report(rows, options.page))
+    draw(rows, os.path.join(TOP, "doc", "measurements", options.page + ".png"))
+    write_part("run_time.md", options.page, report(rows, options.page))
 
 
 if __name__ == "__main__":

@@ -3,7 +3,7 @@
 
 Strong and weak scaling on 1 and 2 ranks, and what decides beyond: messages, bytes, collectives, work and
 memory per rank and stage, counted by tests/benchmarks/mpi_counts.c on 1 to 64 ranks that share the cores, and
-a model made of them. Writes doc/scaling.csv (all numbers), doc/scaling.md and doc/pictures/scaling.png.
+a model made of them. Writes doc/measurements/scaling.csv (all numbers), doc/measurements/scaling.md and doc/measurements/scaling.png.
 --only STUDY runs one study (strong, weak, counts) and keeps the other rows."""
 import argparse
 import csv
@@ -20,7 +20,7 @@ from processor import on_ranks, openblas
 from scaling_report import report
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-CSV = os.path.join(TOP, "doc", "scaling.csv")
+CSV = os.path.join(TOP, "doc", "measurements", "scaling.csv")
 # name: degree, subdivisions of inner and outer, refinements
 SCENES = {"p4": (4, "11,6", "13,6", 0), "p2": (2, "16,8", "18,9", 0), "p4 half": (4, "9,4", "10,5", 0),
           "p4 small": (4, "2,1", "3,2", 1), "p4 large": (4, "2,1", "3,2", 2),
@@ -160,7 +160,7 @@ def write(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mortise", nargs="?", help="the program; not needed for --report")
-    parser.add_argument("--report", action="store_true", help="only pages from doc/scaling.csv")
+    parser.add_argument("--report", action="store_true", help="only pages from doc/measurements/scaling.csv")
     parser.add_argument("--only", choices=STUDIES, help="run one study, keep the others")
     arguments = parser.parse_args()
     if not arguments.report:
@@ -170,7 +170,7 @@ def main():
                 others = [row for row in read() if row["study"] != study]
                 for rows in measure(os.path.abspath(arguments.mortise), library, study):
                     write(others + rows)
-    report(read(), TOP)
+    report(read())
 
 
 if __name__ == "__main__":

@@ -5,6 +5,8 @@ import platform
 
 import numpy as np
 
+from page import TOP, write_part
+
 LATENCY, BANDWIDTH = 2e-6, 10e9  # of a message in seconds; bytes per second and rank
 STAGES = ("mesh", "spaces", "interface_search", "coupling", "bulk", "solver_setup", "solve", "postprocess")
 near = lambda p, most: most * (p - 1) / (p + most - 1)  # partners among p ranks where there are at most so many
@@ -226,15 +228,9 @@ def machine():
     return f"{names[0]}, {len(names)} cores"
 
 
-def report(rows, top):
-    """Replace what stands between the marks <!-- name --> and <!-- end --> of doc/scaling.md."""
-    page = os.path.join(top, "doc", "scaling.md")
-    with open(page) as file:
-        text = file.read()
+def report(rows):
+    """Write the parts of doc/measurements/scaling.md and its picture."""
     for name, lines in (("machine", [machine()]), ("strong", strong_tables(rows)), ("weak", weak_table(rows)),
                         ("counts", count_tables(rows)), ("model", model_tables(rows))):
-        before, rest = text.split(f"<!-- {name} -->", 1)
-        text = before + f"<!-- {name} -->\n\n" + "\n".join(lines).strip() + "\n\n" + rest[rest.index("<!-- end -->"):]
-    with open(page, "w") as file:
-        file.write(text)
-    picture(rows, os.path.join(top, "doc", "pictures", "scaling.png"))
+        write_part("scaling.md", name, "\n".join(lines))
+    picture(rows, os.path.join(TOP, "doc", "measurements", "scaling.png"))

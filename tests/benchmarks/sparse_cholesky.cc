@@ -1,6 +1,6 @@
 // Time and memory of SparseCholesky beside CHOLMOD and MUMPS on the matrices
 // that the program factorises, as one line of JSON. Not a test:
-// sparse_cholesky.py makes the table of doc/sparse_cholesky.md of it.
+// sparse_cholesky.py makes the table of doc/measurements/sparse_cholesky.md of it.
 //
 //   sparse_cholesky [KEY=VALUE]...
 //     matrix    multipliers (C = B T B^T) or vertices (K + J of degree one)

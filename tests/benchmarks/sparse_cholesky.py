@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """The program's own sparse Cholesky factorisation beside CHOLMOD and MUMPS on the matrices that it factorises.
-Not a test: it writes doc/sparse_cholesky.md.
+Not a test: it writes doc/measurements/sparse_cholesky.md.
 
   apt-get install libsuitesparse-dev
   ninja -C build benchmark_sparse_cholesky && tests/benchmarks/sparse_cholesky.py build/benchmark_sparse_cholesky [RUNS]"""
@@ -13,7 +13,7 @@ import sys
 from processor import openblas
 
 TOP = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-PAGE = os.path.join(TOP, "doc", "sparse_cholesky.md")
+PAGE = os.path.join(TOP, "doc", "measurements", "sparse_cholesky.md")
 SOLVES = 130  # of a run with 20 iterations or so
 GOAL = 1.5
 

@@ -1,6 +1,6 @@
 // Proves that the diagonally scaled mass and stiffness of one cell are far
 // better conditioned with FE_Legendre than with FE_Q_Hierarchical. With the
-// argument "table" it prints the numbers of doc/element.md.
+// argument "table" it prints the numbers of doc/guide/elements.md.
 
 #include <deal.II/base/quadrature_lib.h>
 

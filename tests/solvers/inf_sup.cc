@@ -2,7 +2,7 @@
 // multipliers of a tie, clamped rims included, are inf-sup stable: constants
 // from eigenvalues stay above bounds, while pressures of the displacement's
 // degree and multipliers without the reduction beside rims have none. The
-// bounds are 0.9 times what doc/inf_sup.md shows.
+// bounds are 0.9 times what doc/measurements/inf_sup.md shows.
 #include "../verdict.h"
 #include "inf_sup_multiplier.h"
 

@@ -46,7 +46,7 @@ namespace mortise
   /// The errors of all cells together. What a cell brings to a quantity has a
   /// sign: cells that were cut go on with theirs as they are cut again, while
   /// from degree to degree it is as good as drawn by lot
-  /// (doc/adaptivity.md).
+  /// (doc/guide/adaptivity.md).
   struct ErrorSums
   {
     double              all       = 0.; ///< as if all had one sign

@@ -21,8 +21,8 @@ namespace mortise
   {
     /// How many times shorter the short direction is in half of the cells of a
     /// body from where on a scene is better solved like this
-    /// (doc/flat_cells.md), in those of bodies that are treated like it then,
-    /// and in all cells of either.
+    /// (doc/measurements/flat_cells.md), in those of bodies that are treated
+    /// like it then, and in all cells of either.
     constexpr double flat = 25., flat_beside = 6., least_flat = 5.;
 
     /// The short direction of a cell: of a hexahedron an axis of its reference

@@ -373,7 +373,7 @@ namespace mortise
       static constexpr double undecided = 0., stays = 1., goes = 2.;
       /// Bodies of fewer nodes keep them: what is left must still turn.
       static constexpr unsigned int least_size = 20;
-      /// That a value follows from: doc/tuning.md.
+      /// That a value follows from: doc/measurements/tuning.md.
       static constexpr unsigned int n_nearest = 6;
 
       const NodalBlockMatrix            &blocks;

@@ -18,7 +18,7 @@ namespace mortise
   {
     constexpr unsigned int max_sets = 1000;
 
-    /// Of solves on the way to the set: doc/contact.md.
+    /// Of solves on the way to the set: doc/measurements/contact.md.
     constexpr double loose = 1e-2;
 
     /// Likewise, the root of the energy of the error beside that of the
@@ -203,7 +203,7 @@ namespace mortise
     const unsigned int most    = run.parameters.solver.max_iterations;
     const bool         is_last = tolerance == run.parameters.solver.tolerance;
     // coarse levels go on with the ties that they saw, which costs next to no
-    // iteration (doc/contact.md) as long as about as many hold
+    // iteration (doc/measurements/contact.md) as long as about as many hold
     const std::uint64_t n_active = set.n_active();
     const bool          shows    = !is_shown || n_active > 2 * n_shown ||
                        (is_last && 2 * n_active < n_shown);

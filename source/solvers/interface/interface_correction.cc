@@ -10,7 +10,7 @@ namespace mortise
   namespace
   {
     /// Neighbours that follow together have less energy than each of them by
-    /// itself: doc/tuning.md.
+    /// itself: doc/measurements/tuning.md.
     constexpr double share_of_followers = 0.9;
   } // namespace
 

@@ -9,7 +9,7 @@ namespace mortise
   namespace
   {
     // Less for high degrees and towards incompressible materials, so that
-    // iterations stay the same: doc/tuning.md.
+    // iterations stay the same: doc/measurements/tuning.md.
     constexpr double base = 0.13;
 
     double

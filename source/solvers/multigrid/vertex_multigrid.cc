@@ -26,8 +26,8 @@ namespace mortise
     constexpr unsigned int max_factorised_across = 500000;
 
     /// Where no coarser mesh is known: what takes fewer multiplications per
-    /// dof, as thin bodies do (doc/tuning.md), up to so many dofs that all
-    /// ranks can have the graph.
+    /// dof, as thin bodies do (doc/measurements/tuning.md), up to so many dofs
+    /// that all ranks can have the graph.
     constexpr double       max_work     = 3e5;
     constexpr unsigned int max_gathered = 100000;
 

@@ -162,7 +162,7 @@ namespace mortise
 
   /// Degree on the next level: half of it, from five on rounded up. On
   /// tetrahedra, whose nodes are less regular, by steps of two above four
-  /// (doc/tuning.md).
+  /// (doc/measurements/tuning.md).
   constexpr unsigned int
   lower_degree(const bool tetrahedra, const unsigned int degree)
   {

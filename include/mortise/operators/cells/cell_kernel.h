@@ -13,7 +13,7 @@
 namespace mortise
 {
   /// The rule by which the stiffness of curved cells is integrated; see
-  /// doc/tuning.md for its degree on tetrahedra.
+  /// doc/measurements/tuning.md for its degree on tetrahedra.
   dealii::Quadrature<dim>
   stiffness_quadrature(const dealii::FiniteElement<dim> &element,
                        unsigned int                      mapping_degree);

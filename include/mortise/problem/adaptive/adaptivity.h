@@ -146,7 +146,7 @@ namespace mortise
 
   private:
     /// Last estimates are at least so much of the error, about
-    /// (doc/adaptivity.md).
+    /// (doc/guide/adaptivity.md).
     static constexpr double least_effectivity = 0.9;
 
     /// Relative, and in cells that have slave faces.

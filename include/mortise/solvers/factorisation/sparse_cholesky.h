@@ -1,7 +1,7 @@
 // A sparse Cholesky factorisation by dense blocks for the many solves of a
-// preconditioner; beside general libraries: doc/sparse_cholesky.md. Its
-// subtrees are dealt out to the ranks; of what is above them each rank treats
-// one component; the matrix, while it is factorised, is on all.
+// preconditioner; measured in doc/measurements/sparse_cholesky.md. Its subtrees
+// are dealt out to the ranks; of what is above them each rank treats one
+// component; the matrix, while it is factorised, is on all.
 // Sources: Duff, Reid (1983); Liu (1992), "The multifrontal method".
 #pragma once
 
