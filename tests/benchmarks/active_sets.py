@@ -55,7 +55,7 @@ def missed(lines):
 
 
 def report(benchmark):
-    yield ("# A part of the multipliers active\n\nRegenerate: `tests/benchmarks/active_sets.py build/benchmark_active_sets`. Iterations to "
+    yield ("# Active sets\n\nRegenerate: `tests/benchmarks/active_sets.py build/benchmark_active_sets`. Iterations to "
            "a relative residual of\n1e-8, `condensed`, or of the mixed form `saddle point`. The sets: each node drawn with a half or "
            "a tenth; boards of\n0.12 and 0.3 of the interface's radius; discs of such radii; one node. `sphere`: an octant of the "
            "thick sphere in two layers;\n`blocks`: two with a curved interface. About 2 : 3 cells unless said. Coarse levels see on "

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The source's two examples, tied and conforming: curved_pairs.py [--quick] MORTISE
+"""The two examples of Ullah, Kaczmarczyk and Pearce, tied and conforming: curved_pairs.py [--quick] MORTISE
 
 Each pair of bodies that meet in a curved surface is computed with meshes that do not match, n against
 3n/2 cells across, and as one body with one conforming mesh, in tetrahedra and in hexahedra. Compared is
@@ -141,9 +141,9 @@ def write(table):
         writer.writeheader()
         writer.writerows(table)
     with open(os.path.join(TOP, "doc", "measurements", "curved_pairs.md"), "w") as file:
-        file.write("# The source's two examples\n\nRegenerate: `tests/benchmarks/curved_pairs.py build/mortise` (writes this page, "
+        file.write("# The two examples of Ullah, Kaczmarczyk and Pearce\n\nRegenerate: `tests/benchmarks/curved_pairs.py build/mortise` (writes this page, "
                    "`curved_pairs.csv` and `curved_pairs.png`).\n\n![u_z of both pairs, tied and conforming](curved_pairs.png)\n\n"
-                   "`prm/curved_pair_1.prm` and `curved_pair_2.prm` (our dimensions, E = 10 and nu = 0.5 as in the source), n against 3n/2 cells across, beside one\n"
+                   "`prm/curved_pair_1.prm` and `curved_pair_2.prm` (our dimensions, E = 10 and nu = 0.5 as in the paper), n against 3n/2 cells across, beside one\n"
                    "conforming mesh of n cells. Largest difference of u_z between both along a vertical line (x = 0.3 of the length, y = 0.6) and\n"
                    "along the lines y = 0.4, 0.03 below and above the interface, over the largest u_z; rates against the row above.\n"
                    "`refined`: the largest difference along the same lines between the conforming solutions on this and on the\n"

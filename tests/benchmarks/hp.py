@@ -70,7 +70,7 @@ def write(rows):
     b = exponent([r for r in rows if r["kind"] == "hp"], 0.25)
     b_tet = exponent([r for r in rows if r["kind"] == "hp, tet"], 0.25)
     with open(os.path.join(TOP, "doc", "measurements", "hp.md"), "w") as file:
-        file.write("# hp on a corner of the interface\n\nRegenerate: `tests/benchmarks/hp.py build/mortise` (writes this page, `hp.csv` "
+        file.write("# hp refinement at a corner of the interface\n\nRegenerate: `tests/benchmarks/hp.py build/mortise` (writes this page, `hp.csv` "
                    "and `hp.png`).\n\n![Energy error over degrees of freedom](hp.png)\n\n"
                    "`prm/fichera.prm`: Fichera's corner, two bodies tied along an L whose re-entrant vertex is the corner, displacement "
                    "r^0.6,\nmeshes 2 : 3, so that neither side's faces match; hanging nodes on both sides of the interface. With cells "

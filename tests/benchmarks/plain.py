@@ -178,7 +178,7 @@ def missed(cases):
 
 
 def report(scenes, cases, at_start=()):
-    yield f"""# What a scene skips
+    yield f"""# Stages that a scene skips, and a plain program beside it
 
 Regenerate: `ninja -C build mortise benchmark_plain && tests/benchmarks/plain.py build/mortise build/benchmark_plain`
 (`--ranks 1` for one rank alone, `--scenes` for the first table alone). Machine: {machine()}.
