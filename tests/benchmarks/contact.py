@@ -328,48 +328,56 @@ def main():
 
 TEXT = """# Contact without friction
 
-Regenerate: `tests/benchmarks/contact.py build/mortise --peers DIRECTORY` (writes this page and the picture; `DIRECTORY` holds
-ngsolve_pressfit.py, without it Mortise alone). Intel Xeon with AVX-512.
+Regenerate: `tests/benchmarks/contact.py build/mortise --peers DIRECTORY` writes this page and the picture; `DIRECTORY` holds
+ngsolve_pressfit.py, and without it Mortise runs alone. Intel Xeon with AVX-512.
 
-Missed: `flange_lift` (3.5 times) and `hertz` by force (3.8 times) at p = 2 cost more than three ties. At degree 1, which has no lower one to start from, `hertz` by force takes
-11 sets (goal 8); on triangles, where what has a sign are Bernstein coefficients, `hertz_solid` takes up to 12. Seconds to 1e-4 and 1e-5 are 1.2 and 1.3 times the goal. Waves: cells of one
-size N^-0.35 to -0.5, graded N^-0.7 at p = 2, N^-1.4 and -1.5 at p = 3 and 4 (goal -1.2); with degree 1 at the edge and 3 or 4 elsewhere N^-1.4, but errors are larger; where degrees of 1
-and 4 meet under pressure its largest value is up to 16 % too large. Partners are those within `Search distance` at the start (where a face without one could have met one the run ends with
-exit code 2), and an edge that lies between the nodes of a coarse slave is not held (a warning tells).
+What is missed:
+
+- `flange_lift` (3.5 times) and `hertz` by force (3.8 times) at p = 2 cost more than three ties.
+- At degree 1, which has no lower degree to start from, `hertz` by force takes 11 active sets (goal 8). On triangles, where Bernstein
+  coefficients have the sign, `hertz_solid` takes up to 12.
+- Seconds to 1e-4 and 1e-5 are 1.2 and 1.3 times the goal.
+- Waves (goal N^-1.2): cells of one size give N^-0.35 to -0.5, graded ones N^-0.7 at p = 2, and N^-1.4 and -1.5 at p = 3 and 4. With degree 1 at the edge
+  and 3 or 4 elsewhere it is N^-1.4, but errors are larger, and where degrees 1 and 4 meet under pressure its largest value is up to 16 % too large.
+- Partners are those within `Search distance` at the start; where a face without one could have met one, the run ends with exit code 2. An edge that lies between the
+  nodes of a coarse slave is not held; a warning tells.
 
 ## Seconds to an energy error
 
-Press fit of two spherical shells, 1 to 1.5 and 1.5 to 2, an octant, E = 10, nu = 0.3, 0.01 too large; two cores, all stages but mesh, postprocess and output, of
-NGSolve (penalty) all but mesh and import; medians of 3 in turn, best of several meshes and degrees, with degree and unknowns.
+The scene is a press fit of two spherical shells, 1 to 1.5 and 1.5 to 2, an octant, E = 10, nu = 0.3, 0.01 too large. The runs have two cores. Seconds are all stages but
+mesh, postprocess and output, and for NGSolve (penalty) all but mesh and import. They are medians of 3 in turn, the best of several meshes and degrees, with degree and
+unknowns in brackets.
 
 | energy error | Mortise | NGSolve | goal |
 |---|---|---|---|
 {0}
 
-`prm/hertz_solid.prm` (half a ball of radius 1 on a block, E = 200, pressed by 0.02, tetrahedra) on the same machine: force of the whole beside that with p = 4 on a finer mesh.
+`prm/hertz_solid.prm` (half a ball of radius 1 on a block, E = 200, pressed by 0.02, tetrahedra) on the same machine: the total force beside that with p = 4 on a finer
+mesh.
 
 | program | unknowns | force | error | seconds |
 |---|---|---|---|---|
 {1}
 
-## What it costs
+## Cost
 
-At 1e-8, set up and solve on one core beside the same scene tied, medians of 3 in turn; peak memory of the whole run beside the tie's.
-`flange_lift` is all of its load steps: most sets of a step, iterations of all steps. Goals: 3 times, 1.2 times, 8 sets, 3 in a further step.
+Setup and solve to 1e-8 on one core beside the same scene tied, medians of 3 in turn; the peak memory of the whole run beside that of the tie. For
+`flange_lift` all load steps count: the most sets of a step, and the iterations of all steps. Goals: 3 times the time, 1.2 times the memory, 8 sets, 3 in a further step.
 
 | scene | p | dofs | nodes that press | sets | iterations of all | of the tie | seconds | of the tie | ratio | memory |
 |---|---|---|---|---|---|---|---|---|---|---|
 {2}
 
-In brackets: seconds for what presses with lower degrees (half, a quarter, ... ), from which the first set follows; sets and iterations of these are not counted. The first set of a load step is
-what presses where the last steps point to. The next set follows from a solve to 1e-2 that starts from the last one; where no sign changes and some are not known yet the tolerance is a hundredth. Coarse levels see
-another set than at first only where twice or half as many press: otherwise no iteration is saved. From a cold start, where
-bodies are held together too far out by d, the pressure pulls for half of d only, so that sets that open just that halve d each time; `contact/contact_edge.h` opens as far again as it pulls.
+In brackets are the seconds for the active sets of lower degrees (half, a quarter, ...), from which the first set follows; their sets and iterations are not
+counted. The first set of a load step is extrapolated from the last steps. The next set follows from a solve to 1e-2 that starts from the last one; where no
+sign changes and some are not known yet, the tolerance is a hundredth of that. Coarse levels get a new set only where twice or half as many nodes are active, since
+otherwise no iteration is saved. From a cold start, where bodies are held together too far out by d, the pressure is negative on half of d only. Sets that open only
+that part would halve d each time; `contact/contact_edge.h` opens twice as much.
 
 ## Press fits
 
-`prm/press_fit.prm` (cylinders) and `prm/thick_sphere.prm` (spheres, as above) with `Law = contact` and `Mesh gap = ignored`, relative errors and in brackets how many times
-those of `slide`, where nothing could open; error of the mean pressure; active sets.
+`prm/press_fit.prm` (cylinders) and `prm/thick_sphere.prm` (spheres, as above) with `Law = contact` and `Mesh gap = ignored`: relative errors, in brackets divided by
+those of `slide`, which cannot open; the error of the mean pressure; active sets.
 
 | scene | p | L2 | energy | pressure, L2 | mean pressure | sets |
 |---|---|---|---|---|---|---|
@@ -378,14 +386,14 @@ those of `slide`, where nothing could open; error of the mean pressure; active s
 ## A ball on a block
 
 `prm/hertz.prm`, graded, refined as a whole by `Refinements`: radius of the contact (by its area) and largest pressure beside those of Hertz for the
-force that was computed; largest penetration at quadrature points, of an approach of 0.01. The block is 10 radii of the contact wide and high, the ball is hollow, and a profile
-that is a circle is not Hertz's parabola: (a/R)^2 is 0.01. The radius is known to a cell.
+computed force; largest penetration at quadrature points, where the approach is 0.01. The block is 10 radii of the contact wide and high, the ball is hollow, and its profile
+is a circle and not Hertz's parabola: (a/R)^2 is 0.01. The radius is known up to one cell.
 
 | p | refinements | dofs | nodes that press | radius - 1 | largest pressure - 1 | penetration | sets | iterations of all |
 |---|---|---|---|---|---|---|---|---|
 {4}
 
-The same with a cylinder, in plane strain, of length 0.05, halved around the line of contact: half-width and largest pressure beside those of Hertz for the force.
+The same with a cylinder in plane strain, of length 0.05, halved around the line of contact: half-width and largest pressure beside those of Hertz for the force.
 
 | scene | p | times halved | dofs | nodes that press | half-width - 1 | largest pressure - 1 | penetration | sets | iterations of all |
 |---|---|---|---|---|---|---|---|---|---|
@@ -393,8 +401,8 @@ The same with a cylinder, in plane strain, of length 0.05, halved around the lin
 
 ## A wavy surface
 
-`prm/wavy_surface.prm` (Westergaard), cells of one size and cells that are halved 1 to 4 times around the edge of the contact: largest pressure and half-width beside the formulas;
-energy error beside Westergaard's displacement. Last: degree 1 on the cells around the edge (`Degree near`).
+`prm/wavy_surface.prm` (Westergaard) with cells of one size, and with cells that are halved 1 to 4 times around the edge of the contact: largest pressure and half-width beside the
+formulas, and the energy error beside Westergaard's displacement. The last rows have degree 1 on the cells around the edge (`Degree near`).
 
 | mesh | p | dofs | largest pressure - 1 | half-width - 1 | energy error | sets | iterations of all |
 |---|---|---|---|---|---|---|---|
@@ -402,8 +410,8 @@ energy error beside Westergaard's displacement. Last: degree 1 on the cells arou
 
 ## A punch, and a layer that recedes
 
-`prm/punch.prm`, a block of 10 half-widths: the half-plane's pressure has its mean distance from the middle at 2 / pi. A layer of height 1 on a rigid base under a line load (0.03 wide here),
-pressed at its middle: it lifts off beyond 0.857.
+`prm/punch.prm` has a block of 10 half-widths; on a half-plane the mean distance of the pressure from the middle is 2 / pi. The layer has height 1 and lies on a rigid base under a line load
+(0.03 wide here) at its middle: it lifts off beyond 0.857.
 
 | scene | p | dofs | what | computed | exact | sets | iterations of all |
 |---|---|---|---|---|---|---|---|
