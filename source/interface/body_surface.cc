@@ -78,12 +78,16 @@ namespace mortise
   } // namespace
 
   SurfaceFace
-  face_geometry(const Body &body, const BoundaryFace &at)
+  face_geometry(const Body         &body,
+                const BoundaryFace &at,
+                const Displacement  displacement)
   {
     const CellFace face(at.cell, at.number);
     SurfaceFace    result;
     result.shape       = face.basis->shape;
-    result.degree      = body.mapping_degree;
+    result.degree      = displacement ?
+                           std::max(body.mapping_degree, face.basis->degree) :
+                           body.mapping_degree;
     result.orientation = face.orientation;
     result.id          = at.cell->global_active_cell_index() * 6 + at.number;
     result.owner       = at.cell->subdomain_id();
@@ -96,11 +100,26 @@ namespace mortise
             Point<3>() :
             body.mapping->transform_unit_to_real_cell(
               at.cell, face.unit_point(nodes.point(i)[0], nodes.point(j)[0])));
+    if (!displacement)
+      return result;
+    const auto          dofs = face_dofs(at.cell, at.number);
+    std::vector<double> values(face.basis->size());
+    for (unsigned int j = 0; j <= result.degree; ++j)
+      for (unsigned int i = 0; i <= result.degree; ++i)
+        {
+          face.basis->evaluate(nodes.point(i)[0],
+                               nodes.point(j)[0],
+                               values.data());
+          Point<3> &x = result.points[j * (result.degree + 1) + i];
+          for (unsigned int c = 0; c < dim; ++c)
+            for (unsigned int k = 0; k < values.size(); ++k)
+              x[c] += values[k] * (*displacement)(dofs[c][k]);
+        }
     return result;
   }
 
   std::vector<SurfaceFace>
-  whole_boundary(const Body &body)
+  whole_boundary(const Body &body, const Displacement displacement)
   {
     std::vector<SurfaceFace> result;
     for (const auto &cell : body.dof_handler.active_cell_iterators())
@@ -108,7 +127,7 @@ namespace mortise
         for (const unsigned int f : cell->face_indices())
           if (cell->face(f)->at_boundary())
             {
-              result.push_back(face_geometry(body, {cell, f}));
+              result.push_back(face_geometry(body, {cell, f}, displacement));
               result.back().finalize();
             }
     return result;
@@ -144,7 +163,8 @@ namespace mortise
                   const std::vector<BoundaryFace> &known,
                   const FieldNumbering            &numbering,
                   const AffineConstraints<double> &constraints,
-                  const NodalSpaces               &levels)
+                  const NodalSpaces               &levels,
+                  const Displacement               displacement)
   {
     // ghost cells take part in the averaging of normals
     BodySurface surface;
@@ -155,7 +175,7 @@ namespace mortise
     for (const BoundaryFace &at : known)
       {
         const auto &[cell, f] = at;
-        faces.push_back(face_geometry(body, at));
+        faces.push_back(face_geometry(body, at, displacement));
         vertices.push_back(face_vertices(at));
         owned.push_back(cell->is_locally_owned());
         if (owned.back())

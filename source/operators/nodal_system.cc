@@ -55,10 +55,10 @@ namespace mortise
     }
   } // namespace
 
-  NodalSystem::NodalSystem(NodalSpaces                 spaces,
-                           std::unique_ptr<NodalSpace> pressure_space,
-                           const Scene                &scene,
-                           const MPI_Comm              comm)
+  NodalSystem::NodalSystem(const NodalSpaces                &spaces,
+                           std::shared_ptr<const NodalSpace> pressure_space,
+                           const Scene                      &scene,
+                           const MPI_Comm                    comm)
     : preconditioned(scene.preconditioned)
   {
     std::unique_ptr<PressureNodes> nodes;
@@ -68,28 +68,15 @@ namespace mortise
           std::make_unique<NodalPressure>(std::move(pressure_space), comm);
         nodes = std::make_unique<PressureNodes>(pressures->nodes());
       }
-    for (unsigned int number = 0; number < spaces.size(); ++number)
-      {
-        all_levels.push_back(make_nodal_level(std::move(spaces[number]),
-                                              number,
-                                              scene.numbering,
-                                              scene.constraints,
-                                              scene.couplings,
-                                              comm));
-      }
+    for (const auto &space : spaces)
+      all_levels.push_back(
+        make_nodal_level(space, scene.numbering, scene.constraints, comm));
     stiffness = std::make_unique<LevelOperator<double>>(all_levels.front(),
                                                         false,
                                                         nodes.get());
     stiffness->initialize(in);
     stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
-    if (preconditioned && !scene.couplings.empty())
-      {
-        update_penalties(scene.couplings);
-        leading = find_leading_displacements(all_levels.front(),
-                                             node_diagonal(),
-                                             scene.couplings);
-      }
     if (!pressures)
       return;
     for (auto *vector : {&p_in, &p_out, &norm_diagonal})
@@ -99,6 +86,17 @@ namespace mortise
     stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
     clamped_cell_pressures.add_diagonal(norm_diagonal.begin());
     pressures->gather_diagonal(norm_diagonal);
+  }
+
+  void
+  NodalSystem::couple(const std::vector<Coupling> &couplings)
+  {
+    if (!preconditioned || couplings.empty())
+      return;
+    update_penalties(couplings);
+    leading = find_leading_displacements(all_levels.front(),
+                                         node_diagonal(),
+                                         couplings);
   }
 
   void

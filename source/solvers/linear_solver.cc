@@ -61,6 +61,18 @@ namespace mortise
   }
 
   void
+  LinearSolver::update_interfaces()
+  {
+    if (!valid)
+      return update();
+    selects = system.active.has_value();
+    update([this] {
+      residual = std::make_unique<ScaledResidual>(system);
+      return set_up_interfaces();
+    });
+  }
+
+  void
   LinearSolver::update(const std::function<bool()> &set_up_part)
   {
     announce_stage("solver_setup");

@@ -1,6 +1,7 @@
 // Time and memory of SparseCholesky beside CHOLMOD and MUMPS on the matrices
 // that the program factorises, as one line of JSON. Not a test:
-// sparse_cholesky.py makes the table of doc/measurements/sparse_cholesky.md of it.
+// sparse_cholesky.py makes the table of doc/measurements/sparse_cholesky.md of
+// it.
 //
 //   sparse_cholesky [KEY=VALUE]...
 //     matrix    multipliers (C = B T B^T) or vertices (K + J of degree one)
@@ -142,10 +143,10 @@ namespace
     const dealii::IndexSet owned =
       displacement_indices(scene.spaces[0]->owned_nodes());
     const NodalSystem::Scene all{scene.field.numbering,
-                                 scene.field.constraints,
-                                 scene.couplings};
-    const NodalSystem system(std::move(scene.spaces), nullptr, all, scene.comm);
-    Problem           problem;
+                                 scene.field.constraints};
+    NodalSystem              system(scene.spaces, nullptr, all, scene.comm);
+    system.couple(scene.couplings);
+    Problem problem;
     if (options.text("matrix", "multipliers") == "vertices")
       {
         const auto matrix =

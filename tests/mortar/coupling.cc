@@ -221,11 +221,10 @@ namespace mortise::testing
     const Assembled modal(slave, master);
     TiedScene       scene(slave, master, MPI_COMM_WORLD, true);
     const IndexSet owned = displacement_indices(scene.spaces[0]->owned_nodes());
-    const NodalSystem system(std::move(scene.spaces),
+    const NodalSystem system(scene.spaces,
                              nullptr,
                              NodalSystem::Scene{scene.field.numbering,
-                                                scene.field.constraints,
-                                                scene.couplings},
+                                                scene.field.constraints},
                              scene.comm);
 
     mortise::Vector at_nodes = random(owned, scene.comm);

@@ -73,11 +73,9 @@ namespace mortise::testing
       couplings[0].local = integrate_coupling(*couplings[0].interface,
                                               true,
                                               MultiplierBasis::standard);
-      level              = make_nodal_level(std::move(spaces[0]),
-                               0,
+      level              = make_nodal_level(spaces[0],
                                scene.fields.displacement.numbering,
                                scene.fields.displacement.constraints,
-                               couplings,
                                MPI_COMM_WORLD);
       const LevelOperator<double> stiffness(level, false);
       stiffness.initialize(diagonal);

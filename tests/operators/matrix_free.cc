@@ -71,9 +71,9 @@ namespace mortise::testing
         AffineConstraints<double>(complete_index_set(numbering.size()));
       constraints.close();
       auto spaces = make_nodal_spaces(pointers, MPI_COMM_WORLD);
-      for (unsigned int l = 0; l < spaces.size(); ++l)
-        levels.push_back(make_nodal_level(
-          std::move(spaces[l]), l, numbering, constraints, {}, MPI_COMM_WORLD));
+      for (const auto &space : spaces)
+        levels.push_back(
+          make_nodal_level(space, numbering, constraints, MPI_COMM_WORLD));
     }
 
     Bodies                               bodies;

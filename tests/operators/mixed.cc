@@ -71,20 +71,21 @@ namespace mortise::testing
       auto pressures    = make_nodal_pressures(pointers, MPI_COMM_WORLD);
       u_nodes           = displacement_indices(spaces.front()->owned_nodes());
       p_nodes           = pressures->owned_nodes();
-      system            = std::make_unique<NodalSystem>(
-        std::move(spaces),
-        std::move(pressures),
-        NodalSystem::Scene{field.numbering, field.constraints, {}},
-        MPI_COMM_WORLD);
-      pressure_space = make_nodal_pressures(pointers, MPI_COMM_WORLD);
+      system =
+        std::make_unique<NodalSystem>(spaces,
+                                      pressures,
+                                      NodalSystem::Scene{field.numbering,
+                                                         field.constraints},
+                                      MPI_COMM_WORLD);
+      pressure_space = std::move(pressures);
     }
 
-    Bodies                       bodies;
-    std::vector<const Body *>    pointers;
-    SceneField                   field;
-    IndexSet                     u_nodes, p_nodes;
-    std::unique_ptr<NodalSystem> system;
-    std::unique_ptr<NodalSpace>  pressure_space; ///< equal to the system's
+    Bodies                            bodies;
+    std::vector<const Body *>         pointers;
+    SceneField                        field;
+    IndexSet                          u_nodes, p_nodes;
+    std::unique_ptr<NodalSystem>      system;
+    std::shared_ptr<const NodalSpace> pressure_space;
   };
 
   double

@@ -60,7 +60,7 @@ namespace mortise::testing
       system            = std::make_unique<NodalSystem>(
         make_nodal_spaces(pointers, MPI_COMM_WORLD),
         nullptr,
-        NodalSystem::Scene{field.numbering, field.constraints, {}},
+        NodalSystem::Scene{field.numbering, field.constraints},
         MPI_COMM_WORLD);
     }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>
+#include <deal.II/lac/la_parallel_vector.h>
 
 #include <mortise/body/body.h>
 #include <mortise/body/boundary_faces.h>
@@ -73,14 +74,23 @@ namespace mortise
     std::optional<dealii::Tensor<1, dim>> direction;
   };
 
-  /// The face's geometry, that of the body's mapping, exactly; not finalized.
+  /// The displacement u of a body by dof, with the values of ghosts, which
+  /// takes surfaces to the configuration x = X + u; null: that of the mesh.
+  using Displacement =
+    const dealii::LinearAlgebra::distributed::Vector<double> *;
+
+  /// The face's geometry, exactly; not finalized: that of the body's mapping,
+  /// of its degree, or of that of the element if this is higher and the body is
+  /// displaced.
   SurfaceFace
-  face_geometry(const Body &body, const BoundaryFace &face);
+  face_geometry(const Body         &body,
+                const BoundaryFace &face,
+                Displacement        displacement = nullptr);
 
   /// The owned faces of the whole boundary, finalized; their normals are their
   /// own.
   std::vector<SurfaceFace>
-  whole_boundary(const Body &body);
+  whole_boundary(const Body &body, Displacement displacement = nullptr);
 
   /// Numbers of the face's vertices in the mesh, as average_vertex_normals()
   /// takes them.
@@ -95,7 +105,8 @@ namespace mortise
                   const std::vector<BoundaryFace>         &faces,
                   const FieldNumbering                    &numbering,
                   const dealii::AffineConstraints<double> &constraints,
-                  const NodalSpaces                       &levels = {});
+                  const NodalSpaces                       &levels = {},
+                  Displacement displacement                       = nullptr);
 
   /// What faces @p surface everywhere and never moves: the same faces seen from the other side,
   /// with traces without columns.

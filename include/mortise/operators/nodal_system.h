@@ -29,16 +29,19 @@ namespace mortise
     {
       const FieldNumbering                    &numbering;
       const dealii::AffineConstraints<double> &constraints; ///< of the scene
-      const std::vector<Coupling>             &couplings;
-      bool preconditioned = true; ///< by the levels, which see the ties then
+      bool preconditioned = true; ///< by the levels, which see interfaces then
     };
 
-    /// The traces of the couplings have the nodes of @p spaces; @p pressures
-    /// may be null. Collective; throws InputError for tangled cells.
-    NodalSystem(NodalSpaces                 spaces,
-                std::unique_ptr<NodalSpace> pressures,
-                const Scene                &scene,
-                MPI_Comm                    comm);
+    /// @p pressures may be null. Collective; throws InputError for tangled cells.
+    NodalSystem(const NodalSpaces                &spaces,
+                std::shared_ptr<const NodalSpace> pressures,
+                const Scene                      &scene,
+                MPI_Comm                          comm);
+
+    /// Take @p couplings, whose traces have the nodes of the levels, in place of those before:
+    /// for leading_displacements() and update_penalties(). Collective.
+    void
+    couple(const std::vector<Coupling> &couplings);
 
     /// Show the ties of what is active, LocalCoupling::active_share, to coarse
     /// levels. Collective.

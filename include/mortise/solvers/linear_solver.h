@@ -31,6 +31,12 @@ namespace mortise
     void
     update_active();
 
+    /// After the interfaces of the system have been paired again, and nothing
+    /// else: what preconditioners know of the bulk stays, coarse levels go on
+    /// with the ties that they saw at the last update(). Collective.
+    void
+    update_interfaces();
+
     /// How far later solves go on, in place of what SolverOptions have.
     void
     set_limits(const double       tolerance,
@@ -76,6 +82,13 @@ namespace mortise
     /// As set_up(), for update_active().
     virtual bool
     set_up_active()
+    {
+      return set_up();
+    }
+
+    /// As set_up(), for update_interfaces().
+    virtual bool
+    set_up_interfaces()
     {
       return set_up();
     }

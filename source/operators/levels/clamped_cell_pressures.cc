@@ -65,9 +65,10 @@ namespace mortise
     const NodalLevel                   &level,
     const MatrixFreeElasticity<double> &elasticity)
   {
-    using BatchCell                       = MatrixFreeElasticity<double>::Cell;
-    const LevelVector<double> constrained = constrained_components(level);
-    const auto               &hanging     = level.space->hanging_nodes();
+    using BatchCell = MatrixFreeElasticity<double>::Cell;
+    const LevelVector<double> constrained =
+      constrained_components(level, level.layout);
+    const auto &hanging = level.space->hanging_nodes();
     std::map<std::pair<bool, unsigned int>, // tetrahedra, degree
              std::vector<std::vector<unsigned int>>>
                       all_faces;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 namespace mortise
@@ -87,10 +88,13 @@ namespace mortise
     class SlaveNodes
     {
     public:
-      SlaveNodes(const NodalLevel            &level,
-                 const LevelVector<double>   &diagonal,
-                 const std::vector<Coupling> &couplings)
-        : stiffness(level.layout)
+      /// @p layout: interface_layout().
+      SlaveNodes(
+        const NodalLevel                                         &level,
+        const std::shared_ptr<const Utilities::MPI::Partitioner> &layout,
+        const LevelVector<double>                                &diagonal,
+        const std::vector<Coupling>                              &couplings)
+        : stiffness(layout)
         , n_faces(stiffness)
         , n_interfaces(stiffness)
         , is_free(stiffness)
@@ -198,9 +202,10 @@ namespace mortise
     if (Utilities::MPI::max(some_lead ? 1 : 0,
                             level.layout->get_mpi_communicator()) == 0)
       return {};
-    const SlaveNodes slaves(level, diagonal, couplings);
+    const auto       layout = interface_layout(level, 0, couplings);
+    const SlaveNodes slaves(level, layout, diagonal, couplings);
     // the first by displacement, the others by node, at its first component
-    LevelVector<double> sums(level.layout), leads(sums), stays(sums);
+    LevelVector<double> sums(layout), leads(sums), stays(sums);
     for_each_slave(
       couplings,
       [&](const Coupling    &coupling,

@@ -12,19 +12,21 @@ namespace mortise
   using namespace dealii;
 
   LevelFunctions::LevelFunctions(const NodalLevel       &level,
+                                 const Layout           &layout,
                                  const VertexCoarsening *coarsening)
     : level(level)
-    , constrained(
-        (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
-        dim)
+    , layout(layout)
+    , constrained((layout->locally_owned_size() + layout->n_ghost_indices()) /
+                  dim)
   {
-    const LevelVector<double> is_constrained = constrained_components(level);
+    const LevelVector<double> is_constrained =
+      constrained_components(level, layout);
     for (unsigned int i = 0; i < dim * constrained.size(); ++i)
       if (is_constrained.local_element(i) != 0.)
         constrained[i / dim] |= 1U << i % dim;
     if (coarsening == nullptr)
       return;
-    rows  = interpolation_rows(*level.layout, *coarsening);
+    rows  = interpolation_rows(*layout, *coarsening);
     begin = {0};
     for (const unsigned int length : rows.lengths)
       begin.push_back(begin.back() + length);
@@ -36,7 +38,7 @@ namespace mortise
                          std::vector<Entry> &entries) const
   {
     if (begin.empty())
-      entries.push_back({level.layout->local_to_global(dim * index) / dim,
+      entries.push_back({layout->local_to_global(dim * index) / dim,
                          weight,
                          constrained[index]});
     else

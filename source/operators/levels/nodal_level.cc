@@ -103,20 +103,15 @@ namespace mortise
   } // namespace
 
   NodalLevel
-  make_nodal_level(std::unique_ptr<NodalSpace>      space,
-                   const unsigned int               number,
-                   const FieldNumbering            &numbering,
-                   const AffineConstraints<double> &constraints,
-                   const std::vector<Coupling>     &couplings,
-                   const MPI_Comm                   comm)
+  make_nodal_level(std::shared_ptr<const NodalSpace> space,
+                   const FieldNumbering             &numbering,
+                   const AffineConstraints<double>  &constraints,
+                   const MPI_Comm                    comm)
   {
     NodalLevel level;
-    IndexSet   ghosts = space->relevant_nodes();
-    ghosts.add_indices(
-      nodes_of_interfaces(couplings, number, space->owned_nodes()));
     level.layout = std::make_shared<const Utilities::MPI::Partitioner>(
       displacement_indices(space->owned_nodes()),
-      displacement_indices(ghosts),
+      displacement_indices(space->relevant_nodes()),
       comm);
     level.constrained =
       find_constrained(*space, *level.layout, numbering, constraints);
@@ -124,10 +119,24 @@ namespace mortise
     return level;
   }
 
-  LevelVector<double>
-  constrained_components(const NodalLevel &level)
+  std::shared_ptr<const Utilities::MPI::Partitioner>
+  interface_layout(const NodalLevel            &level,
+                   const unsigned int           number,
+                   const std::vector<Coupling> &couplings)
   {
-    LevelVector<double> constrained(level.layout);
+    const IndexSet &owned = level.space->owned_nodes();
+    return std::make_shared<const Utilities::MPI::Partitioner>(
+      displacement_indices(owned),
+      displacement_indices(nodes_of_interfaces(couplings, number, owned)),
+      level.layout->get_mpi_communicator());
+  }
+
+  LevelVector<double>
+  constrained_components(
+    const NodalLevel                                         &level,
+    const std::shared_ptr<const Utilities::MPI::Partitioner> &layout)
+  {
+    LevelVector<double> constrained(layout);
     for (const unsigned int index : level.constrained)
       constrained.local_element(index) = 1.;
     constrained.update_ghost_values();
@@ -142,9 +151,8 @@ namespace mortise
     , stiffness(*level.space, *level.layout, pressures)
     , hanging(*level.space, *level.layout)
   {
-    if (with_penalty)
-      for (const NodalPenalty &penalty : level.penalties)
-        penalties.emplace_back(penalty);
+    if (with_penalty && !level.penalties.parts.empty())
+      penalty = std::make_unique<PenaltyProduct<Number>>(level.penalties);
   }
 
   template <typename Number>
@@ -155,10 +163,10 @@ namespace mortise
     complete(src);
     dst = 0;
     stiffness.add_product(src.begin(), dst.begin());
-    for (const auto &penalty : penalties)
-      penalty.add(src.begin(), dst.begin());
     release(src);
     gather(dst);
+    if (penalty)
+      penalty->add(src.begin(), dst.begin());
   }
 
   template <typename Number>
@@ -178,9 +186,9 @@ namespace mortise
     Number *out = diagonal.begin();
     stiffness.add_diagonal(out);
     hanging.collect_diagonal(out);
-    for (const auto &penalty : penalties)
-      penalty.add_diagonal(out);
     diagonal.compress(VectorOperation::add);
+    if (penalty)
+      penalty->add_diagonal(out);
     for (const unsigned int index : level.constrained)
       diagonal.local_element(index) = 1;
   }

@@ -71,6 +71,7 @@ namespace mortise
             }
     }
     using Indices = std::vector<unsigned int>;
+    using Layout  = Utilities::MPI::Partitioner;
 
     void
     make_unique(Indices &list)
@@ -81,25 +82,24 @@ namespace mortise
 
     /// First components at the nodes of a face.
     Indices
-    indices_on(const NodalLevel  &level,
+    indices_on(const Layout      &layout,
                const FaceTrace   &trace,
                const unsigned int number)
     {
       Indices indices;
       for (const auto node : trace.nodes[number].nodes)
-        indices.push_back(level.layout->global_to_local(dim * node));
+        indices.push_back(layout.global_to_local(dim * node));
       return indices;
     }
 
     /// By node: with which others the interfaces couple it.
     std::vector<Indices>
-    coupled_indices(const NodalLevel  &level,
+    coupled_indices(const Layout      &layout,
                     const unsigned int number,
                     const Couplings   &couplings)
     {
       std::vector<Indices> columns(
-        (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
-        dim);
+        (layout.locally_owned_size() + layout.n_ghost_indices()) / dim);
       const auto record = [&](const Indices &rows, const Indices &more) {
         for (const unsigned int row : rows)
           {
@@ -114,8 +114,8 @@ namespace mortise
                          const FaceTrace &column,
                          const auto &,
                          const double) {
-                       const Indices rows = indices_on(level, row, number),
-                                     more = indices_on(level, column, number);
+                       const Indices rows = indices_on(layout, row, number),
+                                     more = indices_on(layout, column, number);
                        record(rows, more);
                        if (&row != &column)
                          record(more, rows);
@@ -169,12 +169,12 @@ namespace mortise
     };
 
     NodalPenalty
-    make_penalty(const NodalLevel  &level,
+    make_penalty(const Layout      &layout,
                  const unsigned int number,
                  const Couplings   &couplings)
     {
       NodalPenalty   penalty;
-      PenaltyEntries entries(coupled_indices(level, number, couplings),
+      PenaltyEntries entries(coupled_indices(layout, number, couplings),
                              penalty);
       for_each_block(
         couplings,
@@ -190,8 +190,8 @@ namespace mortise
                         {column.shape, column.degree, on_columns.degree}),
             on_rows,
             on_columns);
-          const Indices rows = indices_on(level, row, number),
-                        more = indices_on(level, column, number);
+          const Indices rows = indices_on(layout, row, number),
+                        more = indices_on(layout, column, number);
           for (unsigned int i = 0; i < rows.size(); ++i)
             for (unsigned int j = 0; j < more.size(); ++j)
               {
@@ -258,7 +258,7 @@ namespace mortise
 
     /// Directions at the nodes of a face, @p sign times its outward normals.
     void
-    add_normals(const NodalLevel            &level,
+    add_normals(const Layout                &layout,
                 const FaceTrace             &trace,
                 const FaceNodes             &on_face,
                 const SurfaceFace           &face,
@@ -269,7 +269,7 @@ namespace mortise
       const auto add    = [&](const types::global_dof_index node,
                            const unsigned int            k,
                            const double                  weight) {
-        normals[level.layout->global_to_local(dim * node) / dim] +=
+        normals[layout.global_to_local(dim * node) / dim] +=
           sign * weight * averaged_normal(face, points[k]);
       };
       for (unsigned int k = 0; k < points.size(); ++k)
@@ -282,21 +282,24 @@ namespace mortise
 
     /// By node that the interfaces couple, of one length.
     std::vector<Tensor<1, dim>>
-    nodal_normals(const NodalLevel  &level,
+    nodal_normals(const Layout      &layout,
                   const unsigned int number,
                   const Couplings   &couplings)
     {
       std::vector<Tensor<1, dim>> normals(
-        (level.layout->locally_owned_size() + level.layout->n_ghost_indices()) /
-        dim);
+        (layout.locally_owned_size() + layout.n_ghost_indices()) / dim);
       for (const Coupling *coupling : couplings.all)
-        for_each_side(
-          *coupling,
-          [&](const FaceTrace   &trace,
-              const SurfaceFace &face,
-              const double       sign) {
-            add_normals(level, trace, trace.nodes[number], face, sign, normals);
-          });
+        for_each_side(*coupling,
+                      [&](const FaceTrace   &trace,
+                          const SurfaceFace &face,
+                          const double       sign) {
+                        add_normals(layout,
+                                    trace,
+                                    trace.nodes[number],
+                                    face,
+                                    sign,
+                                    normals);
+                      });
       for (auto &normal : normals)
         if (const double length = normal.norm(); length > 0.)
           normal /= length;
@@ -304,12 +307,13 @@ namespace mortise
     }
   } // namespace
 
-  std::vector<NodalPenalty>
+  NodalPenalties
   make_nodal_penalties(const NodalLevel            &level,
                        const unsigned int           number,
                        const std::vector<Coupling> &couplings)
   {
-    std::vector<NodalPenalty> penalties;
+    NodalPenalties penalties{interface_layout(level, number, couplings), {}};
+    const Layout  &layout = *penalties.layout;
     for (const bool along_normals : {false, true})
       {
         Couplings of_kind{along_normals, {}};
@@ -319,12 +323,13 @@ namespace mortise
                               coupling.law.held == HeldDirections::all)
             of_kind.all.push_back(&coupling);
         if (!along_normals && !of_kind.all.empty())
-          penalties.push_back(make_penalty(level, number, of_kind));
+          penalties.parts.push_back(make_penalty(layout, number, of_kind));
         if (along_normals)
           for (const Couplings &part : split_by_normals(number, of_kind))
             {
-              penalties.push_back(make_penalty(level, number, part));
-              penalties.back().normals = nodal_normals(level, number, part);
+              penalties.parts.push_back(make_penalty(layout, number, part));
+              penalties.parts.back().normals =
+                nodal_normals(layout, number, part);
             }
       }
     return penalties;

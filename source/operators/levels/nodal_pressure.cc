@@ -4,8 +4,8 @@ namespace mortise
 {
   using namespace dealii;
 
-  NodalPressure::NodalPressure(std::unique_ptr<NodalSpace> nodes,
-                               const MPI_Comm              comm)
+  NodalPressure::NodalPressure(std::shared_ptr<const NodalSpace> nodes,
+                               const MPI_Comm                    comm)
     : space(std::move(nodes))
     , layout(std::make_shared<const Utilities::MPI::Partitioner>(
         space->owned_nodes(),

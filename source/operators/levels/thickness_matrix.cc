@@ -211,7 +211,7 @@ namespace mortise
     const NodalSpace       &space = *level.space;
     const IndexSet         &owned = space.owned_nodes();
     const MPI_Comm          comm  = level.layout->get_mpi_communicator();
-    LevelFunctions          functions(level, &kept);
+    LevelFunctions          functions(level, level.layout, &kept);
     NodalBlockMatrixBuilder builder(kept.owned, comm);
     const CoarseJumps       penalty(jumps, owned, kept, builder, comm);
     for (const Index node : kept.owned)

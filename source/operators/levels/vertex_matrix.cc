@@ -14,6 +14,7 @@ namespace mortise
     void
     couple_all(const NodalLevel        &level,
                const LevelFunctions    &functions,
+               const LevelFunctions    *of_penalties,
                const IndexSet          &owned,
                NodalBlockMatrixBuilder &builder)
     {
@@ -30,7 +31,7 @@ namespace mortise
       const auto find = [&](const std::vector<unsigned int> &of_group) {
         std::vector<LevelFunctions::Entry> entries;
         for (const unsigned int index : of_group)
-          functions.expand(index / dim, 1., entries);
+          of_penalties->expand(index / dim, 1., entries);
         std::vector<unsigned int> result;
         for (const auto &entry : entries)
           result.push_back(builder.local_number(entry.node));
@@ -38,7 +39,7 @@ namespace mortise
         result.erase(std::unique(result.begin(), result.end()), result.end());
         return result;
       };
-      for (const NodalPenalty &penalty : level.penalties)
+      for (const NodalPenalty &penalty : level.penalties.parts)
         for (const auto &group : penalty.groups)
           if (const auto rows = find(group.rows), columns = find(group.columns);
               !rows.empty() && !columns.empty())
@@ -119,7 +120,7 @@ namespace mortise
                   const LevelFunctions    &functions,
                   NodalBlockMatrixBuilder &builder)
     {
-      for (const NodalPenalty &penalty : level.penalties)
+      for (const NodalPenalty &penalty : level.penalties.parts)
         {
           PenaltyEntry entry(penalty, functions, builder);
           for (const auto &group : penalty.groups)
@@ -150,15 +151,21 @@ namespace mortise
   {
     const IndexSet &owned =
       coarsening ? coarsening->owned : level.space->owned_nodes();
-    LevelFunctions          functions(level, coarsening);
+    LevelFunctions                  functions(level, level.layout, coarsening);
+    std::unique_ptr<LevelFunctions> of_penalties;
+    if (level.penalties.layout)
+      of_penalties = std::make_unique<LevelFunctions>(level,
+                                                      level.penalties.layout,
+                                                      coarsening);
     NodalBlockMatrixBuilder builder(owned,
                                     level.layout->get_mpi_communicator());
-    couple_all(level, functions, owned, builder);
+    couple_all(level, functions, of_penalties.get(), owned, builder);
     VertexMatrix result;
     result.points.resize(level.space->owned_nodes().n_elements());
     result.bodies.resize(result.points.size());
     add_cells(level, functions, builder, result);
-    add_penalties(level, functions, builder);
+    if (of_penalties)
+      add_penalties(level, *of_penalties, builder);
     IndexSet needed(owned.size());
     if (coarsening != nullptr)
       needed.add_indices(coarsening->nodes.begin(), coarsening->nodes.end());

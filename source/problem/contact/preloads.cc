@@ -31,7 +31,7 @@ namespace mortise
     , solver(solver)
     , values(shortenings)
   {
-    const SceneCouplings &couplings = discretisation.interfaces();
+    const Pairing &couplings = discretisation.interfaces();
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
       if (const InterfaceParameters &given = couplings.sides()[i];
           given.preload)

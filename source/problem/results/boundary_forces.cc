@@ -237,7 +237,7 @@ namespace mortise
     LevelVector<double> supports = zero_at_nodes(discretisation);
     for (const unsigned int k : nodes_of(discretisation).constrained)
       supports.local_element(k) = reactions.local_element(k);
-    const SceneCouplings &interfaces = discretisation.interfaces();
+    const Pairing &interfaces = discretisation.interfaces();
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       if (interfaces.sides()[i].is_support)
         supports -= held.forces_of(i, solved.solution.multiplier);

@@ -107,7 +107,7 @@ namespace mortise
                             directory + "/" + file_name(body->name, step));
           write_collection(body->name);
         });
-    const SceneCouplings &interfaces = discretisation.interfaces();
+    const Pairing &interfaces = discretisation.interfaces();
     if (selection.traction)
       for (unsigned int i = 0; i < interfaces.all().size(); ++i)
         try_output(unwritten, [&] {

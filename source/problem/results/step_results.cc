@@ -57,7 +57,7 @@ namespace mortise
              const SolvedStep     &solved,
              const StepFields     &fields)
   {
-    const SceneCouplings   &interfaces = discretisation.interfaces();
+    const Pairing          &interfaces = discretisation.interfaces();
     const TraceDisplacement displacement =
       discretisation.trace_displacement(solved.load, fields.solutions);
     std::vector<InterfaceViolation> result;
@@ -123,9 +123,9 @@ namespace mortise
               const ExactSolution  &exact,
               const StepFields     &fields)
     {
-      const Bodies         &bodies     = discretisation.bodies();
-      const SceneCouplings &interfaces = discretisation.interfaces();
-      const SolutionErrors  errors =
+      const Bodies        &bodies     = discretisation.bodies();
+      const Pairing       &interfaces = discretisation.interfaces();
+      const SolutionErrors errors =
         solution_errors(bodies, fields.solutions, exact);
       ErrorSummary result;
       result.displacement_l2 = errors.displacement_l2;

@@ -19,7 +19,6 @@ namespace mortise
                                  const CellDegrees &degrees)
     : run(run)
     , spaces(bodies)
-    , couplings(run, spaces)
   {
     create_spaces(run, data, degrees, spaces);
     for (const auto &body : bodies)
@@ -28,42 +27,12 @@ namespace mortise
     system.owned_displacement = spaces.owned_displacement();
     if (spaces.fields.pressure.numbering.size() > 0)
       system.owned_pressure = spaces.owned_pressure();
-    system.owned_multiplier.set_size(0);
     check_pieces(spaces.bodies, spaces.dirichlet, run.parameters.interfaces);
-    if (run.parameters.interfaces.empty())
-      check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
-    else
-      couple();
+    auto first = std::make_unique<Pairing>(run, spaces);
     create_bulk();
+    take(std::move(first));
     if (system.mixed())
       find_free_pressures();
-  }
-
-  void
-  Discretisation::couple()
-  {
-    couplings.couple();
-    auto stage = run.log.stage(run.timers, "coupling");
-    couplings.choose_multipliers();
-    system.owned_multiplier = couplings.owned_multiplier();
-    if (system.owned_multiplier.size() > 0)
-      {
-        const CouplingPartition partition{system.owned_displacement,
-                                          system.owned_multiplier,
-                                          run.comm};
-        system.coupling =
-          assemble_by_node(couplings.all(),
-                           partition,
-                           couplings.slide() || couplings.have_springs());
-        if (couplings.have_springs())
-          assemble_compliance(couplings.all(),
-                              partition,
-                              system.spring_compliance);
-      }
-    for (unsigned int i = 0; i < couplings.all().size(); ++i)
-      interface_summaries.push_back(couplings.summary(i));
-    stage.details(std::to_string(system.owned_multiplier.size()) +
-                  " multipliers");
   }
 
   void
@@ -72,18 +41,43 @@ namespace mortise
     auto              stage        = run.log.stage(run.timers, "bulk");
     const SceneField &displacement = spaces.fields.displacement;
     system.nodal =
-      std::make_unique<NodalSystem>(std::move(spaces.nodal),
-                                    std::move(spaces.nodal_pressures),
+      std::make_unique<NodalSystem>(spaces.nodal,
+                                    spaces.nodal_pressures,
                                     NodalSystem::Scene{displacement.numbering,
                                                        displacement.constraints,
-                                                       couplings.all(),
                                                        spaces.choice.method !=
                                                          SolverMethod::direct},
                                     run.comm);
-    system.coupling.constrain(system.nodal->levels().front().constrained);
     const auto n_levels = system.nodal->levels().size();
     stage.details(std::to_string(n_levels) +
                   (n_levels == 1 ? " level" : " levels"));
+  }
+
+  void
+  Discretisation::take(std::unique_ptr<Pairing> made)
+  {
+    const auto scope                 = run.timers.scope("coupling");
+    pairing                          = std::move(made);
+    const std::vector<Coupling> &all = pairing->all();
+    system.owned_multiplier          = pairing->owned_multiplier();
+    system.active.reset();
+    interface_summaries.clear();
+    if (system.owned_multiplier.size() > 0)
+      {
+        const CouplingPartition partition{system.owned_displacement,
+                                          system.owned_multiplier,
+                                          run.comm};
+        system.coupling =
+          assemble_by_node(all,
+                           partition,
+                           pairing->slide() || pairing->have_springs());
+        system.coupling.constrain(system.nodal->levels().front().constrained);
+        if (pairing->have_springs())
+          assemble_compliance(all, partition, system.spring_compliance);
+      }
+    for (unsigned int i = 0; i < all.size(); ++i)
+      interface_summaries.push_back(pairing->summary(i));
+    system.nodal->couple(all);
   }
 
   namespace
@@ -118,7 +112,7 @@ namespace mortise
   Discretisation::find_free_pressures()
   {
     const Bodies &bodies = spaces.bodies;
-    for (const auto &group : tied_groups(couplings.sides(), bodies.size()))
+    for (const auto &group : tied_groups(pairing->sides(), bodies.size()))
       {
         if (!std::all_of(group.begin(), group.end(), [&](const auto b) {
               return bodies[b]->material.mixed() &&
@@ -172,15 +166,15 @@ namespace mortise
         scale(load.rhs, -1.);
       }
     system.nodal->add_loads(loads, load);
-    for (unsigned int i = 0; i < couplings.all().size(); ++i)
-      if (const auto offset = data.offset(couplings.sides()[i]);
+    for (unsigned int i = 0; i < pairing->all().size(); ++i)
+      if (const auto offset = data.offset(pairing->sides()[i]);
           offset && load.rhs.multiplier.size() > 0)
         {
-          const Coupling &coupling = couplings.all()[i];
+          const Coupling &coupling = pairing->all()[i];
           add_offset(coupling, offset, load.rhs.multiplier);
           load.rhs.multiplier.compress(VectorOperation::add);
         }
-    for (const Coupling &coupling : couplings.all())
+    for (const Coupling &coupling : pairing->all())
       if (coupling.law.has_mesh_gap)
         for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
           load.rhs.multiplier
@@ -265,8 +259,8 @@ namespace mortise
                                 const SceneLoad  &load) const
   {
     SystemVector x = system_vector(checkpoint.solutions, load);
-    for (unsigned int i = 0; i < couplings.all().size(); ++i)
-      set_multiplier(couplings.all()[i],
+    for (unsigned int i = 0; i < pairing->all().size(); ++i)
+      set_multiplier(pairing->all()[i],
                      checkpoint.multipliers[i],
                      x.multiplier);
     if (x.multiplier.size() > 0)
@@ -277,7 +271,7 @@ namespace mortise
   void
   Discretisation::check_multipliers() const
   {
-    if (couplings.all().size() < 2)
+    if (pairing->all().size() < 2)
       return; // those of one interface are independent by their rules
     if (system.owned_multiplier.size() == 0)
       return;
@@ -291,7 +285,7 @@ namespace mortise
       throw InputError(
         "Interfaces tie the same displacements more than once, so that tractions "
         "are not determined; multipliers that depend on others: " +
-        couplings.count_by_name(dependent) +
+        pairing->count_by_name(dependent) +
         ". Drop one of the interfaces that meet there, or exchange slave and "
         "master of one");
   }
@@ -326,7 +320,7 @@ namespace mortise
     step.dofs.total        = step.dofs.displacement + n_pressures;
     if (n_pressures > 0)
       step.dofs.pressure = n_pressures;
-    if (!couplings.all().empty())
+    if (!pairing->all().empty())
       {
         step.dofs.multiplier = system.owned_multiplier.size();
         step.dofs.total += system.owned_multiplier.size();

@@ -9,7 +9,7 @@ namespace mortise
   Discretisation::one_sided() const
   {
     std::vector<bool> result;
-    for (const Coupling &coupling : couplings.all())
+    for (const Coupling &coupling : pairing->all())
       result.resize(coupling.multipliers->range().end(),
                     coupling.law.is_one_sided());
     return result;
@@ -24,7 +24,7 @@ namespace mortise
     system.coupling.vmult(moved, x.displacement); // of inactive ones, too
     result = load.rhs.multiplier;
     result -= moved;
-    for (const Coupling &coupling : couplings.all())
+    for (const Coupling &coupling : pairing->all())
       for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
         result.begin()[coupling.multipliers->range().first + k] /=
           coupling.normal_multipliers[k].area;
@@ -63,7 +63,7 @@ namespace mortise
   void
   Discretisation::show_active()
   {
-    couplings.select(*system.active);
-    system.nodal->update_penalties(couplings.all());
+    pairing->select(*system.active);
+    system.nodal->update_penalties(pairing->all());
   }
 } // namespace mortise

@@ -97,7 +97,8 @@ namespace mortise
                           Numbering::pressure,
                           numbering,
                           constraints);
-      const LevelVector<double> constrained = constrained_components(level);
+      const LevelVector<double> constrained =
+        constrained_components(level, level.layout);
       for (const auto node : level.space->relevant_nodes())
         if (!hanging.is_constrained(node))
           for (unsigned int c = 0; c < dim; ++c)

@@ -203,6 +203,12 @@ namespace mortise
     return preconditioner->update_active();
   }
 
+  bool
+  CondensedSolver::set_up_interfaces()
+  {
+    return preconditioner->update_interfaces();
+  }
+
   void
   CondensedSolver::run(const SystemVector &rhs,
                        SystemVector       &x,

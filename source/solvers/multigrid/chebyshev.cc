@@ -23,7 +23,26 @@ namespace mortise
                                const InterfaceCorrection<Number> *correction)
     : matrix(matrix)
     , correction(correction)
+    , smallest(smallest)
   {
+    set_up();
+  }
+
+  template <typename Number>
+  bool
+  Chebyshev<Number>::update(const InterfaceCorrection<Number> *with)
+  {
+    correction = with;
+    if (has_leaders || (correction != nullptr && correction->has_leaders()))
+      set_up();
+    return is_valid();
+  }
+
+  template <typename Number>
+  void
+  Chebyshev<Number>::set_up()
+  {
+    has_leaders = correction != nullptr && correction->has_leaders();
     matrix.diagonal(inverse_diagonal);
     matrix.average_components(inverse_diagonal);
     if (correction != nullptr)

@@ -25,6 +25,9 @@ namespace mortise
     virtual std::string
     vertices_description() const = 0;
 
+    virtual bool
+    update_interfaces() = 0;
+
     std::unique_ptr<CouplingProduct<float>> product;
     std::unique_ptr<Lifting>                lifting;
     std::unique_ptr<ConstraintProjector>    projector;
@@ -80,6 +83,8 @@ namespace mortise
                      const std::size_t            max_gathered,
                      const ThicknessCoarsening   *thickness,
                      const std::vector<WeakJump> &jumps)
+      : system(system)
+      , max_gathered(max_gathered)
     {
       const auto         &all       = system.nodal->levels();
       LevelVector<double> stiffness = system.nodal->node_diagonal();
@@ -93,8 +98,7 @@ namespace mortise
           std::make_unique<VertexMultigrid<Number>>(system, *thickness, jumps) :
           std::make_unique<VertexMultigrid<Number>>(all.back(), all.size() > 1);
       valid = vertices->is_valid();
-      if (system.owned_multiplier.size() > 0)
-        set_up_interfaces(system, max_gathered);
+      set_up_interfaces();
       // where nothing but vertices is below, the finest level is smoothed here
       // and stands for them, too
       const unsigned int n_smoothed = std::max<unsigned int>(1, all.size() - 1);
@@ -118,8 +122,10 @@ namespace mortise
     }
 
     void
-    set_up_interfaces(const BlockSystem &system, const std::size_t max_gathered)
+    set_up_interfaces()
     {
+      if (system.owned_multiplier.size() == 0)
+        return;
       const CouplingRows rows(system.coupling);
       product = std::make_unique<CouplingProduct<float>>(system, rows);
       lifting = std::make_unique<Lifting>(system, rows, *product, max_gathered);
@@ -206,12 +212,23 @@ namespace mortise
       projector->clear_ties(carried);
     }
 
+    bool
+    update_interfaces() override
+    {
+      valid = true;
+      set_up_interfaces();
+      valid        = levels.front()->smoother.update(correction.get()) && valid;
+      return valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator);
+    }
+
     std::string
     vertices_description() const override
     {
       return vertices->description();
     }
 
+    const BlockSystem &system;
+    const std::size_t  max_gathered;
     /// Where it is not that of the lifting.
     std::unique_ptr<CouplingProduct<Number>>            own_product;
     std::unique_ptr<InterfaceCorrection<Number>>        correction;
@@ -260,6 +277,12 @@ namespace mortise
   DegreeMultigrid::update_active()
   {
     return !implementation->lifting || implementation->lifting->update_active();
+  }
+
+  bool
+  DegreeMultigrid::update_interfaces()
+  {
+    return implementation->update_interfaces();
   }
 
   void

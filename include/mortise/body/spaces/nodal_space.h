@@ -158,7 +158,7 @@ namespace mortise
   };
 
   /// Levels of falling degree on the same meshes, the finest first.
-  using NodalSpaces = std::vector<std::unique_ptr<NodalSpace>>;
+  using NodalSpaces = std::vector<std::shared_ptr<const NodalSpace>>;
 
   /// Degree on the next level: half of it, from five on rounded up. On
   /// tetrahedra, whose nodes are less regular, by steps of two above four

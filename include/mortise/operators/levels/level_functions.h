@@ -40,8 +40,13 @@ namespace mortise
       bool plain = true;
     };
 
-    /// Both are kept by reference; @p coarsening may be null. Collective.
-    LevelFunctions(const NodalLevel &level, const VertexCoarsening *coarsening);
+    using Layout = std::shared_ptr<const dealii::Utilities::MPI::Partitioner>;
+
+    /// @p level is kept by reference; @p coarsening may be null. Local nodes are those of @p layout,
+    /// which owns what that of the level does. Collective.
+    LevelFunctions(const NodalLevel       &level,
+                   const Layout           &layout,
+                   const VertexCoarsening *coarsening);
 
     /// Adds to @p entries the value at a local node that does not hang.
     void
@@ -75,10 +80,11 @@ namespace mortise
     unsigned int
     local(const Index node) const
     {
-      return level.layout->global_to_local(dim * node) / dim;
+      return layout->global_to_local(dim * node) / dim;
     }
 
     const NodalLevel          &level;
+    const Layout               layout;
     std::vector<unsigned int>  constrained; ///< by local node, bits
     InterpolationRows          rows;        ///< of the coarsening
     std::vector<unsigned int>  begin;

@@ -17,33 +17,39 @@ namespace mortise
 {
   struct NodalLevel
   {
-    std::unique_ptr<NodalSpace> space;
-    /// Component c of node n has index 3 n + c. Ghosts: of owned cells, and of
-    /// the faces that the slave faces of this rank meet.
+    std::shared_ptr<const NodalSpace> space;
+    /// Component c of node n has index 3 n + c. Ghosts: of owned cells.
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     /// Owned components that are prescribed or hang, indices in vectors.
     std::vector<unsigned int> constrained;
-    std::vector<NodalPenalty> penalties; ///< of ties, and of what slides
+    NodalPenalties            penalties; ///< of interfaces, if there are any
   };
 
-  /// Level @p number of the scene on @p space, without its penalties. @p numbering and
+  /// The level of the scene on @p space, without penalties. @p numbering and
   /// @p constraints are those of the scene, which hold or let hang whole faces or nothing.
   /// Collective.
   NodalLevel
-  make_nodal_level(std::unique_ptr<NodalSpace>              space,
-                   unsigned int                             number,
+  make_nodal_level(std::shared_ptr<const NodalSpace>        space,
                    const FieldNumbering                    &numbering,
                    const dealii::AffineConstraints<double> &constraints,
-                   const std::vector<Coupling>             &couplings,
                    MPI_Comm                                 comm);
 
-  /// 1 where components are constrained, 0 elsewhere; with ghost values.
-  /// Collective.
+  /// 1 where components are constrained, 0 elsewhere; with the ghost values of
+  /// @p layout, which owns what that of the level does. Collective.
   LevelVector<double>
-  constrained_components(const NodalLevel &level);
+  constrained_components(
+    const NodalLevel                                                 &level,
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout);
 
-  /// One for each kind of interface that there is.
-  std::vector<NodalPenalty>
+  /// The displacements of @p level, number @p number of the scene, with those of the
+  /// faces that the slave faces of this rank meet as ghosts. Collective.
+  std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
+  interface_layout(const NodalLevel            &level,
+                   unsigned int                 number,
+                   const std::vector<Coupling> &couplings);
+
+  /// A part for each kind of interface that there is. Collective.
+  NodalPenalties
   make_nodal_penalties(const NodalLevel            &level,
                        unsigned int                 number,
                        const std::vector<Coupling> &couplings);
@@ -125,9 +131,9 @@ namespace mortise
     }
 
   private:
-    const NodalLevel                   &level;
-    const MatrixFreeElasticity<Number>  stiffness;
-    const HangingNodes<Number>          hanging;
-    std::vector<PenaltyProduct<Number>> penalties;
+    const NodalLevel                       &level;
+    const MatrixFreeElasticity<Number>      stiffness;
+    const HangingNodes<Number>              hanging;
+    std::unique_ptr<PenaltyProduct<Number>> penalty; ///< null without
   };
 } // namespace mortise

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/partitioner.h>
 
 #include <mortise/base/types.h>
 
+#include <memory>
 #include <vector>
 
 namespace mortise
@@ -30,30 +32,69 @@ namespace mortise
     std::vector<dealii::Tensor<1, dim>> normals;
   };
 
+  /// Of one level.
+  struct NodalPenalties
+  {
+    /// See interface_layout(); indices of the parts are local ones of it.
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
+    std::vector<NodalPenalty>                                  parts;
+  };
+
   template <typename Number>
   class PenaltyProduct
   {
   public:
-    /// @p penalty must stay alive.
-    explicit PenaltyProduct(const NodalPenalty &penalty);
+    /// @p penalties, which have parts, must stay alive.
+    explicit PenaltyProduct(const NodalPenalties &penalties);
 
-    /// dst += J src.
+    /// dst += J src, both by owned index. Collective.
     void
     add(const Number *src, Number *dst) const;
 
-    /// diagonal += that of J.
+    /// diagonal += that of J, by owned index. Collective.
     void
     add_diagonal(Number *diagonal) const;
 
   private:
-    void
-    add_along_normals(const Number *src, Number *dst) const;
-    void
-    add_all_components(const Number *src, Number *dst) const;
+    /// What products with one penalty read.
+    struct Part
+    {
+      explicit Part(const NodalPenalty &penalty);
 
-    const NodalPenalty                   &penalty;
-    dealii::AlignedVector<Number>         values;  ///< rows padded
-    std::vector<Number>                   normals; ///< by node and component
-    mutable dealii::AlignedVector<Number> workspace;
+      const NodalPenalty           &penalty;
+      dealii::AlignedVector<Number> values;  ///< rows padded
+      std::vector<Number>           normals; ///< by node and component
+    };
+
+    /// By local index of the layout.
+    template <typename T>
+    struct Entries
+    {
+      T           *owned, *ghosts;
+      unsigned int n_owned;
+
+      T *
+      operator()(const unsigned int i) const
+      {
+        return i < n_owned ? owned + i : ghosts + (i - n_owned);
+      }
+    };
+
+    void
+    add_along_normals(const Part                  &part,
+                      const Entries<const Number> &src,
+                      const Entries<Number>       &dst) const;
+    void
+    add_all_components(const Part                  &part,
+                       const Entries<const Number> &src,
+                       const Entries<Number>       &dst) const;
+    /// dst += what @p add_parts adds to vectors with ghosts.
+    template <typename AddParts>
+    void
+    gather(Number *dst, const AddParts &add_parts) const;
+
+    const dealii::Utilities::MPI::Partitioner &layout;
+    std::vector<Part>                          parts;
+    mutable dealii::AlignedVector<Number> workspace, ghosts, sums, exchanged;
   };
 } // namespace mortise

@@ -13,7 +13,7 @@ namespace mortise
   {
   public:
     /// Collective.
-    NodalPressure(std::unique_ptr<NodalSpace> space, MPI_Comm comm);
+    NodalPressure(std::shared_ptr<const NodalSpace> space, MPI_Comm comm);
 
     PressureNodes
     nodes() const
@@ -46,7 +46,7 @@ namespace mortise
     gather_diagonal(LevelVector<double> &v) const;
 
   private:
-    std::unique_ptr<NodalSpace>                                space;
+    std::shared_ptr<const NodalSpace>                          space;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     HangingNodes<double, 1>                                    hanging;
   };

@@ -68,7 +68,7 @@ namespace mortise
     begin(const SceneData &data, SceneLoad &load);
 
     /// As LinearSolver::solve(), or solve_from() if @p goes_on. The shortenings become part of
-    /// @p load. What the shortenings move has to be held: SceneCouplings::check_held(). Collective.
+    /// @p load. What the shortenings move has to be held: Pairing::check_held(). Collective.
     SolveReport
     solve(bool goes_on, SceneLoad &load, SystemVector &x);
 

@@ -4,7 +4,7 @@
 
 #include <mortise/mortar/penetration.h>
 #include <mortise/output/checkpoint.h>
-#include <mortise/problem/scene/scene_couplings.h>
+#include <mortise/problem/scene/pairing.h>
 #include <mortise/problem/scene/scene_spaces.h>
 #include <mortise/solvers/find_free_pressures.h>
 
@@ -105,16 +105,25 @@ namespace mortise
       return spaces.choice;
     }
 
-    const SceneCouplings &
+    const Pairing &
     interfaces() const
     {
-      return couplings;
+      return *pairing;
     }
 
     const BlockSystem &
     linear_system() const
     {
       return system;
+    }
+
+    /// Pair surfaces where the solutions @p displaced, by body, have moved them. Of the bulk nothing is made
+    /// again; LinearSolver::update_interfaces() must follow. Collective; throws
+    /// InputError as Pairing.
+    void
+    pair(const std::vector<BodySolution> &displaced)
+    {
+      take(std::make_unique<Pairing>(run, spaces, &displaced));
     }
 
   private:
@@ -126,7 +135,7 @@ namespace mortise
     };
 
     void
-    couple();
+    take(std::unique_ptr<Pairing> pairing);
     void
     create_bulk();
     void
@@ -137,7 +146,7 @@ namespace mortise
 
     const RunContext             &run;
     SceneSpaces                   spaces;
-    SceneCouplings                couplings;
+    std::unique_ptr<Pairing>      pairing;
     BlockSystem                   system;
     std::vector<FreePressure>     free_pressures;
     std::vector<double>           volumes; ///< by body

@@ -24,9 +24,9 @@ namespace mortise
     /// By body: conformity, and what is prescribed as zero; not closed.
     std::vector<dealii::AffineConstraints<double>> constraints;
     SceneFields                                    fields;
-    SolverChoice                choice{SolverMethod::automatic, ""};
-    NodalSpaces                 nodal; ///< for the bulk, which takes them
-    std::unique_ptr<NodalSpace> nodal_pressures; ///< likewise, in mixed form
+    SolverChoice                      choice{SolverMethod::automatic, ""};
+    NodalSpaces                       nodal; ///< of displacements, by level
+    std::shared_ptr<const NodalSpace> nodal_pressures; ///< in mixed form
 
     /// May a displacement other than zero be prescribed?
     bool

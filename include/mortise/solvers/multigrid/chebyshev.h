@@ -21,6 +21,12 @@ namespace mortise
               double                             smallest,
               const InterfaceCorrection<Number> *correction = nullptr);
 
+    /// Take @p correction in place of the one before. Without leaders on either side nothing else
+    /// changes, since a constraint makes no eigenvalue larger. False as
+    /// is_valid(). Collective.
+    bool
+    update(const InterfaceCorrection<Number> *correction);
+
     bool
     is_valid() const
     {
@@ -34,6 +40,8 @@ namespace mortise
            bool                       from_zero) const;
 
   private:
+    void
+    set_up();
     double
     estimate_largest() const;
 
@@ -41,6 +49,8 @@ namespace mortise
     const InterfaceCorrection<Number> *correction;
     LevelVector<Number>                inverse_diagonal;
     mutable LevelVector<Number>        r, d;
+    const double                       smallest;
+    bool                               has_leaders = false;
     double                             largest, range;
     unsigned int                       degree;
   };

@@ -34,6 +34,11 @@ namespace mortise
     bool
     update_active();
 
+    /// After LinearSolver::update_interfaces(); false as is_valid().
+    /// Collective.
+    bool
+    update_interfaces();
+
     /// dst = approximate solution for src; dst and src are distinct.
     /// Collective.
     void

@@ -3,7 +3,7 @@
 #include <mortise/base/error.h>
 #include <mortise/mortar/shared_displacements.h>
 #include <mortise/mortar/slave_frames.h>
-#include <mortise/problem/scene/scene_couplings.h>
+#include <mortise/problem/scene/pairing.h>
 #include <mortise/problem/support/rigid_motions.h>
 #include <mortise/problem/support/weak_ties.h>
 
@@ -32,8 +32,8 @@ namespace mortise
   } // namespace
 
   std::vector<bool>
-  SceneCouplings::blocked_dofs(const unsigned int       b,
-                               const std::vector<bool> &taken) const
+  Pairing::blocked_dofs(const unsigned int       b,
+                        const std::vector<bool> &taken) const
   {
     const auto       &numbering = spaces.fields.displacement.numbering;
     std::vector<bool> blocked;
@@ -46,8 +46,8 @@ namespace mortise
   }
 
   void
-  SceneCouplings::check_constants(const unsigned int               i,
-                                  const std::vector<PartnerState> &states) const
+  Pairing::check_constants(const unsigned int               i,
+                           const std::vector<PartnerState> &states) const
   {
     const std::string name    = couplings[i].interface->name();
     const auto       &rows    = couplings[i].multipliers->rows();
@@ -108,7 +108,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::number_multipliers()
+  Pairing::number_multipliers()
   {
     const auto          states = partner_states(couplings);
     SharedDisplacements shared(couplings,
@@ -155,7 +155,7 @@ namespace mortise
   }
 
   std::vector<TieSupport>
-  SceneCouplings::tie_supports() const
+  Pairing::tie_supports() const
   {
     std::vector<TieSupport> ties;
     for (unsigned int i = 0; i < couplings.size(); ++i)
@@ -187,7 +187,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::choose_multipliers()
+  Pairing::choose_multipliers()
   {
     number_multipliers();
     std::vector<bool> tried(couplings.size(), false);
@@ -249,7 +249,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::set_normal_multipliers()
+  Pairing::set_normal_multipliers()
   {
     std::string nowhere;
     for (Coupling &coupling : couplings)
@@ -271,8 +271,8 @@ namespace mortise
   }
 
   std::vector<TieSupport>
-  SceneCouplings::supports_of(const std::vector<bool> &active,
-                              const std::vector<bool> &is_preloaded) const
+  Pairing::supports_of(const std::vector<bool> &active,
+                       const std::vector<bool> &is_preloaded) const
   {
     auto ties = supports;
     for (unsigned int i = 0; i < ties.size(); ++i)
@@ -290,8 +290,8 @@ namespace mortise
   }
 
   void
-  SceneCouplings::check_held(const std::vector<bool> &active,
-                             const std::vector<bool> &is_preloaded) const
+  Pairing::check_held(const std::vector<bool> &active,
+                      const std::vector<bool> &is_preloaded) const
   {
     check_rigid_motions(spaces.bodies,
                         spaces.dirichlet,
@@ -299,8 +299,8 @@ namespace mortise
   }
 
   FreeMotions
-  SceneCouplings::free_motions(const std::vector<bool> &active,
-                               const std::vector<bool> &is_preloaded) const
+  Pairing::free_motions(const std::vector<bool> &active,
+                        const std::vector<bool> &is_preloaded) const
   {
     return find_free_motions(spaces.bodies,
                              spaces.dirichlet,
@@ -308,14 +308,14 @@ namespace mortise
   }
 
   void
-  SceneCouplings::select(const std::vector<bool> &active)
+  Pairing::select(const std::vector<bool> &active)
   {
     for (Coupling &coupling : couplings)
       select_multipliers(active, owned, run.comm, coupling);
   }
 
   std::string
-  SceneCouplings::count_by_name(
+  Pairing::count_by_name(
     const std::vector<types::global_dof_index> &indices) const
   {
     std::vector<unsigned int> counts;

@@ -1,4 +1,5 @@
-// The interfaces of a scene: pairs of faces, integrals, and multipliers.
+// The interfaces of a scene in one configuration: pairs of faces, integrals,
+// and multipliers.
 #pragma once
 
 #include <mortise/output/summary.h>
@@ -10,23 +11,18 @@
 
 namespace mortise
 {
-  class SceneCouplings
+  class Pairing
   {
   public:
-    /// Both must live on.
-    SceneCouplings(const RunContext &run, const SceneSpaces &spaces);
-
-    /// Find what faces each other, and integrate. Collective; throws InputError
-    /// where surfaces do not meet.
-    void
-    couple();
-
-    /// The multipliers, with slave and master exchanged where other interfaces
-    /// and prescribed displacements leave too few to hold the bodies together.
-    /// Throws InputError where a body can move or constant tractions do not
-    /// pass. Collective.
-    void
-    choose_multipliers();
+    /// Pair the sides of all interfaces where they are, the meshes or those that @p displaced
+    /// moves, by body; integrate, and choose multipliers, with slave and master
+    /// exchanged where other interfaces and prescribed displacements leave too
+    /// few to hold the bodies together. @p run and @p spaces must live on.
+    /// Collective; throws InputError where surfaces do not meet, a body can
+    /// move or constant tractions do not pass.
+    Pairing(const RunContext                &run,
+            const SceneSpaces               &spaces,
+            const std::vector<BodySolution> *displaced = nullptr);
 
     /// By interface, with the sides as they are solved. Where bodies slide and
     /// the slave's boundary has edges, each of its smooth patches is an
@@ -119,6 +115,11 @@ namespace mortise
       const std::vector<dealii::types::global_dof_index> &indices) const;
 
   private:
+    /// Find what faces each other, and integrate.
+    void
+    find_and_integrate();
+    void
+    choose_multipliers();
     void
     find_pairs();
     /// Where the gap between the meshes is not what is meant.
@@ -172,6 +173,7 @@ namespace mortise
 
     const RunContext                &run;
     const SceneSpaces               &spaces;
+    const std::vector<BodySolution> *displaced; ///< for the constructor
     std::vector<InterfaceParameters> interfaces;
     std::vector<Coupling>            couplings;
     dealii::IndexSet                 owned;

@@ -4,8 +4,9 @@
 #include <mortise/interface/smooth_patches.h>
 #include <mortise/mortar/slave_frames.h>
 #include <mortise/problem/input/interface_law.h>
-#include <mortise/problem/scene/scene_couplings.h>
+#include <mortise/problem/scene/pairing.h>
 #include <mortise/problem/scene/scene_data.h>
+#include <mortise/problem/support/rigid_motions.h>
 #include <mortise/problem/support/side_faces.h>
 
 #include <algorithm>
@@ -16,15 +17,27 @@ namespace mortise
 {
   using namespace dealii;
 
-  SceneCouplings::SceneCouplings(const RunContext  &run,
-                                 const SceneSpaces &spaces)
+  Pairing::Pairing(const RunContext                &run,
+                   const SceneSpaces               &spaces,
+                   const std::vector<BodySolution> *displaced)
     : run(run)
     , spaces(spaces)
+    , displaced(displaced)
     , owned(0)
-  {}
+  {
+    if (run.parameters.interfaces.empty())
+      {
+        check_rigid_motions(spaces.bodies, spaces.dirichlet, {});
+        return;
+      }
+    find_and_integrate();
+    auto stage = run.log.stage(run.timers, "coupling");
+    choose_multipliers();
+    stage.details(std::to_string(owned.size()) + " multipliers");
+  }
 
   unsigned int
-  SceneCouplings::given_slave(const unsigned int i) const
+  Pairing::given_slave(const unsigned int i) const
   {
     const auto &given = run.parameters.interfaces;
     return std::find_if(given.begin(),
@@ -36,15 +49,15 @@ namespace mortise
   }
 
   std::vector<BoundaryFace>
-  SceneCouplings::faces_of(const InterfaceParameters &given,
-                           const SideParameters      &side) const
+  Pairing::faces_of(const InterfaceParameters &given,
+                    const SideParameters      &side) const
   {
     return side_faces(spaces.bodies, side, "Interface " + given.name);
   }
 
   std::string
-  SceneCouplings::patch_name(const InterfaceParameters &given,
-                             const unsigned int         k) const
+  Pairing::patch_name(const InterfaceParameters &given,
+                      const unsigned int         k) const
   {
     const auto is = [](const std::string &name) {
       return [&](const auto &other) { return other.name == name; };
@@ -58,17 +71,21 @@ namespace mortise
   }
 
   Coupling
-  SceneCouplings::make_coupling(const InterfaceParameters       &given,
-                                const std::string               &name,
-                                const std::vector<BoundaryFace> &slave) const
+  Pairing::make_coupling(const InterfaceParameters       &given,
+                         const std::string               &name,
+                         const std::vector<BoundaryFace> &slave) const
   {
+    const auto displacement = [&](const SideParameters &side) {
+      return displaced ? &(*displaced)[side.body].displacement : nullptr;
+    };
     const auto surface = [&](const SideParameters            &side,
                              const std::vector<BoundaryFace> &faces) {
       return extract_surface(*spaces.bodies[side.body],
                              faces,
                              spaces.fields.displacement.numbering,
                              spaces.fields.displacement.constraints,
-                             spaces.nodal);
+                             spaces.nodal,
+                             displacement(side));
     };
     BodySurface slave_surface = surface(given.slave, slave);
     slave_surface.direction   = given.direction;
@@ -79,8 +96,9 @@ namespace mortise
     options.distance             = given.search_distance;
     options.points_per_direction = given.quadrature_points;
     const auto boundary          = [&](const SideParameters &side) {
-      return
-        [&body = *spaces.bodies[side.body]] { return whole_boundary(body); };
+      return [&body = *spaces.bodies[side.body], u = displacement(side)] {
+        return whole_boundary(body, u);
+      };
     };
     options.slave_boundary  = boundary(given.slave);
     options.master_boundary = boundary(given.master);
@@ -98,8 +116,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::integrate(const InterfaceParameters &given,
-                            Coupling                  &coupling) const
+  Pairing::integrate(const InterfaceParameters &given, Coupling &coupling) const
   {
     const InterfaceLaw &law = coupling.law;
     coupling.local =
@@ -115,7 +132,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::find_pairs()
+  Pairing::find_pairs()
   {
     auto          stage = run.log.stage(run.timers, "interface_search");
     std::uint64_t faces = 0;
@@ -155,7 +172,7 @@ namespace mortise
   } // namespace
 
   void
-  SceneCouplings::warn_of_mesh_gap(const unsigned int i) const
+  Pairing::warn_of_mesh_gap(const unsigned int i) const
   {
     const InterfaceReport     &report = couplings[i].interface->report();
     const InterfaceParameters &given  = interfaces[i];
@@ -191,7 +208,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::check_overlap(const unsigned int i) const
+  Pairing::check_overlap(const unsigned int i) const
   {
     const InterfaceReport     &report = couplings[i].interface->report();
     const InterfaceParameters &given  = interfaces[i];
@@ -223,7 +240,8 @@ namespace mortise
              "those that do not belong to the interface boundaries of their own";
         throw InputError(text.str());
       }
-    warn_of_mesh_gap(i);
+    if (!displaced)
+      warn_of_mesh_gap(i);
     if (report.covered_area < 0.999 * report.slave_area)
       {
         std::ostringstream text;
@@ -237,7 +255,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::drop_patches_apart()
+  Pairing::drop_patches_apart()
   {
     for (unsigned int i = couplings.size(); i-- > 0;)
       {
@@ -257,7 +275,7 @@ namespace mortise
   }
 
   void
-  SceneCouplings::couple()
+  Pairing::find_and_integrate()
   {
     find_pairs();
     const auto  total    = run.timers.scope("coupling");
@@ -294,7 +312,7 @@ namespace mortise
   }
 
   InterfaceSummary
-  SceneCouplings::summary(const unsigned int i) const
+  Pairing::summary(const unsigned int i) const
   {
     const InterfaceReport &report = couplings[i].interface->report();
     const TransferErrors   errors =
@@ -320,7 +338,7 @@ namespace mortise
   }
 
   std::vector<BalanceSummary>
-  SceneCouplings::balance() const
+  Pairing::balance() const
   {
     std::vector<BalanceSummary> result;
     for (const Coupling &coupling : couplings)
