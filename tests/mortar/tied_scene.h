@@ -257,7 +257,10 @@ namespace mortise::testing
       coupling.interface = std::make_unique<InterfaceHandler>(
         "glue", side(0), side(1), InterfaceOptions(), comm);
       if (presses_only)
-        coupling.law = {Law::contact, HeldDirections::normal};
+        {
+          coupling.law.law  = Law::contact;
+          coupling.law.held = HeldDirections::normal;
+        }
       coupling.frames = slave_frames(*bodies[0], coupling.interface->slave());
       coupling.local  = integrate_coupling(*coupling.interface, true, basis);
       states          = partner_states(couplings)[0];

@@ -68,16 +68,15 @@ namespace mortise::testing
       field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
       field.constraints = scene_constraints(field.numbering, conformity);
       auto spaces       = make_nodal_spaces(pointers, MPI_COMM_WORLD);
-      auto pressures    = make_nodal_pressures(pointers, MPI_COMM_WORLD);
+      pressure_space    = make_nodal_pressures(pointers, MPI_COMM_WORLD);
       u_nodes           = displacement_indices(spaces.front()->owned_nodes());
-      p_nodes           = pressures->owned_nodes();
+      p_nodes           = pressure_space->owned_nodes();
       system =
         std::make_unique<NodalSystem>(spaces,
-                                      pressures,
+                                      pressure_space,
                                       NodalSystem::Scene{field.numbering,
                                                          field.constraints},
                                       MPI_COMM_WORLD);
-      pressure_space = std::move(pressures);
     }
 
     Bodies                            bodies;
