@@ -151,7 +151,7 @@ namespace mortise
     , stiffness(*level.space, *level.layout, pressures)
     , hanging(*level.space, *level.layout)
   {
-    if (with_penalty && !level.penalties.parts.empty())
+    if (with_penalty && level.penalties)
       penalty = std::make_unique<PenaltyProduct<Number>>(level.penalties);
   }
 

@@ -307,7 +307,7 @@ namespace mortise
     }
   } // namespace
 
-  NodalPenalties
+  std::shared_ptr<const NodalPenalties>
   make_nodal_penalties(const NodalLevel            &level,
                        const unsigned int           number,
                        const std::vector<Coupling> &couplings)
@@ -332,6 +332,6 @@ namespace mortise
                 nodal_normals(layout, number, part);
             }
       }
-    return penalties;
+    return std::make_shared<const NodalPenalties>(std::move(penalties));
   }
 } // namespace mortise

@@ -32,11 +32,13 @@ namespace mortise
   }
 
   template <typename Number>
-  PenaltyProduct<Number>::PenaltyProduct(const NodalPenalties &penalties)
-    : layout(*penalties.layout)
+  PenaltyProduct<Number>::PenaltyProduct(
+    std::shared_ptr<const NodalPenalties> given)
+    : penalties(std::move(given))
+    , layout(*penalties->layout)
   {
     std::size_t widest = 0;
-    for (const NodalPenalty &penalty : penalties.parts)
+    for (const NodalPenalty &penalty : penalties->parts)
       {
         parts.emplace_back(penalty);
         for (const auto &group : penalty.groups)

@@ -39,11 +39,13 @@ namespace mortise
         result.erase(std::unique(result.begin(), result.end()), result.end());
         return result;
       };
-      for (const NodalPenalty &penalty : level.penalties.parts)
-        for (const auto &group : penalty.groups)
-          if (const auto rows = find(group.rows), columns = find(group.columns);
-              !rows.empty() && !columns.empty())
-            builder.couple(rows, columns);
+      if (of_penalties != nullptr)
+        for (const NodalPenalty &penalty : level.penalties->parts)
+          for (const auto &group : penalty.groups)
+            if (const auto rows = find(group.rows),
+                columns         = find(group.columns);
+                !rows.empty() && !columns.empty())
+              builder.couple(rows, columns);
       builder.close();
     }
 
@@ -120,7 +122,7 @@ namespace mortise
                   const LevelFunctions    &functions,
                   NodalBlockMatrixBuilder &builder)
     {
-      for (const NodalPenalty &penalty : level.penalties.parts)
+      for (const NodalPenalty &penalty : level.penalties->parts)
         {
           PenaltyEntry entry(penalty, functions, builder);
           for (const auto &group : penalty.groups)
@@ -153,9 +155,9 @@ namespace mortise
       coarsening ? coarsening->owned : level.space->owned_nodes();
     LevelFunctions                  functions(level, level.layout, coarsening);
     std::unique_ptr<LevelFunctions> of_penalties;
-    if (level.penalties.layout)
+    if (level.penalties)
       of_penalties = std::make_unique<LevelFunctions>(level,
-                                                      level.penalties.layout,
+                                                      level.penalties->layout,
                                                       coarsening);
     NodalBlockMatrixBuilder builder(owned,
                                     level.layout->get_mpi_communicator());

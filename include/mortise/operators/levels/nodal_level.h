@@ -22,7 +22,8 @@ namespace mortise
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     /// Owned components that are prescribed or hang, indices in vectors.
     std::vector<unsigned int> constrained;
-    NodalPenalties            penalties; ///< of interfaces, if there are any
+    /// Of interfaces; null without.
+    std::shared_ptr<const NodalPenalties> penalties;
   };
 
   /// The level of the scene on @p space, without penalties. @p numbering and
@@ -49,7 +50,7 @@ namespace mortise
                    const std::vector<Coupling> &couplings);
 
   /// A part for each kind of interface that there is. Collective.
-  NodalPenalties
+  std::shared_ptr<const NodalPenalties>
   make_nodal_penalties(const NodalLevel            &level,
                        unsigned int                 number,
                        const std::vector<Coupling> &couplings);

@@ -44,8 +44,7 @@ namespace mortise
   class PenaltyProduct
   {
   public:
-    /// @p penalties, which have parts, must stay alive.
-    explicit PenaltyProduct(const NodalPenalties &penalties);
+    explicit PenaltyProduct(std::shared_ptr<const NodalPenalties> penalties);
 
     /// dst += J src, both by owned index. Collective.
     void
@@ -93,8 +92,9 @@ namespace mortise
     void
     gather(Number *dst, const AddParts &add_parts) const;
 
-    const dealii::Utilities::MPI::Partitioner &layout;
-    std::vector<Part>                          parts;
+    const std::shared_ptr<const NodalPenalties> penalties;
+    const dealii::Utilities::MPI::Partitioner  &layout;
+    std::vector<Part>                           parts;
     mutable dealii::AlignedVector<Number> workspace, ghosts, sums, exchanged;
   };
 } // namespace mortise

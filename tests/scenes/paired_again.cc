@@ -1,0 +1,149 @@
+// Proves that interfaces which are paired again in a configuration x = X + u
+// are those of a mesh that lies there: the same solution where one body is
+// moved along the interface as where its mesh is, the same integrals where all
+// is moved together, and what was there before where nothing moves.
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+#include "scenes/active_sets.h"
+#include "verdict.h"
+
+using namespace dealii;
+using namespace mortise;
+using namespace mortise::testing;
+
+namespace
+{
+  /// Two blocks of unlike meshes on each other, pressed together.
+  std::string
+  blocks(const std::string &law, const bool tetrahedra, const double shift)
+  {
+    const auto block = [&](const std::string &name,
+                           const std::string &extent,
+                           const std::string &cells,
+                           const std::string &boundary) {
+      return "subsection Body " + name +
+             "\n  set Degree = 2\n  subsection Mesh\n    set Source = box\n"
+             "    set Extent = " +
+             extent + "\n    set Subdivisions = " + cells +
+             (tetrahedra ? "\n    set Cells = tetrahedra" : "") +
+             "\n    set Translate = " +
+             (name == "upper" ? number(shift) : "0") +
+             ", 0, 0\n  end\n  subsection Material\n    set Young modulus = 10\n"
+             "  end\n" +
+             boundary + "end\n";
+    };
+    const std::string top =
+                        "  subsection Boundary zmax\n    set Displacement = "
+                        "0.02, 0, -0.05\n  end\n",
+                      bottom = "  subsection Boundary zmin\n    set "
+                               "Displacement = 0, 0, 0\n  end\n";
+    return "set Bodies = lower, upper\nset Interfaces = glue\n" +
+           block("lower", "0, 0, 0, 3, 2, 1", "5, 3, 2", bottom) +
+           block("upper", "0.5, 0.5, 1, 2, 1.5, 2", "4, 3, 2", top) +
+           "subsection Interface glue\n  set Slave = upper: zmin\n"
+           "  set Master = lower: zmax\n  set Law = " +
+           law + "\nend\n";
+  }
+
+  using Field = std::function<Tensor<1, dim>(unsigned int, const Point<dim> &)>;
+
+  /// A field that is linear in each body.
+  std::vector<BodySolution>
+  moved(const Bodies &bodies, const Field &field)
+  {
+    std::vector<BodySolution> result = zero_solutions(bodies);
+    for (const auto &body : bodies)
+      {
+        BodyVector &u = result[body->index].displacement;
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const unsigned int v : cell->vertex_indices())
+              for (unsigned int c = 0; c < dim; ++c)
+                if (const auto dof =
+                      cell->vertex_dof_index(v, c, cell->active_fe_index());
+                    u.in_local_range(dof))
+                  u(dof) = field(body->index, cell->vertex(v))[c];
+        u.update_ghost_values();
+      }
+    return result;
+  }
+
+  mortise::Vector
+  solve(const EquationsOfScene &scene, LinearSolver &solver)
+  {
+    SystemVector x;
+    solver.solve(scene.discretisation.load(scene.fields()).rhs, x);
+    return x.displacement;
+  }
+
+  double
+  difference(const mortise::Vector &a, const mortise::Vector &b)
+  {
+    mortise::Vector d(a);
+    d -= b;
+    return d.l2_norm() / b.l2_norm();
+  }
+
+  void
+  check_small(const std::string &what, const double got)
+  {
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      verdict(what, got, 1e-9);
+  }
+
+  void
+  check(const std::string &law, const bool tetrahedra)
+  {
+    const MPI_Comm    comm = MPI_COMM_WORLD;
+    const std::string of = law + (tetrahedra ? ", tetrahedra" : ", hexahedra");
+    constexpr double  shift = 0.3;
+    EquationsOfScene  scene(blocks(law, tetrahedra, 0.), {}, comm),
+      there(blocks(law, tetrahedra, shift), {}, comm);
+    SolverOptions options;
+    options.tolerance = 1e-12;
+    options.method    = SolverMethod::condensed;
+    const auto solver =
+      make_linear_solver(scene.discretisation.linear_system(), options);
+    const auto solver_there =
+      make_linear_solver(there.discretisation.linear_system(), options);
+    const mortise::Vector first = solve(scene, *solver);
+
+    const Bodies &bodies = scene.discretisation.bodies();
+    scene.discretisation.pair(
+      moved(bodies, [&](const unsigned int body, const Point<dim> &) {
+        return Tensor<1, dim>({body == 1 ? shift : 0., 0., 0.});
+      }));
+    solver->update_interfaces();
+    check_small(of + ": paired where the upper block has moved to",
+                difference(solve(scene, *solver), solve(there, *solver_there)));
+
+    // a rotation about the z axis and a translation
+    const double angle = 0.7;
+    scene.discretisation.pair(
+      moved(bodies, [&](const unsigned int, const Point<dim> &x) {
+        return Tensor<1, dim>(
+          {std::cos(angle) * x[0] - std::sin(angle) * x[1] - x[0] + 5.,
+           std::sin(angle) * x[0] + std::cos(angle) * x[1] - x[1] - 2.,
+           3.});
+      }));
+    solver->update_interfaces();
+    check_small(of + ": paired where both have moved together",
+                difference(solve(scene, *solver), first));
+
+    scene.discretisation.pair(zero_solutions(bodies));
+    solver->update_interfaces();
+    check_small(of + ": paired where nothing has moved",
+                difference(solve(scene, *solver), first));
+  }
+} // namespace
+
+int
+main(int argc, char *argv[])
+{
+  const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  for (const bool tetrahedra : {false, true})
+    for (const std::string law : {"tie", "slide"})
+      check(law, tetrahedra);
+}
