@@ -33,7 +33,9 @@ namespace mortise
     std::vector<bool> more = turns;
     for (unsigned int surface = 1; surface <= n_surfaces; ++surface)
       {
-        const auto all = place_trees<n_kinds>(places, surface, kind, comm);
+        const auto by_kind =
+          places_of_all_ranks<n_kinds>(places, surface, kind, comm);
+        const std::vector<PlaceTree> all(by_kind.begin(), by_kind.end());
         if (std::any_of(all.begin(), all.end(), [](const PlaceTree &tree) {
               return tree.empty();
             }))

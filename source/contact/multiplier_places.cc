@@ -1,5 +1,6 @@
 // See multiplier_places.h.
 #include <algorithm>
+#include <cmath>
 
 #include "place_trees.h"
 
@@ -16,25 +17,29 @@ namespace mortise
                                comm);
   }
 
-  /// By surface, of those that are not active and of those that are.
-  struct ActivePlaces::Trees
-  {
-    std::vector<std::vector<PlaceTree>> by_surface;
-  };
-
   ActivePlaces::ActivePlaces(const MultiplierPlaces  &places,
                              const std::vector<bool> &active,
                              const MPI_Comm           comm)
   {
-    auto               all  = std::make_shared<Trees>();
     const unsigned int last = last_surface(places, comm);
     for (unsigned int surface = 1; surface <= last; ++surface)
-      all->by_surface.push_back(place_trees<2>(
+      by_surface.push_back(places_of_all_ranks<2>(
         places,
         surface,
         [&](const unsigned int i) { return active[i] ? 1 : 0; },
         comm));
-    trees = std::move(all);
+  }
+
+  bool
+  ActivePlaces::is_finite() const
+  {
+    for (const auto &of_surface : by_surface)
+      for (const auto &places : of_surface)
+        for (const Place &place : places)
+          for (const double x : place)
+            if (!std::isfinite(x))
+              return false;
+    return true;
   }
 
   std::vector<bool>
@@ -42,15 +47,15 @@ namespace mortise
   {
     constexpr double  rounding = 1e-6;
     std::vector<bool> result(places.points.size(), true);
-    for (unsigned int i = 0; i < result.size(); ++i)
-      if (const unsigned int surface = places.surfaces[i];
-          surface > 0 && surface <= trees->by_surface.size())
-        {
-          const auto &of_surface = trees->by_surface[surface - 1];
-          result[i] =
-            of_surface[1].distance(places.points[i]) <=
-            (1. + rounding) * of_surface[0].distance(places.points[i]);
-        }
+    for (unsigned int surface = 1; surface <= by_surface.size(); ++surface)
+      {
+        const auto     &of_surface = by_surface[surface - 1];
+        const PlaceTree open(of_surface[0]), pressing(of_surface[1]);
+        for (unsigned int i = 0; i < result.size(); ++i)
+          if (places.surfaces[i] == surface)
+            result[i] = pressing.distance(places.points[i]) <=
+                        (1. + rounding) * open.distance(places.points[i]);
+      }
     return result;
   }
 } // namespace mortise

@@ -14,9 +14,13 @@ namespace mortise
   class PlaceTree
   {
   public:
-    explicit PlaceTree(const std::vector<dealii::Point<3>> &points)
-      : tree(dealii::pack_rtree(points))
-    {}
+    explicit PlaceTree(const std::vector<std::array<double, 3>> &places)
+    {
+      std::vector<dealii::Point<3>> points;
+      for (const auto &[x, y, z] : places)
+        points.emplace_back(x, y, z);
+      tree = dealii::pack_rtree(points);
+    }
 
     bool
     empty() const
@@ -47,20 +51,21 @@ namespace mortise
 
   /// Places on one surface, of all ranks, by @p kind(i) < n_kinds. Collective.
   template <std::size_t n_kinds, typename Kind>
-  std::vector<PlaceTree>
-  place_trees(const MultiplierPlaces &places,
-              const unsigned int      surface,
-              const Kind             &kind,
-              const MPI_Comm          comm)
+  std::array<std::vector<std::array<double, 3>>, n_kinds>
+  places_of_all_ranks(const MultiplierPlaces &places,
+                      const unsigned int      surface,
+                      const Kind             &kind,
+                      const MPI_Comm          comm)
   {
-    std::array<std::vector<dealii::Point<3>>, n_kinds> own, all;
+    std::array<std::vector<std::array<double, 3>>, n_kinds> own, all;
     for (unsigned int i = 0; i < places.points.size(); ++i)
       if (places.surfaces[i] == surface)
-        own[kind(i)].push_back(places.points[i]);
+        own[kind(i)].push_back(
+          {{places.points[i][0], places.points[i][1], places.points[i][2]}});
     for (const auto &of_rank : dealii::Utilities::MPI::all_gather(comm, own))
       for (unsigned int k = 0; k < n_kinds; ++k)
         all[k].insert(all[k].end(), of_rank[k].begin(), of_rank[k].end());
-    return std::vector<PlaceTree>(all.begin(), all.end());
+    return all;
   }
 
   /// The largest of the numbers of surfaces. Collective.

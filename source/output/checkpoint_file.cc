@@ -3,9 +3,7 @@
 #include <boost/crc.hpp>
 
 #include <fcntl.h>
-#include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
-#include <mortise/output/bytes.h>
 #include <mortise/output/checkpoint_file.h>
 #include <mortise/output/summary.h>
 #include <mortise/output/whole_file.h>
@@ -13,7 +11,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -28,28 +25,13 @@ namespace mortise
     /// header after it.
     struct CheckpointStart
     {
-      std::array<char, 16> magic;
-      std::uint64_t        checksum, format, header_size;
+      char          magic[16];
+      std::uint64_t checksum, format, header_size;
     };
 
-    constexpr std::array<char, 16> checkpoint_magic  = {{'M',
-                                                         'o',
-                                                         'r',
-                                                         't',
-                                                         'i',
-                                                         's',
-                                                         'e',
-                                                         ' ',
-                                                         's',
-                                                         't',
-                                                         'a',
-                                                         't',
-                                                         'e',
-                                                         '\r',
-                                                         '\n',
-                                                         '\0'}};
-    constexpr std::uint64_t        checkpoint_format = 5;
-    constexpr std::uint64_t        checkpoint_block  = 1 << 22;
+    constexpr char checkpoint_magic[]         = "Mortise state\r\n"; // and '\0'
+    constexpr std::uint64_t checkpoint_format = 6;
+    constexpr std::uint64_t checkpoint_block  = 1 << 22;
 
     std::uint64_t
     checksum_of(const std::string &bytes)
@@ -60,66 +42,88 @@ namespace mortise
     }
   } // namespace
 
-  void
-  write_checkpoint_file(const std::string      &file,
-                        const CheckpointHeader &header,
-                        const std::string      &records,
-                        const MPI_Comm          comm)
+  std::string
+  checkpoint_file_name(const std::string &directory)
   {
-    const std::array<std::uint64_t, 2> own = {
-      {records.size(), checksum_of(records)}};
-    const auto  parts = dealii::Utilities::MPI::gather(comm, own, 0);
-    std::string piece;
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      {
-        std::string contents;
-        append_text(contents, program_info(1).version);
-        append_text(contents, header.text);
-        append_text(contents, header.scene);
-        append_bytes<std::uint64_t>(contents, parts.size());
-        for (const auto &part : parts)
-          append_bytes(contents, part);
+    return directory + "/checkpoint.bin";
+  }
 
-        std::string checked;
+  void
+  write_checkpoint_file(const std::string &file,
+                        const Sections    &shared,
+                        const Sections    &records,
+                        const MPI_Comm     comm)
+  {
+    const bool is_first = dealii::Utilities::MPI::this_mpi_process(comm) == 0;
+    // size and checksum by section, as the ranks write them
+    std::map<std::string, std::array<std::uint64_t, 2>> own;
+    std::string                                         values;
+    for (const Sections *sections : {&shared, &records})
+      for (const auto &[name, bytes] : *sections)
+        if (sections == &records || is_first)
+          {
+            own[name] = {{bytes.size(), checksum_of(bytes)}};
+            values += bytes;
+          }
+    auto        ranks = dealii::Utilities::MPI::gather(comm, own, 0);
+    std::string piece;
+    if (is_first)
+      {
+        ByteWriter  header;
+        std::string version = program_info(1).version;
+        // in the order in which they are in the file
+        std::vector<std::string> names;
+        for (const Sections *sections : {&shared, &records})
+          for (const auto &section : *sections)
+            names.push_back(section.first);
+        header &version &names &ranks;
+        std::string             checked;
         append_bytes(checked, checkpoint_format);
-        append_bytes<std::uint64_t>(checked, contents.size());
-        checked += contents;
-        append_bytes(piece, checkpoint_magic);
+        append_text(checked, header.bytes);
+        piece.assign(checkpoint_magic, sizeof(checkpoint_magic));
         append_bytes(piece, checksum_of(checked));
         piece += checked;
       }
-    write_whole_file(file, piece.empty() ? records : piece + records, comm);
+    write_whole_file(file, piece + values, comm);
   }
 
   CheckpointFile::CheckpointFile(const std::string &file, const MPI_Comm comm)
-    : name(file_in_quotes(file))
-    , file(file)
+    : file(file)
+    , quoted(file_in_quotes(file))
     , comm(comm)
   {
-    std::string problem;
-    if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      try
-        {
-          open();
-        }
-      catch (const InputError &error)
-        {
-          problem = error.what();
-        }
-    // the destructor does not run after this
-    if (!problem.empty() && descriptor >= 0)
-      ::close(descriptor);
-    throw_if_any(problem, comm);
-    contents.text  = dealii::Utilities::MPI::broadcast(comm, contents.text, 0);
-    contents.scene = dealii::Utilities::MPI::broadcast(comm, contents.scene, 0);
-    records_start  = dealii::Utilities::MPI::broadcast(comm, records_start, 0);
-    records_end    = dealii::Utilities::MPI::broadcast(comm, records_end, 0);
+    const auto on_first = [&](const auto &action) {
+      std::string problem;
+      if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+        try
+          {
+            action();
+          }
+        catch (const InputError &error)
+          {
+            problem = error.what();
+          }
+      throw_if_any(problem, comm);
+    };
+    std::string header;
+    on_first([&] { header = open(); });
+    header    = dealii::Utilities::MPI::broadcast(comm, header, 0);
+    file_size = dealii::Utilities::MPI::broadcast(comm, file_size, 0);
+    try
+      {
+        parse_header(header);
+      }
+    catch (const std::out_of_range &error)
+      {
+        throw damaged(error.what());
+      }
+    on_first([&] { check_sections(); });
   }
 
-  CheckpointFile::~CheckpointFile()
+  CheckpointFile::Descriptor::~Descriptor()
   {
-    if (descriptor >= 0)
-      ::close(descriptor);
+    if (number >= 0)
+      ::close(number);
   }
 
   InputError
@@ -131,62 +135,40 @@ namespace mortise
                       "one the run has to start anew");
   }
 
-  void
-  CheckpointFile::fail_as_damaged(const std::string &how) const
-  {
-    throw damaged_checkpoint(file, how);
-  }
-
-  void
+  std::string
   CheckpointFile::open()
   {
-    descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    descriptor.number = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     struct stat status;
-    if (descriptor < 0 || fstat(descriptor, &status) != 0)
-      throw InputError("Cannot read the checkpoint " + name + ": " +
-                       std::strerror(errno) +
+    const bool  is_there =
+      descriptor.number >= 0 && fstat(descriptor.number, &status) == 0;
+    if (!is_there || !S_ISREG(status.st_mode))
+      throw InputError("Cannot read the checkpoint " + quoted + ": " +
+                       (is_there ? "it is not a file" : std::strerror(errno)) +
                        "; allowed: the directory of a run that has written "
                        "a checkpoint");
-    if (!S_ISREG(status.st_mode))
-      throw InputError("Cannot read the checkpoint " + name +
-                       ": it is not a file; allowed: the directory of a run "
-                       "that has written a checkpoint");
     file_size = status.st_size;
-    try
-      {
-        parse_header(read_verified_header());
-      }
-    catch (const std::out_of_range &error)
-      {
-        fail_as_damaged(error.what());
-      }
-  }
-
-  std::string
-  CheckpointFile::read_verified_header()
-  {
     if (file_size < sizeof(CheckpointStart))
-      fail_as_damaged("it ends after " + std::to_string(file_size) + " bytes");
+      throw damaged("it ends after " + std::to_string(file_size) + " bytes");
     CheckpointStart start;
     read(0, reinterpret_cast<char *>(&start), sizeof(start));
-    if (start.magic != checkpoint_magic)
-      throw InputError("The file " + name +
+    if (std::memcmp(start.magic, checkpoint_magic, sizeof(start.magic)) != 0)
+      throw InputError("The file " + quoted +
                        " is damaged or no checkpoint: it does not begin as "
                        "one; allowed: a checkpoint as Mortise has left it");
     if (start.header_size > file_size - sizeof(start))
-      fail_as_damaged("it ends after " + std::to_string(file_size) +
-                      " bytes, within its header");
+      throw damaged("it ends after " + std::to_string(file_size) +
+                    " bytes, within its header");
     // without memory for a header of which only the length is wrong
     constexpr auto checked = offsetof(CheckpointStart, format);
     if (checksum(checked, sizeof(start) - checked + start.header_size) !=
         start.checksum)
-      fail_as_damaged("its header does not match its checksum");
+      throw damaged("its header does not match its checksum");
     if (start.format != checkpoint_format)
-      throw InputError("The checkpoint " + name + " has format " +
+      throw InputError("The checkpoint " + quoted + " has format " +
                        std::to_string(start.format) + ", allowed is format " +
                        std::to_string(checkpoint_format) +
                        ": another version of Mortise has written it");
-    records_start = sizeof(start) + start.header_size;
     std::string header(start.header_size, '\0');
     read(sizeof(start), header.data(), header.size());
     return header;
@@ -195,42 +177,47 @@ namespace mortise
   void
   CheckpointFile::parse_header(const std::string &header)
   {
-    ByteReader        bytes(header);
-    const std::string version = bytes.get_text();
+    ByteArchive archive(header);
+    std::string version;
+    archive    &version;
     if (const std::string own = program_info(1).version; version != own)
-      throw InputError("The checkpoint " + name + " was written by version " +
+      throw InputError("The checkpoint " + quoted + " was written by version " +
                        in_quotes(version) +
                        " of Mortise, and this is version " + in_quotes(own) +
                        "; allowed: a checkpoint of the same version");
-    contents.text      = bytes.get_text();
-    contents.scene     = bytes.get_text();
-    const auto n_parts = bytes.get<std::uint64_t>();
-    if (bytes.left() % sizeof(Part) != 0 ||
-        bytes.left() / sizeof(Part) != n_parts)
-      fail_as_damaged("its header has " + std::to_string(bytes.left()) +
-                      " bytes for the lengths of " + std::to_string(n_parts) +
-                      " parts");
-    std::vector<Part> parts(n_parts);
-    records_end = records_start;
-    for (Part &part : parts)
-      {
-        part = bytes.get<Part>();
-        if (part.size > std::numeric_limits<std::uint64_t>::max() - records_end)
-          fail_as_damaged("a part of it has " + std::to_string(part.size) +
-                          " bytes");
-        records_end += part.size;
-      }
-    if (file_size != records_end)
-      fail_as_damaged("it has " + std::to_string(file_size) +
-                      " bytes instead of " + std::to_string(records_end));
-    std::uint64_t start = records_start;
-    for (const Part &part : parts)
-      {
-        if (checksum(start, part.size) != part.checksum)
-          fail_as_damaged("its values from byte " + std::to_string(start) +
-                          " on do not match their checksum");
-        start += part.size;
-      }
+    std::vector<std::string>                                         names;
+    std::vector<std::map<std::string, std::array<std::uint64_t, 2>>> ranks;
+    archive &names                                                  &ranks;
+    if (archive.left() > 0)
+      throw damaged("its header has " + std::to_string(archive.left()) +
+                    " bytes too many");
+    std::uint64_t end = sizeof(CheckpointStart) + header.size();
+    for (const auto &sections_of_rank : ranks)
+      for (const std::string &name : names)
+        if (const auto part = sections_of_rank.find(name);
+            part != sections_of_rank.end())
+          {
+            const auto &[size, checksum] = part->second;
+            if (size > std::numeric_limits<std::uint64_t>::max() - end)
+              throw damaged("a part of it has " + std::to_string(size) +
+                            " bytes");
+            sections[name].push_back({{size, checksum, end}});
+            end += size;
+          }
+    if (file_size != end)
+      throw damaged("it has " + std::to_string(file_size) +
+                    " bytes instead of " + std::to_string(end));
+  }
+
+  void
+  CheckpointFile::check_sections() const
+  {
+    for (const auto &[name, parts] : sections)
+      for (const auto &[size, expected, start] : parts)
+        if (checksum(start, size) != expected)
+          throw damaged("the values of its section " + in_quotes(name) +
+                        " from byte " + std::to_string(start) +
+                        " on do not match their checksum");
   }
 
   void
@@ -238,11 +225,11 @@ namespace mortise
   {
     while (size > 0)
       {
-        const ssize_t got = pread(descriptor, bytes, size, start);
+        const ssize_t got = pread(descriptor.number, bytes, size, start);
         if (got == 0)
-          fail_as_damaged("it ends after " + std::to_string(start) + " bytes");
+          throw damaged("it ends after " + std::to_string(start) + " bytes");
         if (got < 0 && errno != EINTR)
-          throw InputError("Cannot read the checkpoint " + name + ": " +
+          throw InputError("Cannot read the checkpoint " + quoted + ": " +
                            std::strerror(errno));
         if (got > 0)
           {
@@ -270,28 +257,76 @@ namespace mortise
 
   void
   CheckpointFile::for_each_block(
-    const std::function<void(const std::string &block)> &take) const
+    const std::string                              &section,
+    const std::function<void(const std::string &)> &take,
+    const std::uint64_t                             size) const
   {
+    if (!has(section))
+      throw InputError("The checkpoint " + quoted + " has no section " +
+                       in_quotes(section) +
+                       ", without which the run cannot go on; allowed: a "
+                       "checkpoint that has it");
     std::string block, problem;
-    for (std::uint64_t start = records_start; start < records_end;
-         start += block.size())
-      {
-        if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-          try
-            {
-              block.resize(std::min(records_end - start, checkpoint_block));
-              read(start, block.data(), block.size());
-            }
-          catch (const InputError &error)
-            {
-              problem = error.what();
-              block.clear();
-            }
-        block = dealii::Utilities::MPI::broadcast(comm, block, 0);
-        if (block.empty())
-          break;
-        take(block);
-      }
+    for (auto [left, checksum, start] : sections.at(section))
+      for (; left > 0 && problem.empty(); left -= block.size())
+        {
+          block.resize(std::min(left, size));
+          if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+            try
+              {
+                read(start, block.data(), block.size());
+              }
+            catch (const InputError &error)
+              {
+                problem = error.what();
+              }
+          problem = dealii::Utilities::MPI::broadcast(comm, problem, 0);
+          if (!problem.empty())
+            break;
+          block = dealii::Utilities::MPI::broadcast(comm, block, 0);
+          take(block);
+          start += block.size();
+        }
     throw_if_any(problem, comm);
+  }
+
+  std::string
+  CheckpointFile::read(const std::string &section) const
+  {
+    std::string bytes;
+    for_each_block(
+      section,
+      [&](const std::string &block) { bytes += block; },
+      checkpoint_block);
+    return bytes;
+  }
+
+  void
+  CheckpointFile::for_each_record(
+    const std::string                              &section,
+    const std::function<void(const std::string &)> &take,
+    const std::uint64_t                             block_size) const
+  {
+    std::string rest; // an incomplete record
+    for_each_block(
+      section,
+      [&](const std::string &block) {
+        rest += block;
+        ByteReader  bytes(rest);
+        std::size_t done = 0;
+        while (bytes.left() >= sizeof(std::uint64_t))
+          {
+            const auto size = bytes.get<std::uint64_t>();
+            if (bytes.left() < size)
+              break;
+            take(std::string(bytes.take(size), size));
+            done = rest.size() - bytes.left();
+          }
+        rest.erase(0, done);
+      },
+      block_size);
+    if (!rest.empty())
+      throw damaged("its section " + in_quotes(section) +
+                    " ends within a record");
   }
 } // namespace mortise

@@ -2,7 +2,6 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/quotes.h>
-#include <mortise/output/bytes.h>
 #include <mortise/output/checkpoint_scene.h>
 
 #include <algorithm>
@@ -244,48 +243,11 @@ namespace mortise
     return scene;
   }
 
-  std::string
-  pack(const SceneDescription &scene)
+  void
+  check(const SceneDescription &scene)
   {
-    std::string bytes;
-    append_bytes<std::uint64_t>(bytes, scene.bodies.size());
     for (const auto &body : scene.bodies)
       {
-        append_text(bytes, body.name);
-        append_text(bytes, body.shape);
-        append_bytes(bytes, body.cells);
-        append_bytes(bytes, body.degree_min);
-        append_bytes(bytes, body.degree_max);
-        append_bytes(bytes, body.dofs);
-        append_bytes(bytes, body.pressures);
-        append_bytes(bytes, body.geometry);
-      }
-    append_bytes<std::uint64_t>(bytes, scene.interfaces.size());
-    for (const auto &interface : scene.interfaces)
-      {
-        append_text(bytes, interface.name);
-        append_text(bytes, interface.slave);
-        append_bytes(bytes, interface.faces);
-      }
-    return bytes;
-  }
-
-  SceneDescription
-  unpack_scene(const std::string &bytes)
-  {
-    ByteReader       reader(bytes);
-    SceneDescription scene;
-    for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
-      {
-        auto &body      = scene.bodies.emplace_back();
-        body.name       = reader.get_text();
-        body.shape      = reader.get_text();
-        body.cells      = reader.get<std::uint64_t>();
-        body.degree_min = reader.get<unsigned int>();
-        body.degree_max = reader.get<unsigned int>();
-        body.dofs       = reader.get<std::uint64_t>();
-        body.pressures  = reader.get<std::uint64_t>();
-        body.geometry   = reader.get<std::array<double, 9>>();
         if (body.shape != "tetrahedra" && body.shape != "hexahedra")
           throw std::out_of_range("body " + in_quotes(body.name) +
                                   " consists of " + in_quotes(body.shape));
@@ -294,17 +256,6 @@ namespace mortise
             throw std::out_of_range("body " + in_quotes(body.name) +
                                     " has no finite geometry");
       }
-    for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
-      {
-        auto &interface = scene.interfaces.emplace_back();
-        interface.name  = reader.get_text();
-        interface.slave = reader.get_text();
-        interface.faces = reader.get<std::uint64_t>();
-      }
-    if (reader.left() > 0)
-      throw std::out_of_range("there are " + std::to_string(reader.left()) +
-                              " bytes behind the description of its scene");
-    return scene;
   }
 
   std::vector<std::string>

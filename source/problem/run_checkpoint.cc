@@ -1,9 +1,8 @@
-#include <mortise/output/checkpoint.h>
-#include <mortise/output/checkpoint_file.h>
 #include <mortise/output/json_value.h>
 #include <mortise/problem/run_checkpoint.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -16,22 +15,28 @@ namespace mortise
     using Json = nlohmann::ordered_json;
   }
 
-  std::string
-  to_text(const RunCheckpoint &checkpoint)
+  Sections
+  to_sections(const RunCheckpoint &checkpoint)
   {
     Json lines = Json::array();
     for (const Assignment &a : checkpoint.assignments)
       lines.push_back({a.sections, a.name, a.value, a.origin});
     // what is infinite is written as null
-    return Json{{"file", checkpoint.file},
-                {"assignments", lines},
-                {"time", checkpoint.time},
-                {"longest_step", checkpoint.longest_step},
-                {"n_steps", checkpoint.n_steps},
-                {"adaptivity", checkpoint.adaptivity},
-                {"steps", steps_to_json(checkpoint.steps)},
-                {"files", checkpoint.files}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+    const Json run{{"file", checkpoint.file},
+                   {"assignments", lines},
+                   {"time", checkpoint.state.time},
+                   {"longest_step", checkpoint.longest_step},
+                   {"n_steps", checkpoint.n_steps},
+                   {"steps", steps_to_json(checkpoint.steps)},
+                   {"files", checkpoint.files}};
+    Sections   result{
+        {"run", run.dump(-1, ' ', false, Json::error_handler_t::replace)},
+        {"contact status",
+         to_bytes(checkpoint.state.pressing.value_or(ActivePlaces()))},
+        {"shortenings", to_bytes(checkpoint.state.shortenings)}};
+    if (!checkpoint.adaptivity.empty())
+      result["adaptivity"] = checkpoint.adaptivity;
+    return result;
   }
 
   namespace
@@ -65,12 +70,11 @@ namespace mortise
       checkpoint.file = json_value<std::string>(json.at("file"));
       for (const Json &line : list_of(json, "assignments"))
         checkpoint.assignments.push_back(assignment_from(line));
-      checkpoint.time         = json_value<double>(json.at("time"));
+      checkpoint.state.time   = json_value<double>(json.at("time"));
       checkpoint.longest_step = json.at("longest_step").is_null() ?
                                   std::numeric_limits<double>::infinity() :
                                   json_value<double>(json.at("longest_step"));
       checkpoint.n_steps      = json_value<unsigned int>(json.at("n_steps"));
-      checkpoint.adaptivity   = json_value<std::string>(json.at("adaptivity"));
       checkpoint.steps =
         steps_from_json(json_value<std::string>(json.at("steps")));
       for (const Json &file : list_of(json, "files"))
@@ -81,8 +85,9 @@ namespace mortise
         message << what << value;
         throw std::out_of_range(message.str());
       };
-      if (!std::isfinite(checkpoint.time) || checkpoint.time < 0.)
-        refuse("it has reached the time ", checkpoint.time);
+      const double time = checkpoint.state.time;
+      if (!std::isfinite(time) || time < 0.)
+        refuse("it has reached the time ", time);
       if (!(checkpoint.longest_step > 0.))
         refuse("it has steps of length ", checkpoint.longest_step);
       for (const auto &[step, time] : checkpoint.files)
@@ -97,22 +102,32 @@ namespace mortise
   RunCheckpoint
   read_run_checkpoint(const std::string &directory, const MPI_Comm comm)
   {
-    const std::string text = read_checkpoint_text(directory, comm);
+    const CheckpointFile file(checkpoint_file_name(directory), comm);
+    RunCheckpoint        checkpoint;
     try
       {
-        return run_checkpoint_from(text);
+        checkpoint = run_checkpoint_from(file.read("run"));
       }
     catch (const std::out_of_range &error)
       {
-        throw damaged_checkpoint(checkpoint_file_name(directory), error.what());
+        throw file.damaged(error.what());
       }
     catch (const Json::exception &error)
       {
-        throw damaged_checkpoint(checkpoint_file_name(directory),
-                                 "its text cannot be read (" +
-                                   std::string(error.what()).substr(0, 200) +
-                                   ")");
+        throw file.damaged("its text cannot be read (" +
+                           std::string(error.what()).substr(0, 200) + ")");
       }
+    State &state      = checkpoint.state;
+    state.pressing    = file.get<ActivePlaces>("contact status");
+    state.shortenings = file.get<std::vector<double>>("shortenings");
+    if (file.has("adaptivity"))
+      checkpoint.adaptivity = file.read("adaptivity");
+    if (!state.pressing->is_finite() ||
+        !std::all_of(state.shortenings.begin(),
+                     state.shortenings.end(),
+                     [](const double x) { return std::isfinite(x); }))
+      throw file.damaged("it has values that are not finite");
+    return checkpoint;
   }
 
   Parameters

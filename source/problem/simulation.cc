@@ -85,17 +85,12 @@ namespace mortise
     if (adaptivity && !summary.steps.empty())
       extend_search();
     const SceneData data(context.parameters, steps.next(), field_checks);
-    std::optional<ActivePlaces> pressing;
-    if (contact)
-      pressing = contact->active_places();
-    else if (restart.empty())
-      pressing = contact_start(context, steps.next(), bodies);
+    if (!state.pressing && restart.empty())
+      state.pressing = contact_start(context, steps.next(), bodies);
     // meshes of the last step do not suit the next one
     const bool again =
       adaptivity && adaptivity->n_cycles() == 0 && discretisation != nullptr;
     contact.reset();
-    const std::vector<double> shortenings =
-      preloads ? preloads->shortenings() : std::vector<double>();
     preloads.reset();
     solver.reset();
     discretisation.reset();
@@ -133,10 +128,10 @@ namespace mortise
     preloads = std::make_unique<Preloads>(context,
                                           *discretisation,
                                           *solver,
-                                          shortenings);
+                                          state.shortenings);
     if (discretisation->interfaces().have_contact())
       contact = std::make_unique<ContactStep>(
-        context, *discretisation, *solver, *preloads, std::move(pressing));
+        context, *discretisation, *solver, *preloads, state.pressing);
     // a factorisation gives one of many answers and does not tell
     if (options.method == SolverMethod::direct)
       discretisation->check_multipliers();
@@ -239,13 +234,16 @@ namespace mortise
     SceneLoad load = discretisation->load(data);
     field_checks.throw_if_any(context.comm);
     check_loads(load.rhs);
-    State next{time, solve(data, load)};
+    State next{time, solve(data, load), {}, {}};
     if (!report.converged && steps.halve())
       {
         context.log.line("  not converged: half the step");
         return;
       }
 
+    if (contact)
+      next.pressing = contact->active_places();
+    next.shortenings = preloads->shortenings_by_interface();
     StepFields fields;
     {
       const auto       stage = context.log.stage(context.timers, "postprocess");
@@ -254,7 +252,7 @@ namespace mortise
                               next.solution,
                               contact ? contact->undecided() :
                                         std::vector<bool>(),
-                              preloads->shortenings_by_interface()};
+                              next.shortenings};
       fields = step_fields(context, *discretisation, solved);
       const BoundaryForces forces(*discretisation, solved, fields.solutions);
       if (adaptivity)

@@ -31,9 +31,9 @@ namespace mortise
     const RunCheckpoint checkpoint{
       std::filesystem::absolute(parameters.file).string(),
       parameters.assignments,
-      steps.time(),
       steps.longest(),
       steps.n_done(),
+      {steps.time(), {}, state.pressing, state.shortenings},
       adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
         adaptivity->checkpoint() :
         std::string(),
@@ -42,9 +42,8 @@ namespace mortise
     try
       {
         mortise::write_checkpoint(parameters.output.directory,
-                                  {to_text(checkpoint),
-                                   fields.solutions,
-                                   fields.multipliers},
+                                  to_sections(checkpoint),
+                                  {fields.solutions, fields.multipliers},
                                   bodies,
                                   discretisation->interfaces().all(),
                                   context.comm);

@@ -1,7 +1,6 @@
 // How Simulation goes on from a checkpoint.
 #include <mortise/base/error.h>
 #include <mortise/output/checkpoint.h>
-#include <mortise/output/checkpoint_file.h>
 #include <mortise/problem/simulation.h>
 
 #include <algorithm>
@@ -13,15 +12,15 @@ namespace mortise
   namespace
   {
     bool
-    all_finite(const Checkpoint &checkpoint)
+    all_finite(const SceneValues &values)
     {
       const auto finite = [](const double x) { return std::isfinite(x); };
-      for (const BodySolution &solution : checkpoint.solutions)
-        for (const BodyVector *values :
+      for (const BodySolution &solution : values.solutions)
+        for (const BodyVector *field :
              {&solution.displacement, &solution.pressure})
-          if (!std::all_of(values->begin(), values->end(), finite))
+          if (!std::all_of(field->begin(), field->end(), finite))
             return false;
-      for (const auto &of_interface : checkpoint.multipliers)
+      for (const auto &of_interface : values.multipliers)
         for (const auto &coefficients : of_interface)
           if (!std::all_of(coefficients.begin(), coefficients.end(), finite))
             return false;
@@ -36,7 +35,7 @@ namespace mortise
     restart       = directory;
     summary.steps = checkpoint.steps;
     files.resume(checkpoint.files);
-    state.time = checkpoint.time;
+    state = checkpoint.state;
     if (!checkpoint.adaptivity.empty() && parameters.adaptivity.target_error)
       {
         adaptivity.emplace(context);
@@ -57,9 +56,7 @@ namespace mortise
                       "nothing, or a run from the beginning");
     // without steps the end was that of the last cycle
     if (!adaptivity || parameters.steps.given())
-      steps.resume(checkpoint.time,
-                   checkpoint.n_steps,
-                   checkpoint.longest_step);
+      steps.resume(state.time, checkpoint.n_steps, checkpoint.longest_step);
     if (adaptivity && !steps.finished())
       state.time = steps.next();
     clock.share = steps.share();
@@ -68,24 +65,25 @@ namespace mortise
   void
   Simulation::restore(const std::string &directory)
   {
-    const Checkpoint checkpoint = read_checkpoint(
-      directory, bodies, discretisation->interfaces().all(), context.comm);
-    throw_if_any(all_finite(checkpoint) ?
+    const CheckpointFile file(checkpoint_file_name(directory), context.comm);
+    const SceneValues    values = read_scene(file,
+                                          bodies,
+                                          discretisation->interfaces().all(),
+                                          context.comm);
+    throw_if_any(all_finite(values) ?
                    "" :
-                   damaged_checkpoint(checkpoint_file_name(directory),
-                                      "it has values that are not finite")
-                     .what(),
+                   file.damaged("it has values that are not finite").what(),
                  context.comm);
     const SceneData data(context.parameters, state.time, field_checks);
     SceneLoad       load = discretisation->load(data);
-    state.solution       = discretisation->system_vector(checkpoint, load);
-    preloads->resume(state.solution, load);
+    state.solution       = discretisation->system_vector(values, load);
+    preloads->begin(data, load);
     if (contact)
       contact->resume(load, state.solution);
     else
       solver->remember(load.rhs, state.solution);
     if (adaptivity)
-      adaptivity->restore(bodies, checkpoint.solutions);
+      adaptivity->restore(bodies, values.solutions);
     context.log.line(adaptivity ?
                        "continued after cycle " +
                          std::to_string(adaptivity->n_cycles() - 1) :

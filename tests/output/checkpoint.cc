@@ -3,8 +3,6 @@
 // files with hanging nodes and several degrees, on tetrahedra of both, with
 // pressures, and where ranks own no cells; that each number is in the file
 // once.
-#include <mortise/output/checkpoint_records.h>
-
 #include <filesystem>
 
 #include "checkpoint_truth.h"
@@ -35,6 +33,31 @@ namespace
             {"all ranks", MPI_COMM_WORLD, true}};
   }
 
+  /// Bytes that the header needs for @p n_ranks: names, sizes and checksums of
+  /// the sections of each rank.
+  std::size_t
+  header_of_ranks(const unsigned int n_ranks)
+  {
+    std::size_t size = 0;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      {
+        size += 8;
+        for (const std::string name : {"displacements",
+                                       "multipliers",
+                                       "pressures",
+                                       "nothing",
+                                       "scene",
+                                       "text"})
+          if (r == 0 || name.size() > 8)
+            size += 8 + name.size() + 16;
+      }
+    return size;
+  }
+
+  /// Of the caller, the same on all ranks.
+  const Sections sections = {{"nothing", ""},
+                             {"text", std::string("{\"step\": 3}\0 end", 16)}};
+
   void
   test_ranks(const Given &given, const Truth &truth)
   {
@@ -49,6 +72,7 @@ namespace
       {
         if (all[w].member)
           write_checkpoint(directory,
+                           sections,
                            truth.spread(*scenes[w]),
                            scenes[w]->bodies,
                            scenes[w]->couplings,
@@ -56,10 +80,8 @@ namespace
         MPI_Barrier(MPI_COMM_WORLD);
         const auto of_values =
           std::filesystem::file_size(file) -
-          16 * Utilities::MPI::broadcast(MPI_COMM_WORLD,
-                                         Utilities::MPI::n_mpi_processes(
-                                           all[w].comm),
-                                         0);
+          header_of_ranks(Utilities::MPI::broadcast(
+            MPI_COMM_WORLD, Utilities::MPI::n_mpi_processes(all[w].comm), 0));
         size = w == 0 ? of_values : size;
         verdict("written by " + all[w].name + ": each value once",
                 of_values != size,
@@ -68,11 +90,16 @@ namespace
           {
             unsigned int n_wrong = 0;
             if (all[r].member)
-              n_wrong = truth.n_wrong(*scenes[r],
-                                      read_checkpoint(directory,
-                                                      scenes[r]->bodies,
-                                                      scenes[r]->couplings,
-                                                      all[r].comm));
+              {
+                const CheckpointFile archive(file, all[r].comm);
+                n_wrong = truth.n_wrong(*scenes[r],
+                                        read_scene(archive,
+                                                   scenes[r]->bodies,
+                                                   scenes[r]->couplings,
+                                                   all[r].comm));
+                for (const auto &[name, bytes] : sections)
+                  n_wrong += archive.read(name) != bytes;
+              }
             verdict("written by " + all[w].name + ", read by " + all[r].name,
                     Utilities::MPI::sum(n_wrong, MPI_COMM_WORLD),
                     0);
@@ -85,6 +112,7 @@ namespace
     check_message("a directory that is a file",
                   message_of([&] {
                     write_checkpoint(file,
+                                     sections,
                                      truth.spread(*scenes.back()),
                                      scenes.back()->bodies,
                                      scenes.back()->couplings,
@@ -103,27 +131,66 @@ namespace
   void
   test_blocks(const Given &given, const Truth &truth)
   {
+    const std::string directory = gmsh_test::own_name("checkpoint_blocks");
     const Scene       scene(given, MPI_COMM_SELF);
-    const std::string records =
-      pack_records(truth.spread(scene), scene.bodies, scene.couplings);
-    for (const std::size_t size : {1, 5, 777, 100000})
+    const auto        read = [&](const std::uint64_t block) {
+      return read_scene(CheckpointFile(checkpoint_file_name(directory),
+                                       MPI_COMM_SELF),
+                        scene.bodies,
+                        scene.couplings,
+                        MPI_COMM_SELF,
+                        block);
+    };
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
-        RecordReader reader(scene.bodies, scene.couplings);
-        for (std::size_t start = 0; start < records.size(); start += size)
-          reader.take(records.substr(start, size));
-        const std::string problem = reader.finish();
-        Checkpoint        got     = reader.result();
-        got.text                  = truth.text();
-        verdict("records in blocks of " + std::to_string(size) + " bytes" +
-                  (problem.empty() ? "" : ": " + problem),
-                truth.n_wrong(scene, got) + !problem.empty(),
-                0);
+        write_checkpoint(directory,
+                         sections,
+                         truth.spread(scene),
+                         scene.bodies,
+                         scene.couplings,
+                         MPI_COMM_SELF);
+        for (const std::uint64_t size : {1, 5, 777, 100000})
+          verdict("records in blocks of " + std::to_string(size) + " bytes",
+                  truth.n_wrong(scene, read(size)),
+                  0);
+        std::filesystem::remove_all(directory);
       }
-    RecordReader reader(scene.bodies, scene.couplings);
-    reader.take(records.substr(0, records.size() - 1));
+  }
+
+  void
+  test_sections()
+  {
+    const std::string directory = gmsh_test::own_name("checkpoint_sections");
+    const std::string file      = checkpoint_file_name(directory);
+    std::string       records;
+    append_text(records, "a record");
+    write_checkpoint_file(file,
+                          {{"of a later program", "x"}, {"short", "12"}},
+                          {{"records", records},
+                           {"half", records.substr(0, records.size() - 1)}},
+                          MPI_COMM_WORLD);
+    const CheckpointFile archive(file, MPI_COMM_WORLD);
+    unsigned int         n_records = 0;
+    archive.for_each_record("records", [&](const std::string &record) {
+      n_records += record == "a record";
+    });
+    verdict("records of all ranks",
+            n_records - Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD),
+            0);
+    check_message("a section that is missing",
+                  message_of([&] { archive.read("shortenings"); }),
+                  {"has no section \"shortenings\""});
+    check_message("a section that is too short",
+                  message_of([&] { archive.get<double>("short"); }),
+                  {"damaged", "there are 2 bytes where 8 are expected"});
     check_message("records that end too early",
-                  reader.finish(),
-                  {"interface \"seam\" has no values"});
+                  message_of([&] {
+                    archive.for_each_record("half", [](const auto &) {});
+                  }),
+                  {"damaged", "section \"half\" ends within a record"});
+    MPI_Barrier(MPI_COMM_WORLD);
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::filesystem::remove_all(directory);
   }
 } // namespace
 
@@ -135,4 +202,5 @@ main(int argc, char **argv)
   const Truth                      truth(given);
   test_ranks(given, truth);
   test_blocks(given, truth);
+  test_sections();
 }

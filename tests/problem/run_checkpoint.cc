@@ -3,10 +3,7 @@
 // message on the checkpoint or on a parameter: it never crashes and never takes
 // memory for what it only claims to hold.
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 
-#include <mortise/output/checkpoint.h>
-#include <mortise/output/checkpoint_file.h>
 #include <mortise/problem/run_checkpoint.h>
 
 #include <cstring>
@@ -96,13 +93,12 @@ end
     return {};
   }
 
-  /// The checkpoint with another text, and the right checksums.
   void
-  replace(const std::string &text)
+  replace(const Sections &sections)
   {
     write_checkpoint_file(checkpoint_file_name(directory),
-                          {text, ""},
-                          "",
+                          sections,
+                          {},
                           MPI_COMM_WORLD);
   }
 
@@ -161,43 +157,19 @@ end
     return text;
   }
 
-  struct Place
-  {
-    std::size_t begin, size;
-  };
-
-  /// Of the state of the cycles within the text.
-  Place
-  cycles(const std::string &text)
-  {
-    const std::string key   = "\"adaptivity\":\"";
-    const std::size_t begin = text.find(key) + key.size();
-    return {begin, text.find('"', begin) - begin};
-  }
-
-  std::string
-  with_changed_cycles(std::string text, std::mt19937 &random)
-  {
-    const Place place = cycles(text);
-    const auto  decoded =
-      Utilities::decode_base64(text.substr(place.begin, place.size));
-    const std::string bytes =
-      with_changed_bytes(std::string(decoded.begin(), decoded.end()), random);
-    return text.replace(place.begin,
-                        place.size,
-                        Utilities::encode_base64({bytes.begin(), bytes.end()}));
-  }
-
   void
   test_lies(const std::string &what,
-            const std::string &good,
+            Sections           good,
+            const std::string &section,
             std::string (*change)(std::string, std::mt19937 &))
   {
-    std::mt19937 random(5);
-    unsigned int n_refused = 0, n_not_foreseen = 0;
+    std::mt19937      random(5);
+    const std::string bytes     = good.at(section);
+    unsigned int      n_refused = 0, n_not_foreseen = 0;
     for (unsigned int i = 0; i < 300; ++i)
       {
-        replace(change(good, random));
+        good[section] = change(bytes, random);
+        replace(good);
         const std::string message = message_of_restart();
         n_refused += !message.empty();
         if (message.find("not foreseen") == 0)
@@ -212,10 +184,10 @@ end
 
   void
   refused(const std::string &what,
-          const std::string &text,
+          const Sections    &sections,
           const std::string &fragment)
   {
-    replace(text);
+    replace(sections);
     const std::string message = message_of_restart();
     verdict("refused: " + what + " (" + fragment + ")",
             message.find("The checkpoint \"") != 0 ||
@@ -234,19 +206,41 @@ main(int argc, char **argv)
     RunLog             log(silence, MPI_COMM_WORLD);
     Simulation(parameters, log, MPI_COMM_WORLD).run();
   }
-  const std::string good = read_checkpoint_text(directory, MPI_COMM_WORLD);
-  verdict("a run of cycles left its state", cycles(good).size < 100, 0);
-  verdict("its text comes back as it was",
-          to_text(read_run_checkpoint(directory, MPI_COMM_WORLD)) != good,
+  Sections good;
+  {
+    const CheckpointFile file(checkpoint_file_name(directory), MPI_COMM_WORLD);
+    for (const std::string name :
+         {"run", "contact status", "shortenings", "adaptivity"})
+      good[name] = file.read(name);
+  }
+  verdict("a run of cycles left its state", good["adaptivity"].size() < 100, 0);
+  verdict("its sections come back as they were",
+          to_sections(read_run_checkpoint(directory, MPI_COMM_WORLD)) != good,
           0);
   replace(good);
-  verdict("it is taken", !message_of_restart().empty(), 0);
+  verdict("they are taken", !message_of_restart().empty(), 0);
 
-  const auto changed = [&](const std::string &from, const std::string &to) {
-    std::string text = good;
-    return text.replace(text.find(from), from.size(), to);
+  const auto with = [&](const std::string &section, const std::string &bytes) {
+    Sections sections = good;
+    sections[section] = bytes;
+    return sections;
   };
-  refused("no JSON", "{", "its text cannot be read");
+  const auto changed = [&](const std::string &from, const std::string &to) {
+    std::string text = good["run"];
+    return with("run", text.replace(text.find(from), from.size(), to));
+  };
+  Sections more = with("of a later program", "anything");
+  replace(more);
+  verdict("a section that nobody knows is skipped",
+          !message_of_restart().empty(),
+          0);
+  for (const std::string name : {"contact status", "run", "shortenings"})
+    {
+      Sections fewer = good;
+      fewer.erase(name);
+      refused("one that is missing", fewer, "has no section \"" + name + "\"");
+    }
+  refused("no JSON", with("run", "{"), "its text cannot be read");
   refused("a number of steps that is negative",
           changed("\"n_steps\":", "\"n_steps\":-"),
           "there is -");
@@ -256,16 +250,22 @@ main(int argc, char **argv)
   refused("a time that is not finite",
           changed("\"time\":", "\"time\":null,\"t\":"),
           "it has reached the time");
-  std::string text         = good;
-  text[cycles(good).begin] = '*';
-  refused("cycles that are no base64", text, "characters that are none");
-  const Place place = cycles(good);
-  text              = good;
-  text.erase(place.begin + place.size / 8 * 4, place.size - place.size / 8 * 4);
-  refused("half of the cycles", text, "bytes where");
+  refused("a shortening that is not finite",
+          with("shortenings",
+               to_bytes(std::vector<double>{
+                 std::numeric_limits<double>::quiet_NaN()})),
+          "values that are not finite");
+  const std::string cycles = good["adaptivity"];
+  refused("half of the cycles",
+          with("adaptivity", cycles.substr(0, cycles.size() / 2)),
+          "bytes where");
+  refused("more than the cycles",
+          with("adaptivity", cycles + "x"),
+          "bytes too many");
 
-  test_lies("bytes of the text", good, with_changed_bytes);
-  test_lies("values of the text", good, with_changed_value);
-  test_lies("bytes of the cycles", good, with_changed_cycles);
+  test_lies("bytes of the text", good, "run", with_changed_bytes);
+  test_lies("values of the text", good, "run", with_changed_value);
+  test_lies("bytes of the cycles", good, "adaptivity", with_changed_bytes);
+  test_lies("bytes of the contact", good, "contact status", with_changed_bytes);
   std::filesystem::remove_all(directory);
 }

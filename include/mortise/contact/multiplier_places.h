@@ -5,7 +5,7 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/point.h>
 
-#include <memory>
+#include <array>
 #include <vector>
 
 namespace mortise
@@ -22,6 +22,9 @@ namespace mortise
   class ActivePlaces
   {
   public:
+    /// None of any surface.
+    ActivePlaces() = default;
+
     /// Both by owned multiplier. Collective.
     ActivePlaces(const MultiplierPlaces  &places,
                  const std::vector<bool> &active,
@@ -33,8 +36,20 @@ namespace mortise
     std::vector<bool>
     nearest(const MultiplierPlaces &places) const;
 
+    /// Are all coordinates numbers?
+    bool
+    is_finite() const;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &by_surface;
+    }
+
   private:
-    struct Trees;
-    std::shared_ptr<const Trees> trees;
+    using Place = std::array<double, 3>;
+    /// By surface: those that are not active, and those that are.
+    std::vector<std::array<std::vector<Place>, 2>> by_surface;
   };
 } // namespace mortise

@@ -35,13 +35,9 @@ namespace mortise
   {
   public:
     /// @p bytes are not copied.
-    ByteReader(const char *const bytes, const std::size_t size)
-      : next(bytes)
-      , end(bytes + size)
-    {}
-
     explicit ByteReader(const std::string &bytes)
-      : ByteReader(bytes.data(), bytes.size())
+      : next(bytes.data())
+      , end(next + bytes.size())
     {}
 
     std::size_t
@@ -145,13 +141,8 @@ namespace mortise
     void
     put(std::map<Key, T> &values)
     {
-      append_bytes<std::uint64_t>(bytes, values.size());
-      for (auto &[key, value] : values)
-        {
-          Key copy = key;
-          put(copy);
-          put(value);
-        }
+      std::vector<std::pair<Key, T>> pairs(values.begin(), values.end());
+      put(pairs);
     }
   };
 
@@ -160,7 +151,6 @@ namespace mortise
   class ByteArchive
   {
   public:
-    /// @p bytes are not copied.
     explicit ByteArchive(const std::string &bytes)
       : reader(bytes)
     {}
@@ -227,15 +217,34 @@ namespace mortise
     void
     get(std::map<Key, T> &values)
     {
-      values.clear();
-      for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
-        {
-          Key key;
-          get(key);
-          get(values[key]);
-        }
+      std::vector<std::pair<Key, T>> pairs;
+      get(pairs);
+      values = {pairs.begin(), pairs.end()};
     }
 
     ByteReader reader;
   };
+
+  template <typename T>
+  std::string
+  to_bytes(T value)
+  {
+    ByteWriter writer;
+    writer    &value;
+    return std::move(writer.bytes);
+  }
+
+  /// What to_bytes() gave. Throws std::out_of_range if @p bytes are too few or too many.
+  template <typename T>
+  T
+  from_bytes(const std::string &bytes)
+  {
+    T           value;
+    ByteArchive archive(bytes);
+    archive    &value;
+    if (archive.left() > 0)
+      throw std::out_of_range("there are " + std::to_string(archive.left()) +
+                              " bytes too many");
+    return value;
+  }
 } // namespace mortise

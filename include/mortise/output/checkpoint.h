@@ -1,21 +1,18 @@
-// The state of a run in a file, from which it goes on after an interruption: on
-// any number of ranks, for values are found by cell, not by rank.
+// The solution of a scene in an archive, from which a run goes on after an
+// interruption: on any number of ranks, for values are found by cell and slave
+// face, not by rank.
 #pragma once
 
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/scene_solution.h>
+#include <mortise/output/checkpoint_file.h>
 
-#include <string>
 #include <vector>
 
 namespace mortise
 {
-  /// What a run needs to go on after a step.
-  struct Checkpoint
+  struct SceneValues
   {
-    /// What the caller keeps, the same on all ranks; opaque here.
-    std::string text;
-
     /// By body, with ghost values.
     std::vector<BodySolution> solutions;
 
@@ -23,38 +20,29 @@ namespace mortise
     std::vector<std::vector<std::vector<double>>> multipliers;
   };
 
-  /// DIRECTORY/checkpoint.bin
-  std::string
-  checkpoint_file_name(const std::string &directory);
-
   /// Write checkpoint_file_name(), whole or not at all: until the new one is
-  /// complete the old one is there. Numbers are kept bit for bit. A rank needs
-  /// memory for what it writes, about what its solutions take. Collective;
-  /// throws OutputError.
+  /// complete the old one is there. Beside the @p sections of the caller, the
+  /// same on all ranks, it has those that read_scene() needs. Numbers are kept
+  /// bit for bit. A rank needs memory for what it writes, about what its
+  /// solutions take. Collective; throws OutputError.
   void
   write_checkpoint(const std::string           &directory,
-                   const Checkpoint            &checkpoint,
+                   Sections                     sections,
+                   const SceneValues           &values,
                    const Bodies                &bodies,
                    const std::vector<Coupling> &couplings,
                    MPI_Comm                     comm);
 
-  /// The text alone, before there is a mesh. Collective; throws InputError if
-  /// there is no file, if it is damaged (length or checksum), or if another
-  /// version of the program or another format has written it.
-  std::string
-  read_checkpoint_text(const std::string &directory, MPI_Comm comm);
-
-  /// All of it, for the scene as it stands now: text, solutions with ghost
-  /// values, multipliers. Of @p couplings the slave faces are needed, not yet
+  /// What @p file has for the scene as it stands now. Of @p couplings the slave faces are needed, not yet
   /// multipliers; without them only what was written without them can be read.
-  /// The first rank reads a few MiB at a time and hands them to all: the others
-  /// need not see the file. Collective; throws InputError as above, and one
+  /// The file is read @p block bytes at a time. Collective; throws InputError if it is damaged, and one
   /// that names what differs between the scene of the checkpoint and this one:
   /// bodies (names, shapes, cells, degrees, dofs, geometry) and interfaces
   /// (names, slaves, faces).
-  Checkpoint
-  read_checkpoint(const std::string           &directory,
-                  const Bodies                &bodies,
-                  const std::vector<Coupling> &couplings,
-                  MPI_Comm                     comm);
+  SceneValues
+  read_scene(const CheckpointFile        &file,
+             const Bodies                &bodies,
+             const std::vector<Coupling> &couplings,
+             MPI_Comm                     comm,
+             std::uint64_t                block = 1 << 22);
 } // namespace mortise

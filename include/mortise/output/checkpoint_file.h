@@ -1,88 +1,132 @@
-// The file of a checkpoint: its parts, their lengths and checksums. It never
-// knows a mesh. (Not HDF5: deal.II's wrappers do not look at its errors in
-// Release.)
+// An archive of sections that are found by name: their lengths and checksums.
+// It knows no mesh. A program that reads skips sections that it does not ask
+// for. (Not HDF5: deal.II's wrappers do not look at its errors in Release.)
 #pragma once
 
 #include <mortise/base/error.h>
+#include <mortise/output/bytes.h>
 #include <mpi.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace mortise
 {
-  struct CheckpointHeader
-  {
-    std::string text;  ///< of the caller
-    std::string scene; ///< as of pack()
-  };
+  /// Bytes by name.
+  using Sections = std::map<std::string, std::string>;
 
-  /// Write @p file: @p header of the first rank, then the @p records of all ranks. Collective;
-  /// throws OutputError, and leaves an old file as it was.
+  /// DIRECTORY/checkpoint.bin
+  std::string
+  checkpoint_file_name(const std::string &directory);
+
+  /// Write @p file, whole or not at all: @p shared of the first rank, and what all ranks have as
+  /// @p records, under the same names on all of them. Collective; throws
+  /// OutputError, and leaves an old file as it was.
   void
-  write_checkpoint_file(const std::string      &file,
-                        const CheckpointHeader &header,
-                        const std::string      &records,
-                        MPI_Comm                comm);
+  write_checkpoint_file(const std::string &file,
+                        const Sections    &shared,
+                        const Sections    &records,
+                        MPI_Comm           comm);
 
   /// That @p file is not as it was written: @p how.
   InputError
   damaged_checkpoint(const std::string &file, const std::string &how);
 
-  /// A checkpoint that is open: the first rank reads.
+  /// An archive that is open: the first rank reads a few MiB at a time and
+  /// hands them to all; the others need not see the file.
   class CheckpointFile
   {
   public:
     /// Opens @p file and checks all of it. Collective; throws InputError on all ranks if there is
-    /// none, it is damaged, or of another version of program or format.
+    /// none, it is damaged (length or checksum), or of another version of
+    /// program or format.
     CheckpointFile(const std::string &file, MPI_Comm comm);
-    ~CheckpointFile();
 
-    CheckpointFile(const CheckpointFile &) = delete;
-    CheckpointFile &
-    operator=(const CheckpointFile &) = delete;
-
-    const CheckpointHeader &
-    header() const
+    bool
+    has(const std::string &section) const
     {
-      return contents;
+      return sections.count(section) > 0;
     }
 
-    /// Call @p take with all records in blocks of a few MiB, on all ranks; a block may end within a
-    /// record. Collective; throws InputError on all ranks if the file cannot be
-    /// read any more.
+    /// All of it, on all ranks. Collective; throws InputError on all ranks if
+    /// there is none, or the file cannot be read any more.
+    std::string
+    read(const std::string &section) const;
+
+    /// Likewise, as to_bytes() gave it; throws InputError if it is none of
+    /// these.
+    template <typename T>
+    T
+    get(const std::string &section) const
+    {
+      try
+        {
+          return from_bytes<T>(read(section));
+        }
+      catch (const std::out_of_range &error)
+        {
+          throw damaged(error.what());
+        }
+    }
+
+    /// Likewise, one after the other, what ranks have appended to @p section with append_text(); of the
+    /// file @p block bytes at a time.
     void
-    for_each_block(
-      const std::function<void(const std::string &block)> &take) const;
+    for_each_record(const std::string                              &section,
+                    const std::function<void(const std::string &)> &take,
+                    std::uint64_t block = 1 << 22) const;
+
+    InputError
+    damaged(const std::string &how) const
+    {
+      return damaged_checkpoint(file, how);
+    }
+
+    /// As messages quote it.
+    const std::string &
+    name() const
+    {
+      return quoted;
+    }
 
   private:
-    /// Records of one rank.
-    struct Part
-    {
-      std::uint64_t size, checksum;
-    };
+    /// What one rank has of a section: size and checksum, then its start.
+    using Part = std::array<std::uint64_t, 3>;
 
-    /// On the first rank: open, check, read the header; throws InputError.
-    void
-    open();
+    /// On the first rank: the header; throws InputError.
     std::string
-    read_verified_header();
+    open();
+    /// Throws InputError, and std::out_of_range where it is too short.
     void
     parse_header(const std::string &header);
+    void
+    check_sections() const;
     void
     read(std::uint64_t start, char *bytes, std::size_t size) const;
     std::uint64_t
     checksum(std::uint64_t start, std::uint64_t size) const;
-    [[noreturn]] void
-    fail_as_damaged(const std::string &how) const;
+    void
+    for_each_block(const std::string                              &section,
+                   const std::function<void(const std::string &)> &take,
+                   std::uint64_t                                   block) const;
 
-    const std::string name; ///< as messages quote it
-    const std::string file;
-    const MPI_Comm    comm;
-    int               descriptor = -1;
-    std::uint64_t     file_size = 0, records_start = 0, records_end = 0;
-    CheckpointHeader  contents;
+    struct Descriptor
+    {
+      Descriptor()                   = default;
+      Descriptor(const Descriptor &) = delete;
+      ~Descriptor();
+      int number = -1;
+    };
+
+    const std::string                        file, quoted;
+    const MPI_Comm                           comm;
+    Descriptor                               descriptor;
+    std::uint64_t                            file_size = 0;
+    std::map<std::string, std::vector<Part>> sections;
   };
 } // namespace mortise

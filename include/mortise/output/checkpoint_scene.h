@@ -29,16 +29,38 @@ namespace mortise
       /// depend on the numbers of cell and vertex: cells that were renumbered
       /// show, too.
       std::array<double, 9> geometry;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &name &shape &cells &degree_min &degree_max &dofs &pressures
+          &geometry;
+      }
     };
 
     struct OfInterface
     {
       std::string   name, slave; ///< body
       std::uint64_t faces;       ///< of the slave
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &name &slave &faces;
+      }
     };
 
     std::vector<OfBody>      bodies;
     std::vector<OfInterface> interfaces;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &bodies &interfaces;
+    }
   };
 
   /// Collective.
@@ -47,12 +69,9 @@ namespace mortise
                  const std::vector<Coupling> &couplings,
                  MPI_Comm                     comm);
 
-  std::string
-  pack(const SceneDescription &scene);
-
-  /// Throws std::out_of_range if @p bytes are not those of pack().
-  SceneDescription
-  unpack_scene(const std::string &bytes);
+  /// Throws std::out_of_range if no scene can be like this.
+  void
+  check(const SceneDescription &scene);
 
   /// How @p then, of the checkpoint, and @p now differ, in words; empty if they do not.
   std::vector<std::string>

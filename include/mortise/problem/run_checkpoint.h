@@ -1,8 +1,10 @@
-// What the driver keeps in a checkpoint beside the solution, as text.
+// What the driver keeps in a checkpoint beside the values of the scene.
 #pragma once
 
+#include <mortise/output/checkpoint_file.h>
 #include <mortise/output/summary.h>
 #include <mortise/problem/input/parameters.h>
+#include <mortise/problem/state.h>
 
 #include <string>
 #include <utility>
@@ -15,19 +17,19 @@ namespace mortise
     std::string             file;        ///< the parameter file, absolute
     std::vector<Assignment> assignments; ///< its lines and those of --set
 
-    double       time         = 0.; ///< that was reached
     double       longest_step = 0.; ///< see LoadSteps; may be infinite
     unsigned int n_steps      = 0;  ///< accepted
+    State        state;             ///< without its solution
     std::string  adaptivity;        ///< Adaptivity::checkpoint()
     std::vector<StepSummary>                     steps;
     std::vector<std::pair<unsigned int, double>> files; ///< see FieldFiles
   };
 
-  std::string
-  to_text(const RunCheckpoint &checkpoint);
+  Sections
+  to_sections(const RunCheckpoint &checkpoint);
 
   /// Of the checkpoint in @p directory. Collective; throws InputError if there is
-  /// none or its text is not what to_text() gives.
+  /// none or its sections are not what to_sections() gives.
   RunCheckpoint
   read_run_checkpoint(const std::string &directory, MPI_Comm comm);
 

@@ -5,6 +5,7 @@
 #include <mortise/base/error.h>
 #include <mortise/base/of_all_ranks.h>
 #include <mortise/base/quotes.h>
+#include <mortise/output/bytes.h>
 
 #include <algorithm>
 #include <set>
@@ -113,13 +114,13 @@ namespace mortise
               }
           }
       }
-    kept = to_text(result);
+    kept = to_bytes(std::move(result));
   }
 
   void
-  Adaptivity::resume(const std::string &text)
+  Adaptivity::resume(const std::string &bytes)
   {
-    const Kept given = kept_from(text, run.parameters.bodies);
+    const Kept given = kept_from(bytes, run.parameters.bodies);
     if (given.quantity != (goal ? goal->name() : ""))
       run.parameters.fail("Adaptivity/Quantity",
                           in_quotes(goal ? goal->name() : "") +

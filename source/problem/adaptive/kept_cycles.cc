@@ -16,14 +16,6 @@ namespace mortise
 {
   using namespace dealii;
 
-  std::string
-  to_text(Kept &kept)
-  {
-    ByteWriter writer;
-    writer    &kept;
-    return Utilities::encode_base64({writer.bytes.begin(), writer.bytes.end()});
-  }
-
   namespace
   {
     [[noreturn]] void
@@ -130,21 +122,9 @@ namespace mortise
   }
 
   Kept
-  kept_from(const std::string &text, const std::vector<BodyParameters> &bodies)
+  kept_from(const std::string &bytes, const std::vector<BodyParameters> &bodies)
   {
-    const std::size_t end = std::min(text.find('='), text.size());
-    if (text.size() % 4 != 0 || end + 2 < text.size() ||
-        text.find_first_not_of('=', end) != std::string::npos ||
-        text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrst"
-                               "uvwxyz0123456789+/=") != std::string::npos)
-      refuse("characters that are none of base64");
-    const auto        decoded = Utilities::decode_base64(text);
-    const std::string bytes(decoded.begin(), decoded.end());
-    ByteArchive       archive(bytes);
-    Kept              kept;
-    archive          &kept;
-    if (archive.left() > 0)
-      refuse(std::to_string(archive.left()) + " bytes too many");
+    auto kept = from_bytes<Kept>(bytes);
     if (kept.residual.size() != bodies.size() ||
         kept.cells.size() != bodies.size() ||
         kept.sizes.size() != bodies.size())

@@ -30,7 +30,7 @@ namespace mortise
   /// Coordinates of the vertices of a cell of SizeField, then sizes there.
   using SizesOfCell = std::array<double, 16>;
 
-  /// As text of Adaptivity::checkpoint().
+  /// In the bytes of Adaptivity::checkpoint().
   struct Kept
   {
     std::string                           quantity; ///< empty: the energy norm
@@ -48,13 +48,11 @@ namespace mortise
     }
   };
 
-  std::string
-  to_text(Kept &kept);
-
-  /// Throws std::out_of_range if @p text is not what to_text() gives, for
+  /// Throws std::out_of_range if @p bytes are not such ones as to_bytes() gives, of
   /// @p bodies.
   Kept
-  kept_from(const std::string &text, const std::vector<BodyParameters> &bodies);
+  kept_from(const std::string                 &bytes,
+            const std::vector<BodyParameters> &bodies);
 
   /// Throws std::out_of_range if no mesh can have it.
   CellNumber

@@ -149,10 +149,7 @@ namespace mortise
   void
   ContactStep::resume(const SceneLoad &load, const SystemVector &x)
   {
-    std::vector<bool> active = discretisation.one_sided();
-    for (unsigned int i = 0; i < active.size(); ++i)
-      active[i] = !active[i] || x.multiplier.begin()[i] > 0.;
-    remember({load.rhs, x, active});
+    remember({load.rhs, x, first->nearest(places)});
   }
 
   void

@@ -29,7 +29,6 @@ namespace mortise
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
-    , values(shortenings)
   {
     const Pairing &couplings = discretisation.interfaces();
     for (unsigned int i = 0; i < couplings.all().size(); ++i)
@@ -65,13 +64,13 @@ namespace mortise
                 RunLog::number(sum.norm() / number) + ")",
               "an interface that is about flat, whose normal is the direction of the force");
           indices.push_back(i);
+          values.push_back(i < shortenings.size() ? shortenings[i] : 0.);
           units.push_back({discretisation.linear_system().zero_vector(), {}});
           Vector &w = units.back().rhs.multiplier;
           add_offset(
             coupling, [](const Point<dim> &) { return 1.; }, w);
           w.compress(VectorOperation::add);
         }
-    values.resize(indices.size(), 0.);
     forces.resize(indices.size());
   }
 
@@ -272,21 +271,5 @@ namespace mortise
         report.converged         = again.converged;
       }
     return report;
-  }
-
-  void
-  Preloads::resume(const SystemVector &x, SceneLoad &load)
-  {
-    if (indices.empty())
-      return;
-    const BlockSystem &system = discretisation.linear_system();
-    Vector             given  = load.rhs.multiplier, opening(given);
-    system.apply_constraint(opening, x.displacement);
-    opening -= given;
-    for (unsigned int j = 0; j < indices.size(); ++j)
-      {
-        values[j] = 0.;
-        shorten(j, shortening(j, opening), load, nullptr);
-      }
   }
 } // namespace mortise

@@ -255,14 +255,12 @@ namespace mortise
   }
 
   SystemVector
-  Discretisation::system_vector(const Checkpoint &checkpoint,
-                                const SceneLoad  &load) const
+  Discretisation::system_vector(const SceneValues &values,
+                                const SceneLoad   &load) const
   {
-    SystemVector x = system_vector(checkpoint.solutions, load);
+    SystemVector x = system_vector(values.solutions, load);
     for (unsigned int i = 0; i < pairing->all().size(); ++i)
-      set_multiplier(pairing->all()[i],
-                     checkpoint.multipliers[i],
-                     x.multiplier);
+      set_multiplier(pairing->all()[i], values.multipliers[i], x.multiplier);
     if (x.multiplier.size() > 0)
       x.multiplier.compress(VectorOperation::insert);
     return x;

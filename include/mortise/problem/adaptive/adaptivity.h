@@ -91,7 +91,7 @@ namespace mortise
             const ExactSolution               *exact,
             const std::optional<ErrorSummary> &errors) const;
 
-    /// What a checkpoint needs beside the solution of the last cycle, as text;
+    /// What a checkpoint needs beside the solution of the last cycle, as bytes;
     /// empty where none is to be written.
     const std::string &
     checkpoint() const
@@ -99,10 +99,10 @@ namespace mortise
       return kept;
     }
 
-    /// Go on after the cycle of which checkpoint() is @p text. Throws InputError if it is of another quantity(),
-    /// std::out_of_range if it is no such text.
+    /// Go on after the cycle of which checkpoint() is @p bytes. Throws InputError if it is of another quantity(),
+    /// std::out_of_range if they are no such bytes.
     void
-    resume(const std::string &text);
+    resume(const std::string &bytes);
 
     /// After resume(): the meshes of that cycle from those of the first, before
     /// there are spaces. Collective; throws InputError where gmsh cannot, and

@@ -20,7 +20,7 @@ namespace mortise
   class ContactStep
   {
   public:
-    /// All must live on. @p start: what presses first in the first step, if that is known. Collective.
+    /// All must live on. @p start: what presses first, or pressed in the last step, if that is known. Collective.
     ContactStep(const RunContext           &run,
                 Discretisation             &discretisation,
                 LinearSolver               &solver,
@@ -37,7 +37,7 @@ namespace mortise
     SolveReport
     solve(SceneLoad &load, SystemVector &x);
 
-    /// Go on from @p x, a solution for @p load that was found before. Collective.
+    /// Go on from @p x, a solution for @p load that was found before, with what the constructor was told for the multipliers that press. Collective.
     void
     resume(const SceneLoad &load, const SystemVector &x);
 

@@ -22,7 +22,7 @@ namespace mortise
   {
   public:
     /// All must live on. Throws InputError for interfaces that are not about
-    /// flat. @p shortenings: of an earlier one for the same scene, or none.
+    /// flat. @p shortenings: of an earlier one for the same interfaces, by interface, or none.
     /// Collective.
     Preloads(const RunContext          &run,
              const Discretisation      &discretisation,
@@ -77,11 +77,6 @@ namespace mortise
     /// no forces. What it takes is added to @p report and @p rhs. Collective.
     void
     release(SystemVector &rhs, SystemVector &z, SolveReport &report);
-
-    /// Take the shortenings of @p x, a solution that was found before for the loads of @p load, into it.
-    /// Collective.
-    void
-    resume(const SystemVector &x, SceneLoad &load);
 
   private:
     /// A solution for w, without other loads.

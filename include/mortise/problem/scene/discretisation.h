@@ -74,9 +74,9 @@ namespace mortise
     system_vector(const std::vector<BodySolution> &solutions,
                   const SceneLoad                 &load) const;
 
-    /// The unknowns in a checkpoint of the time of @p load. Collective.
+    /// The unknowns of @p values, of the time of @p load. Collective.
     SystemVector
-    system_vector(const Checkpoint &checkpoint, const SceneLoad &load) const;
+    system_vector(const SceneValues &values, const SceneLoad &load) const;
 
     /// Throws InputError where multipliers depend on each other. Collective.
     void
