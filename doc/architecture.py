@@ -23,6 +23,8 @@ HOLDS = {
     "output": "errors, fields, summary, checkpoints",
     "problem": "parameters, discretisation, steps, run",
 }
+# of problem, in this order; what lies directly in it comes last
+SUB_ROOMS = ["input", "support", "scene", "contact", "results", "adaptive"]
 STAGES = [  # of a run: name, room that does most of it
     ("parameters", "problem"),
     ("meshes", "body"),
@@ -52,6 +54,20 @@ def arrows():
                 if ROOMS.index(other) > ROOMS.index(room):
                     backwards.append(f"{path.relative_to(TOP)} includes {other}")
     return counts, backwards
+
+
+def backwards_in_problem():
+    """Includes of a later sub-room of problem."""
+    def place(parts):
+        return SUB_ROOMS.index(parts[1]) if len(parts) > 2 else len(SUB_ROOMS)
+    found = []
+    for base in ("include/mortise", "source"):
+        for path in sorted((TOP / base / "problem").rglob("*")):
+            if path.suffix in (".h", ".cc"):
+                own = place(path.relative_to(TOP / base).parts)
+                others = re.findall(r"#include <mortise/(problem/[\w/]+)\.h>", path.read_text())
+                found += [f"{path.relative_to(TOP)} includes {other}" for other in others if place(other.split("/")) > own]
+    return found
 
 
 def draw(counts):
@@ -93,6 +109,7 @@ def draw(counts):
 
 def main():
     counts, backwards = arrows()
+    backwards += backwards_in_problem()
     if backwards:
         sys.exit("includes of later rooms:\n" + "\n".join(backwards))
     (TOP / "doc" / "architecture.svg").write_text(draw(counts))

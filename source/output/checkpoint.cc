@@ -99,7 +99,7 @@ namespace mortise
                   record.values.push_back(field(dofs[i]));
               }
           if (cell->is_locally_owned())
-            append_text(records, to_bytes(std::move(record)));
+            records += to_bytes(to_bytes(std::move(record)));
         }
     }
 
@@ -300,12 +300,12 @@ namespace mortise
       {
         const BodySurface &slave = couplings[i].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)
-          append_text(of_multipliers,
-                      to_bytes(Record{i,
-                                      slave.face_numbers[s],
-                                      slave.cells[s]->id().to_binary<dim>(),
-                                      {},
-                                      values.multipliers[i][s]}));
+          of_multipliers +=
+            to_bytes(to_bytes(Record{i,
+                                     slave.face_numbers[s],
+                                     slave.cells[s]->id().to_binary<dim>(),
+                                     {},
+                                     values.multipliers[i][s]}));
       }
     write_checkpoint_file(checkpoint_file_name(directory),
                           sections,

@@ -65,24 +65,20 @@ namespace mortise
             own[name] = {{bytes.size(), checksum_of(bytes)}};
             values += bytes;
           }
-    auto        ranks = dealii::Utilities::MPI::gather(comm, own, 0);
+    const auto  ranks = dealii::Utilities::MPI::gather(comm, own, 0);
     std::string piece;
     if (is_first)
       {
-        ByteWriter  header;
-        std::string version = program_info(1).version;
         // in the order in which they are in the file
         std::vector<std::string> names;
         for (const Sections *sections : {&shared, &records})
           for (const auto &section : *sections)
             names.push_back(section.first);
-        header &version &names &ranks;
-        std::string             checked;
-        append_bytes(checked, checkpoint_format);
-        append_text(checked, header.bytes);
+        const std::string checked = to_bytes(checkpoint_format) +
+                                    to_bytes(to_bytes(program_info(1).version) +
+                                             to_bytes(names) + to_bytes(ranks));
         piece.assign(checkpoint_magic, sizeof(checkpoint_magic));
-        append_bytes(piece, checksum_of(checked));
-        piece += checked;
+        piece += to_bytes(checksum_of(checked)) + checked;
       }
     write_whole_file(file, piece + values, comm);
   }
@@ -312,11 +308,12 @@ namespace mortise
       section,
       [&](const std::string &block) {
         rest += block;
-        ByteReader  bytes(rest);
-        std::size_t done = 0;
-        while (bytes.left() >= sizeof(std::uint64_t))
+        ByteArchive   bytes(rest);
+        std::size_t   done = 0;
+        std::uint64_t size;
+        while (bytes.left() >= sizeof(size))
           {
-            const auto size = bytes.get<std::uint64_t>();
+            bytes &size;
             if (bytes.left() < size)
               break;
             take(std::string(bytes.take(size), size));

@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
+#include <mortise/problem/adaptive/adaptivity_report.h>
 #include <mortise/problem/contact/contact_start.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/results/points_outside.h>
@@ -211,8 +212,10 @@ namespace mortise
       result.interfaces[preloads->interfaces()[j]].preload = {
         preloads->force(j, solved.solution), preloads->shortenings()[j]};
     if (adaptivity)
-      result.adaptivity =
-        adaptivity->summary(bodies, solved.data.exact().get(), result.errors);
+      result.adaptivity = summary_of(*adaptivity,
+                                     bodies,
+                                     solved.data.exact().get(),
+                                     result.errors);
     field_checks.throw_if_any(context.comm);
     const std::string not_finite = first_not_finite(result);
     if (report.converged && !not_finite.empty())
@@ -343,6 +346,6 @@ namespace mortise
                       contact && !contact->settled() ? contact->n_sets() : 0,
                       discretisation->choice().advice));
     if (adaptivity && !adaptivity->reached())
-      throw ConvergenceError(adaptivity->missed());
+      throw ConvergenceError(missed(*adaptivity));
   }
 } // namespace mortise

@@ -1,5 +1,7 @@
 // The cycles of Simulation: solve, estimate, refine, until the error is small
 // enough.
+#include <mortise/problem/adaptive/adaptivity_report.h>
+#include <mortise/problem/adaptive/dual_solution.h>
 #include <mortise/problem/simulation.h>
 
 namespace mortise
@@ -26,13 +28,14 @@ namespace mortise
         broken  = violations(context, *discretisation, solved, fields);
         missing = residuals(*discretisation, solved, fields, broken);
       }
-    adaptivity->add(bodies, fields.solutions, dual, broken, missing);
+    adaptivity->add(bodies, fields.solutions, dual, std::move(broken), missing);
     if (dual && !dual->report.converged)
       {
         report = dual->report;
         report.method += " of the dual problem";
       }
-    fields.estimates = adaptivity->cell_estimates();
+    fields.estimates =
+      adaptivity->errors().by_cell(adaptivity->quantity().has_value());
   }
 
   void
@@ -61,8 +64,8 @@ namespace mortise
         context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
         discretise();
         step(writes);
-        if (adaptivity->estimate())
-          context.log.line("  " + adaptivity->found());
+        if (adaptivity->errors().memory().estimate)
+          context.log.line("  " + found(*adaptivity, bodies));
       }
   }
 
@@ -72,7 +75,8 @@ namespace mortise
     if (!adaptivity)
       adaptivity.emplace(context);
     else if (adaptivity->reached())
-      context.log.line("the target was reached before: " + adaptivity->found());
+      context.log.line("the target was reached before: " +
+                       found(*adaptivity, bodies));
     else
       {
         create_meshes();

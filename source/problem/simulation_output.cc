@@ -35,7 +35,7 @@ namespace mortise
       steps.n_done(),
       {steps.time(), {}, state.pressing, state.shortenings},
       adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
-        adaptivity->checkpoint() :
+        to_bytes(adaptivity->checkpoint()) :
         std::string(),
       summary.steps,
       files.written()};

@@ -41,7 +41,7 @@ namespace mortise
         adaptivity.emplace(context);
         try
           {
-            adaptivity->resume(checkpoint.adaptivity);
+            adaptivity->resume(from_bytes<KeptCycles>(checkpoint.adaptivity));
           }
         catch (const std::out_of_range &error)
           {

@@ -162,8 +162,7 @@ namespace
   {
     const std::string directory = gmsh_test::own_name("checkpoint_sections");
     const std::string file      = checkpoint_file_name(directory);
-    std::string       records;
-    append_text(records, "a record");
+    const std::string records   = to_bytes(std::string("a record"));
     write_checkpoint_file(file,
                           {{"of a later program", "x"}, {"short", "12"}},
                           {{"records", records},

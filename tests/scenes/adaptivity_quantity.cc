@@ -3,7 +3,7 @@
 // resultants, on hexahedra and tetrahedra, with a pressure, where parts slide
 // or press, beside a corner; that the dual problem is that of the quantity; and
 // that wrong names are told. The same on any number of ranks.
-#include <mortise/problem/adaptive/quantity.h>
+#include <mortise/problem/adaptive/dual_solution.h>
 
 #include "active_sets.h"
 #include "scene.h"
@@ -99,7 +99,7 @@ namespace
                                  settings + Settings{"Solver/Tolerance=1e-12"},
                                  comm);
     const auto            &discretisation = scene.discretisation;
-    const Quantity         quantity       = *Quantity::given(scene.given());
+    const Quantity         quantity       = *given_quantity(scene.given());
     SolverOptions          options;
     options.method    = discretisation.choice().method;
     options.tolerance = 1e-12;
@@ -110,11 +110,11 @@ namespace
     const auto           u      = discretisation.solutions(scene.load, x);
     const SolvedStep     solved = scene.solved(x);
     const BoundaryForces forces(discretisation, solved, u);
-    const double         value =
-      quantity.all_components(discretisation.bodies(),
-                              u,
-                              forces)[quantity.component_number()];
-    const auto derivative = quantity.derivative(discretisation);
+    const double         value = all_components(quantity,
+                                        discretisation.bodies(),
+                                        u,
+                                        forces)[quantity.component];
+    const auto derivative      = mortise::derivative(quantity, discretisation);
     solver->solve(derivative.rhs, z);
     const auto product = [](const SystemVector &a, const SystemVector &b) {
       double result = a.displacement * b.displacement;

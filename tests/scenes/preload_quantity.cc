@@ -2,7 +2,7 @@
 // that carry a given force: it carries none there, its own shortening is the
 // share of the force in the quantity, and estimates of bolted scenes are right.
 // The same on any number of ranks.
-#include <mortise/problem/adaptive/quantity.h>
+#include <mortise/problem/adaptive/dual_solution.h>
 #include <mortise/problem/contact/preloads.h>
 
 #include "active_sets.h"
@@ -117,7 +117,7 @@ namespace
     preloads.begin(scene.fields(), load);
     preloads.solve(false, load, x);
     const auto derivative =
-      Quantity::given(scene.given())->derivative(discretisation);
+      mortise::derivative(*given_quantity(scene.given()), discretisation);
     SystemVector rhs    = derivative.rhs, z;
     SolveReport  report = solver->solve(rhs, z);
     preloads.release(rhs, z, report);

@@ -8,6 +8,8 @@
 #include <mortise/adapt/cell_states.h>
 #include <mortise/mortar/violation.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace mortise
@@ -19,6 +21,21 @@ namespace mortise
     std::vector<DirichletCondition> held;
     /// On its faces that have partners.
     std::vector<const TractionsOnFaces *> interfaces;
+  };
+
+  /// What an interface has in the error because its sides are apart, inside
+  /// each other or pull.
+  struct InterfaceViolation
+  {
+    std::string         interface;
+    double              size = 0.; ///< energy norm, see violation_energies()
+    unsigned int        body = 0;  ///< of the slave
+    std::vector<double> of_cells;  ///< squares, by active cell of that body
+    /// Body and active cell: of both sides, where part of a face presses and
+    /// part is open.
+    std::vector<std::pair<unsigned int, unsigned int>> at_contact_edge;
+    /// By side: the body, and what acts on its faces.
+    std::vector<std::pair<unsigned int, TractionsOnFaces>> tractions;
   };
 
   struct Residuals

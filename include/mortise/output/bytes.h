@@ -1,10 +1,13 @@
-// Plain values as bytes, bit for bit, in the order of this machine.
+// Plain values as bytes, bit for bit, in the order of this machine: numbers,
+// texts, arrays, pairs, optional values, vectors, maps, and classes that have
+// serialize(), as archives of Boost take it.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -13,75 +16,7 @@
 
 namespace mortise
 {
-  template <typename T>
-  void
-  append_bytes(std::string &bytes, const T &value)
-  {
-    static_assert(std::is_trivially_copyable_v<T>);
-    bytes.append(reinterpret_cast<const char *>(&value), sizeof(T));
-  }
-
-  /// Its length, then the text.
-  inline void
-  append_text(std::string &bytes, const std::string &text)
-  {
-    append_bytes<std::uint64_t>(bytes, text.size());
-    bytes += text;
-  }
-
-  /// Reads from the front what the functions above have appended; throws
-  /// std::out_of_range where it is less than asked for.
-  class ByteReader
-  {
-  public:
-    /// @p bytes are not copied.
-    explicit ByteReader(const std::string &bytes)
-      : next(bytes.data())
-      , end(next + bytes.size())
-    {}
-
-    std::size_t
-    left() const
-    {
-      return end - next;
-    }
-
-    template <typename T>
-    T
-    get()
-    {
-      static_assert(std::is_trivially_copyable_v<T>);
-      T value;
-      std::memcpy(&value, take(sizeof(T)), sizeof(T));
-      return value;
-    }
-
-    std::string
-    get_text()
-    {
-      const auto size = get<std::uint64_t>();
-      return std::string(take(size), size);
-    }
-
-    /// The next @p size bytes.
-    const char *
-    take(const std::size_t size)
-    {
-      if (size > left())
-        throw std::out_of_range("there are " + std::to_string(left()) +
-                                " bytes where " + std::to_string(size) +
-                                " are expected");
-      const char *const start = next;
-      next += size;
-      return start;
-    }
-
-  private:
-    const char *next, *const end;
-  };
-
-  /// An archive as those of Boost that appends what serialize() names: numbers,
-  /// texts, arrays, pairs, vectors, maps, and classes that have serialize().
+  /// Appends what serialize() names.
   class ByteWriter
   {
   public:
@@ -101,15 +36,22 @@ namespace mortise
     put(T &value)
     {
       if constexpr (std::is_arithmetic_v<T>)
-        append_bytes(bytes, value);
+        bytes.append(reinterpret_cast<const char *>(&value), sizeof(T));
       else
         value.serialize(*this, 0);
     }
 
     void
+    put_size(std::uint64_t size)
+    {
+      put(size);
+    }
+
+    void
     put(std::string &text)
     {
-      append_text(bytes, text);
+      put_size(text.size());
+      bytes += text;
     }
 
     template <typename T, std::size_t n>
@@ -130,9 +72,18 @@ namespace mortise
 
     template <typename T>
     void
+    put(std::optional<T> &value)
+    {
+      put_size(value ? 1 : 0);
+      if (value)
+        put(*value);
+    }
+
+    template <typename T>
+    void
     put(std::vector<T> &values)
     {
-      append_bytes<std::uint64_t>(bytes, values.size());
+      put_size(values.size());
       for (T &value : values)
         put(value);
     }
@@ -146,13 +97,15 @@ namespace mortise
     }
   };
 
-  /// The archive that reads them again; throws std::out_of_range where there
+  /// Reads them again; throws std::out_of_range where there
   /// are fewer bytes than they need, before it takes memory for them.
   class ByteArchive
   {
   public:
+    /// @p bytes are not copied.
     explicit ByteArchive(const std::string &bytes)
-      : reader(bytes)
+      : next(bytes.data())
+      , end(next + bytes.size())
     {}
 
     template <typename T>
@@ -166,7 +119,20 @@ namespace mortise
     std::size_t
     left() const
     {
-      return reader.left();
+      return end - next;
+    }
+
+    /// The next @p size bytes.
+    const char *
+    take(const std::size_t size)
+    {
+      if (size > left())
+        throw std::out_of_range("there are " + std::to_string(left()) +
+                                " bytes where " + std::to_string(size) +
+                                " are expected");
+      const char *const start = next;
+      next += size;
+      return start;
     }
 
   private:
@@ -175,17 +141,26 @@ namespace mortise
     get(T &value)
     {
       if constexpr (std::is_same_v<T, bool>)
-        value = reader.get<char>() != 0; // other bytes are no bool
+        value = *take(1) != 0; // other bytes are no bool
       else if constexpr (std::is_arithmetic_v<T>)
-        value = reader.get<T>();
+        std::memcpy(&value, take(sizeof(T)), sizeof(T));
       else
         value.serialize(*this, 0);
+    }
+
+    std::uint64_t
+    get_size()
+    {
+      std::uint64_t size;
+      get(size);
+      return size;
     }
 
     void
     get(std::string &text)
     {
-      text = reader.get_text();
+      const auto size = get_size();
+      text.assign(take(size), size);
     }
 
     template <typename T, std::size_t n>
@@ -206,10 +181,19 @@ namespace mortise
 
     template <typename T>
     void
+    get(std::optional<T> &value)
+    {
+      value.reset();
+      if (get_size() > 0)
+        get(value.emplace());
+    }
+
+    template <typename T>
+    void
     get(std::vector<T> &values)
     {
       values.clear();
-      for (auto n = reader.get<std::uint64_t>(); n > 0; --n)
+      for (auto n = get_size(); n > 0; --n)
         get(values.emplace_back());
     }
 
@@ -222,7 +206,7 @@ namespace mortise
       values = {pairs.begin(), pairs.end()};
     }
 
-    ByteReader reader;
+    const char *next, *const end;
   };
 
   template <typename T>

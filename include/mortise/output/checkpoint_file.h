@@ -74,7 +74,7 @@ namespace mortise
         }
     }
 
-    /// Likewise, one after the other, what ranks have appended to @p section with append_text(); of the
+    /// Likewise, one after the other, the texts of @p section, each as to_bytes() gives it; of the
     /// file @p block bytes at a time.
     void
     for_each_record(const std::string                              &section,

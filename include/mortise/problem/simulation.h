@@ -7,6 +7,7 @@
 #include <mortise/problem/contact/preloads.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/load_steps.h>
+#include <mortise/problem/results/boundary_forces.h>
 #include <mortise/problem/results/field_files.h>
 #include <mortise/problem/results/step_results.h>
 #include <mortise/problem/run_checkpoint.h>

@@ -5,12 +5,11 @@
 #include <mortise/base/error.h>
 #include <mortise/base/of_all_ranks.h>
 #include <mortise/base/quotes.h>
-#include <mortise/output/bytes.h>
+#include <mortise/problem/adaptive/adaptivity.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
-
-#include "kept_cycles.h"
 
 namespace mortise
 {
@@ -86,27 +85,16 @@ namespace mortise
   void
   Adaptivity::keep(const Bodies &bodies)
   {
-    Kept result;
-    result.quantity = goal ? goal->name() : "";
-    result.cycle    = cycle;
-    result.n_meshes = n_meshes;
-    result.numbers  = {{"value", last_value},
-                       {"change of rest", rest.change},
-                       {"error of rest", rest.error},
-                       {"allowed", allowed},
-                       {"estimates", double(n_estimates)}};
-    if (estimated)
-      result.numbers.insert({{"estimate", *estimated}, {"at most", *at_most}});
-    result.residual = residual;
-    result.sizes.resize(bodies.size());
+    kept = {goal ? goal->name : "", n_meshes, of_cycle.memory(), {}, {}};
+    kept.sizes.resize(bodies.size());
     for (const auto &body : bodies)
       {
-        result.cells.push_back(gather(*body, states[body->index]));
+        kept.cells.push_back(gather(*body, of_cycle.cells()[body->index]));
         if (sizes.empty() || sizes[body->index] == nullptr)
           continue;
         for (const SizeField::Cell &cell : sizes[body->index]->all())
           {
-            auto &numbers = result.sizes[body->index].emplace_back();
+            auto &numbers = kept.sizes[body->index].emplace_back();
             for (unsigned int v = 0; v < 4; ++v)
               {
                 std::copy_n(cell.vertices[v].begin_raw(), 3, &numbers[3 * v]);
@@ -114,39 +102,21 @@ namespace mortise
               }
           }
       }
-    kept = to_bytes(std::move(result));
   }
 
   void
-  Adaptivity::resume(const std::string &bytes)
+  Adaptivity::resume(KeptCycles given)
   {
-    const Kept given = kept_from(bytes, run.parameters.bodies);
-    if (given.quantity != (goal ? goal->name() : ""))
+    check(given, run.parameters.bodies);
+    const std::string name = goal ? goal->name : "";
+    if (given.quantity != name)
       run.parameters.fail("Adaptivity/Quantity",
-                          in_quotes(goal ? goal->name() : "") +
+                          in_quotes(name) +
                             " with the checkpoint of a run with " +
                             in_quotes(given.quantity),
                           "the same, or a run from the beginning");
-    const auto &numbers = given.numbers;
-    cycle               = given.cycle;
-    n_meshes            = given.n_meshes;
-    last_value          = numbers.at("value");
-    rest.change         = numbers.at("change of rest");
-    rest.error          = numbers.at("error of rest");
-    allowed             = numbers.at("allowed");
-    residual            = given.residual;
-    n_estimates         = static_cast<unsigned int>(numbers.at("estimates"));
-    if (numbers.count("estimate") > 0)
-      {
-        estimated = numbers.at("estimate");
-        at_most   = numbers.at("at most");
-      }
-    for (const auto &of_body : given.cells)
-      {
-        restored.emplace_back();
-        for (const KeptCell &cell : of_body)
-          restored.back().emplace_back(number_of(cell), cell.state);
-      }
+    n_meshes = given.n_meshes;
+    of_cycle.resume(given.memory, {});
     for (const auto &of_body : given.sizes)
       {
         std::vector<SizeField::Cell> cells;
@@ -157,25 +127,28 @@ namespace mortise
                           nullptr :
                           std::make_shared<const SizeField>(std::move(cells)));
       }
+    kept = std::move(given);
   }
 
   void
   Adaptivity::restore_meshes(Bodies &bodies)
   {
     std::string other;
-    states.resize(bodies.size());
+    CellStates  states(bodies.size());
     for (const auto &body : bodies)
       {
+        NumberedStates of_kept;
+        for (const KeptCell &cell : kept.cells[body->index])
+          of_kept.emplace_back(number_of(cell), cell.state);
         if (sizes[body->index] != nullptr)
           create_mesh(run, sizes[body->index], *body);
         else if (!body->mesh.tetrahedra)
-          cut_into(restored[body->index], *body);
-        const std::map<CellNumber, CellState> by_number(
-          restored[body->index].begin(), restored[body->index].end());
+          cut_into(of_kept, *body);
+        const std::map<CellNumber, CellState> by_number(of_kept.begin(),
+                                                        of_kept.end());
         const auto &triangulation = body->triangulation();
         auto       &of_body       = states[body->index];
         of_body.assign(triangulation.n_active_cells(), {});
-        splits.emplace_back(of_body.size(), false);
         for (const auto &cell : triangulation.active_cell_iterators())
           if (cell->is_locally_owned())
             {
@@ -193,27 +166,29 @@ namespace mortise
                                    " has other cells; allowed: the meshes with "
                                    "which it was written",
                  run.comm);
-    restored.clear();
+    of_cycle.resume(kept.memory, std::move(states));
   }
 
   void
   Adaptivity::restore(const Bodies                    &bodies,
                       const std::vector<BodySolution> &solutions)
   {
-    set_coefficients(bodies, solutions, states);
+    set_coefficients(bodies, solutions, of_cycle.cells());
     std::string other;
-    for_each_cell(
-      bodies, states, [&](const Body &body, const auto &, CellState &state) {
-        const auto same = [](const auto &a, const auto &b) {
-          return a.size() == b.size();
-        };
-        if (!state.dual.empty() && !std::equal(state.dual.begin(),
-                                               state.dual.end(),
-                                               state.coefficients.begin(),
-                                               state.coefficients.end(),
-                                               same))
-          other = body.name;
-      });
+    for_each_cell(bodies,
+                  of_cycle.cells(),
+                  [&](const Body &body, const auto &, CellState &state) {
+                    const auto same = [](const auto &a, const auto &b) {
+                      return a.size() == b.size();
+                    };
+                    if (!state.dual.empty() &&
+                        !std::equal(state.dual.begin(),
+                                    state.dual.end(),
+                                    state.coefficients.begin(),
+                                    state.coefficients.end(),
+                                    same))
+                      other = body.name;
+                  });
     throw_if_any(other.empty() ? "" :
                                  "The checkpoint is of another scene: body " +
                                    in_quotes(other) +
@@ -221,6 +196,6 @@ namespace mortise
                                    "allowed: the degrees with which it was "
                                    "written",
                  run.comm);
-    choose(bodies);
+    plan(bodies);
   }
 } // namespace mortise

@@ -1,9 +1,6 @@
-// See kept_cycles.h.
-#include "kept_cycles.h"
-
 #include <mortise/base/quotes.h>
 #include <mortise/body/mesh/gmsh_model.h>
-#include <mortise/output/bytes.h>
+#include <mortise/problem/adaptive/kept_cycles.h>
 #include <mortise/problem/input/formulation.h>
 
 #include <algorithm>
@@ -121,33 +118,35 @@ namespace mortise
              " tetrahedra in place of " + std::to_string(n_cells));
   }
 
-  Kept
-  kept_from(const std::string &bytes, const std::vector<BodyParameters> &bodies)
+  void
+  check(const KeptCycles &kept, const std::vector<BodyParameters> &bodies)
   {
-    auto kept = from_bytes<Kept>(bytes);
-    if (kept.residual.size() != bodies.size() ||
+    const EstimateMemory &memory = kept.memory;
+    if (memory.residual.size() != bodies.size() ||
         kept.cells.size() != bodies.size() ||
         kept.sizes.size() != bodies.size())
-      refuse(std::to_string(kept.residual.size()) + ", " +
+      refuse(std::to_string(memory.residual.size()) + ", " +
              std::to_string(kept.cells.size()) + " and " +
              std::to_string(kept.sizes.size()) + " bodies, the scene has " +
              std::to_string(bodies.size()));
-    for (const char *name :
-         {"value", "change of rest", "error of rest", "allowed", "estimates"})
-      if (kept.numbers.count(name) == 0)
-        refuse("no number for '" + std::string(name) + "'");
-    if (kept.numbers.count("estimate") != kept.numbers.count("at most"))
+    if (memory.estimate.has_value() != memory.at_most.has_value())
       refuse("half of an estimate");
-    for (const auto &[name, number] : kept.numbers)
+    for (const double number : {memory.value,
+                                memory.change_of_rest,
+                                memory.error_of_rest,
+                                memory.allowed,
+                                memory.estimate.value_or(0.),
+                                memory.at_most.value_or(0.)})
       check(number);
-    for (const double number : kept.residual)
+    for (const double number : memory.residual)
       check(number);
-    if (const double n = kept.numbers.at("estimates"); n < 0. || n > kept.cycle)
-      refuse(std::to_string(n) + " estimates in " + std::to_string(kept.cycle) +
-             " cycles");
+    if (memory.n_estimates > memory.n_cycles)
+      refuse(std::to_string(memory.n_estimates) + " estimates in " +
+             std::to_string(memory.n_cycles) + " cycles");
     for (unsigned int b = 0; b < bodies.size(); ++b)
       for (const KeptCell &cell : kept.cells[b])
         {
+          number_of(cell);
           check(cell.state.history,
                 is_mixed(bodies[b]) ? least_mixed_degree : 1);
           for (const auto &component : cell.state.dual)
@@ -159,6 +158,5 @@ namespace mortise
                                      !is_geometry_file(bodies[b].mesh.file)))
         refuse("a new mesh of body " + in_quotes(bodies[b].name) +
                ", which is not made by gmsh");
-    return kept;
   }
 } // namespace mortise

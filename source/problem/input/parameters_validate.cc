@@ -3,9 +3,9 @@
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
 #include <mortise/base/quotes.h>
-#include <mortise/problem/adaptive/adaptivity.h>
 #include <mortise/problem/input/formulation.h>
 #include <mortise/problem/input/parameter_file.h>
+#include <mortise/problem/input/quantity.h>
 #include <unistd.h>
 
 #include <algorithm>

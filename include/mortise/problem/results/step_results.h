@@ -12,21 +12,6 @@
 
 namespace mortise
 {
-  /// What an interface has in the error because its sides are apart, inside
-  /// each other or pull.
-  struct InterfaceViolation
-  {
-    std::string         interface;
-    double              size = 0.; ///< energy norm, see violation_energies()
-    unsigned int        body = 0;  ///< of the slave
-    std::vector<double> of_cells;  ///< squares, by active cell of that body
-    /// Body and active cell: of both sides, where part of a face presses and
-    /// part is open.
-    std::vector<std::pair<unsigned int, unsigned int>> at_contact_edge;
-    /// By side: the body, and what acts on its faces.
-    std::vector<std::pair<unsigned int, TractionsOnFaces>> tractions;
-  };
-
   struct StepFields
   {
     std::vector<BodySolution> solutions; ///< by body

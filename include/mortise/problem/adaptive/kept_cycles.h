@@ -1,13 +1,14 @@
 // What a checkpoint has of adaptive cycles, and whether it can be.
 #pragma once
 
-#include <mortise/adapt/cell_states.h>
+#include <mortise/adapt/cycle_errors.h>
 #include <mortise/body/mesh/size_field.h>
-#include <mortise/problem/adaptive/adaptivity.h>
+#include <mortise/operators/scene_system.h>
+#include <mortise/output/checkpoint_scene.h>
+#include <mortise/problem/input/parameters.h>
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -30,29 +31,26 @@ namespace mortise
   /// Coordinates of the vertices of a cell of SizeField, then sizes there.
   using SizesOfCell = std::array<double, 16>;
 
-  /// In the bytes of Adaptivity::checkpoint().
-  struct Kept
+  /// Of Adaptivity::checkpoint().
+  struct KeptCycles
   {
     std::string                           quantity; ///< empty: the energy norm
-    unsigned int                          cycle = 0, n_meshes = 0;
-    std::map<std::string, double>         numbers;  ///< those that there are
-    std::vector<double>                   residual; ///< by body
-    std::vector<std::vector<KeptCell>>    cells;    ///< likewise
-    std::vector<std::vector<SizesOfCell>> sizes;    ///< likewise
+    unsigned int                          n_meshes = 0;
+    EstimateMemory                        memory;
+    std::vector<std::vector<KeptCell>>    cells; ///< by body
+    std::vector<std::vector<SizesOfCell>> sizes; ///< likewise
 
     template <typename Archive>
     void
     serialize(Archive &archive, const unsigned int)
     {
-      archive &quantity &cycle &n_meshes &numbers &residual &cells &sizes;
+      archive &quantity &n_meshes &memory &cells &sizes;
     }
   };
 
-  /// Throws std::out_of_range if @p bytes are not such ones as to_bytes() gives, of
-  /// @p bodies.
-  Kept
-  kept_from(const std::string                 &bytes,
-            const std::vector<BodyParameters> &bodies);
+  /// Throws std::out_of_range if @p kept cannot be of a run with @p bodies.
+  void
+  check(const KeptCycles &kept, const std::vector<BodyParameters> &bodies);
 
   /// Throws std::out_of_range if no mesh can have it.
   CellNumber

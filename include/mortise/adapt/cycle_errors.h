@@ -1,0 +1,179 @@
+// The error of the solution of one cycle: from its residuals, or of a quantity
+// from how much the last refinement has changed the solution and that of the
+// dual problem. It knows no parameters.
+#pragma once
+
+#include <mortise/adapt/error_estimate.h>
+#include <mortise/solvers/solve_report.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace mortise
+{
+  /// What a quantity is in one cycle.
+  struct DualSolution
+  {
+    double value = 0.;
+    double size  = 0.; ///< of all components of the quantity
+    /// By body; less the function that the quantity is the energy product with,
+    /// see LinearFunctional.
+    std::vector<BodySolution> solutions;
+    SolveReport               report;
+  };
+
+  /// What the estimates of one cycle need of those before, cells apart.
+  struct EstimateMemory
+  {
+    unsigned int n_cycles    = 0;  ///< that were added
+    unsigned int n_estimates = 0;  ///< since there was a new mesh
+    double       value       = 0.; ///< of the quantity
+    /// How much the last refinement changed the quantity beyond what cells have
+    /// in it, since prescribed values, loads and ties are others on other
+    /// meshes, and what is left of that.
+    double change_of_rest = 0., error_of_rest = 0.;
+    /// What the errors of cells may be together for each unit of the target:
+    /// the square of an energy norm, or of a quantity itself.
+    double allowed = 0.;
+    /// Of the quantity beside its value, or in the energy norm beside that of
+    /// the solution; absent in the first cycle and on a new mesh.
+    std::optional<double> estimate;
+    /// What it may be, since errors by residuals differ from cell to cell.
+    std::optional<double> at_most;
+    /// By body, square, of the equations.
+    std::vector<double> residual;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &n_cycles &n_estimates &value &change_of_rest &error_of_rest
+        &allowed &estimate &at_most &residual;
+    }
+  };
+
+  class CycleErrors
+  {
+  public:
+    /// @p accuracy: of linear solves, relative.
+    CycleErrors(const double accuracy, const MPI_Comm comm)
+      : accuracy(accuracy)
+      , comm(comm)
+    {}
+
+    /// The solution of the cycle before in the spaces that @p bodies have now, if they go on from its spaces
+    /// (@p goes_on), and that of its dual problem; else empty. Collective.
+    const std::vector<BodySolution> &
+    start(const Bodies &bodies, bool goes_on);
+    const std::vector<BodySolution> &
+    dual_start(const Bodies &bodies, bool goes_on);
+
+    /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: of a
+    /// quantity, @p violations and @p residuals: without. Collective.
+    void
+    add(const Bodies                      &bodies,
+        const std::vector<BodySolution>   &solutions,
+        const std::optional<DualSolution> &dual,
+        std::vector<InterfaceViolation>    violations,
+        const Residuals                   &residuals);
+
+    /// Go on after a cycle with @p given.
+    void
+    resume(EstimateMemory given, CellStates of_cells)
+    {
+      numbers = std::move(given);
+      states  = std::move(of_cells);
+    }
+
+    const EstimateMemory &
+    memory() const
+    {
+      return numbers;
+    }
+
+    CellStates &
+    cells()
+    {
+      return states;
+    }
+
+    const CellStates &
+    cells() const
+    {
+      return states;
+    }
+
+    /// Of the last cycle; of one before resume() there are none.
+    const ErrorSums &
+    sums() const
+    {
+      return sum;
+    }
+
+    /// Likewise, with sizes relative to the solution.
+    const std::vector<InterfaceViolation> &
+    interfaces() const
+    {
+      return violations;
+    }
+
+    /// Likewise: what the quantity lacks, with its sign.
+    const std::optional<double> &
+    correction() const
+    {
+      return signed_error;
+    }
+
+    /// Likewise: is the quantity rounding beside its other components?
+    bool
+    quantity_is_zero() const
+    {
+      return is_zero;
+    }
+
+    /// Of all interfaces, relative. A solution is at least as far from the
+    /// exact one as from those whose sides are not apart; under contact it is
+    /// an estimate.
+    double
+    of_interfaces() const;
+    /// What the estimate has beyond it.
+    double
+    of_bulk() const;
+
+    /// The part of each cell in the error, beside the same as the estimate,
+    /// by body and active cell; empty where there is no estimate.
+    NumbersByCell
+    by_cell(bool of_quantity) const;
+
+  private:
+    /// Relative, and in cells that have slave faces.
+    void
+    set_violations(double norm);
+    /// From @p residuals, or of a quantity from what the last refinement changed, beside @p norm. Collective.
+    void
+    estimate(const Bodies                      &bodies,
+             const std::vector<BodySolution>   &solutions,
+             const std::optional<DualSolution> &dual,
+             const Residuals                   &residuals,
+             double                             norm);
+    void
+    forget_estimate();
+    /// Histories from the change that the refinement before this cycle made;
+    /// its squares by body. Collective.
+    std::vector<double>
+    learn(const Bodies                      &bodies,
+          const std::vector<BodySolution>   &solutions,
+          const std::optional<DualSolution> &dual);
+
+    const double                    accuracy;
+    const MPI_Comm                  comm;
+    EstimateMemory                  numbers;
+    CellStates                      states;
+    std::vector<BodySolution>       earlier, earlier_dual;
+    ErrorSums                       sum;
+    std::vector<InterfaceViolation> violations;
+    std::optional<double>           signed_error;
+    bool                            is_zero = false;
+  };
+} // namespace mortise

@@ -1,0 +1,56 @@
+// What the next cycle is solved on: cells that are cut, degrees that rise, and
+// new meshes of tetrahedra. It makes no mesh and knows no parameters.
+#pragma once
+
+#include <mortise/adapt/remeshing.h>
+
+#include <optional>
+#include <vector>
+
+namespace mortise
+{
+  /// Within which meshes and degrees change.
+  struct PlanOptions
+  {
+    struct OfBody
+    {
+      /// Can another mesh of its tetrahedra be made?
+      bool         has_geometry = false;
+      unsigned int least_degree = 1;
+      RigidMotion  motion;     ///< see RemeshingOptions
+      unsigned int n_cuts = 0; ///< likewise
+    };
+
+    bool                splits         = true; ///< hexahedra, or new meshes
+    bool                only_splits    = false;
+    unsigned int        largest_degree = max_degree;
+    double              most_unknowns  = 0.;
+    std::vector<OfBody> bodies;
+  };
+
+  struct MeshPlan
+  {
+    /// Why there is no next cycle.
+    enum class Limit
+    {
+      none,
+      largest_degree,
+      most_unknowns
+    };
+
+    std::vector<std::vector<bool>> splits; ///< by body and active cell
+    std::vector<Remeshing>         meshes; ///< by body; empty: none is new
+    Limit                          limit    = Limit::none;
+    double                         unknowns = 0.; ///< of the next cycle, about
+  };
+
+  /// So that the largest errors of cells become the square @p allowed together, or without it the best of every
+  /// cell: first changes are those of all cells. Degrees are written into the histories of @p states. @p n_meshes: how often there were
+  /// new ones. Collective.
+  MeshPlan
+  plan_meshes(const Bodies               &bodies,
+              const PlanOptions          &options,
+              const std::optional<double> allowed,
+              unsigned int                n_meshes,
+              CellStates                 &states);
+} // namespace mortise
