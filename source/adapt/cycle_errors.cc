@@ -106,7 +106,7 @@ namespace mortise
   CycleErrors::start(const Bodies &bodies, const bool goes_on)
   {
     if (goes_on)
-      earlier = embedded(bodies, states);
+      earlier = embedded(bodies, cells);
     return earlier;
   }
 
@@ -114,7 +114,7 @@ namespace mortise
   CycleErrors::dual_start(const Bodies &bodies, const bool goes_on)
   {
     if (goes_on)
-      earlier_dual = embedded(bodies, states, &CellState::dual);
+      earlier_dual = embedded(bodies, cells, &CellState::dual);
     return earlier_dual;
   }
 
@@ -125,18 +125,19 @@ namespace mortise
                    std::vector<InterfaceViolation>    broken,
                    const Residuals                   &residuals)
   {
+    of_quantity        = dual.has_value();
     NumbersByCell size = energy_by_cell(bodies, solutions);
-    set_coefficients(bodies, solutions, states);
+    set_coefficients(bodies, solutions, cells);
     if (dual)
       {
         size = geometric_mean(std::move(size),
                               energy_by_cell(bodies, dual->solutions));
-        set_coefficients(bodies, dual->solutions, states, &CellState::dual);
+        set_coefficients(bodies, dual->solutions, cells, &CellState::dual);
       }
     const double norm =
       dual ? std::fabs(dual->value) : std::sqrt(total(size, comm));
     for_each_cell(bodies,
-                  states,
+                  cells,
                   [&](const Body &body, const auto &cell, CellState &state) {
                     CellHistory &history = state.history;
                     history.degree       = state.degree;
@@ -146,37 +147,37 @@ namespace mortise
                   });
     violations = std::move(broken);
     set_violations(norm);
-    is_zero = dual && numbers.n_cycles > 0 &&
-              std::fabs(dual->value) <= accuracy * dual->size;
-    if (is_zero || has_unknown_errors(bodies, states))
+    quantity_is_zero = dual && memory.n_cycles > 0 &&
+                       std::fabs(dual->value) <= accuracy * dual->size;
+    if (quantity_is_zero || has_unknown_errors(bodies, cells))
       forget_estimate();
     else
       estimate(bodies, solutions, dual, residuals, norm);
-    numbers.residual = sums_by_body(residuals.equations, comm);
+    memory.residual = sums_by_body(residuals.equations, comm);
     if (dual)
-      numbers.value = dual->value;
-    ++numbers.n_cycles;
+      memory.value = dual->value;
+    ++memory.n_cycles;
     // of cells as of all
-    const double at_most = numbers.at_most.value_or(0.);
-    numbers.allowed =
-      at_most > 0. ? sum.largest / (dual ? at_most : at_most * at_most) : 0.;
+    const double at_most = memory.at_most.value_or(0.);
+    memory.allowed =
+      at_most > 0. ? sums.largest / (dual ? at_most : at_most * at_most) : 0.;
   }
 
   void
   CycleErrors::forget_estimate()
   {
-    sum                    = {};
-    numbers.change_of_rest = numbers.error_of_rest = 0.;
-    numbers.estimate.reset();
-    numbers.at_most.reset();
-    signed_error.reset();
-    numbers.n_estimates = 0;
+    sums                  = {};
+    memory.change_of_rest = memory.error_of_rest = 0.;
+    memory.estimate.reset();
+    memory.at_most.reset();
+    correction.reset();
+    memory.n_estimates = 0;
   }
 
   void
   CycleErrors::set_violations(const double norm)
   {
-    for (auto &of_body : states)
+    for (auto &of_body : cells)
       for (CellState &state : of_body)
         {
           state.history.violation       = 0.;
@@ -185,11 +186,11 @@ namespace mortise
     for (InterfaceViolation &of : violations)
       {
         of.size       = norm > 0. ? of.size / norm : 0.;
-        auto &of_body = states[of.body];
+        auto &of_body = cells[of.body];
         for (unsigned int k = 0; k < of_body.size(); ++k)
           of_body[k].history.violation += of.of_cells[k];
         for (const auto &[body, cell] : of.at_contact_edge)
-          states[body][cell].history.at_contact_edge = true;
+          cells[body][cell].history.at_contact_edge = true;
       }
   }
 
@@ -202,33 +203,33 @@ namespace mortise
   {
     const std::vector<double> changes = learn(bodies, solutions, dual);
     const double              unit    = norm > 0. ? norm : 1.;
-    ++numbers.n_estimates;
+    ++memory.n_estimates;
     if (dual)
       {
-        sum              = error_sums(bodies, states);
-        numbers.estimate = numbers.at_most =
-          std::hypot(sum.of_quantity(), numbers.error_of_rest) / unit;
-        signed_error = sum.with_sign + numbers.error_of_rest;
+        sums            = error_sums(bodies, cells);
+        memory.estimate = memory.at_most =
+          std::hypot(sums.of_quantity(), memory.error_of_rest) / unit;
+        correction = sums.with_sign + memory.error_of_rest;
         return;
       }
     set_errors(bodies,
                residuals,
                squares_by_residual(changes,
-                                   numbers.residual,
+                                   memory.residual,
                                    sums_by_body(residuals.equations, comm)),
-               states);
-    sum                     = error_sums(bodies, states);
+               cells);
+    sums                    = error_sums(bodies, cells);
     const double conditions = total(residuals.conditions, comm),
                  for_sure   = conditions + std::pow(unit * of_interfaces(), 2),
-                 by_equations = sum.all - conditions;
-    numbers.estimate          = std::sqrt(for_sure + by_equations) / unit;
+                 by_equations = sums.all - conditions;
+    memory.estimate           = std::sqrt(for_sure + by_equations) / unit;
     // where displacements are prescribed the exact solution has less energy
     // than this one, by the square of the error
     constexpr double least_part = 0.01;
     const double     most =
       for_sure +
-      std::pow(doubt_of_residuals(numbers.n_estimates), 2) * by_equations;
-    numbers.at_most =
+      std::pow(doubt_of_residuals(memory.n_estimates), 2) * by_equations;
+    memory.at_most =
       std::sqrt(most / std::max(unit * unit - most, least_part * unit * unit));
   }
 
@@ -246,24 +247,23 @@ namespace mortise
                                  energy_by_cell(bodies, earlier_dual));
       }
     else
-      own = own_parts(bodies, changes, states);
-    estimate_errors(bodies, changes, own, states);
+      own = own_parts(bodies, changes, cells);
+    estimate_errors(bodies, changes, own, cells);
     if (dual)
       {
         const auto products = products_by_cell(bodies, earlier, earlier_dual);
-        set_shares(bodies, products, states);
+        set_shares(bodies, products, cells);
         // the first change is that from nothing
         const double before =
-          numbers.change_of_rest == 0. ? numbers.value : numbers.change_of_rest;
-        numbers.change_of_rest =
-          dual->value - numbers.value - total(products, comm);
-        numbers.error_of_rest =
-          numbers.change_of_rest *
-          geometric_tail(std::fabs(numbers.change_of_rest),
-                         std::fabs(before),
-                         1,
-                         least_ratio_of_rest)
-            .left;
+          memory.change_of_rest == 0. ? memory.value : memory.change_of_rest;
+        memory.change_of_rest =
+          dual->value - memory.value - total(products, comm);
+        memory.error_of_rest = memory.change_of_rest *
+                               geometric_tail(std::fabs(memory.change_of_rest),
+                                              std::fabs(before),
+                                              1,
+                                              least_ratio_of_rest)
+                                 .left;
       }
     earlier.clear();
     earlier_dual.clear();
@@ -284,20 +284,21 @@ namespace mortise
   {
     return std::sqrt(
       std::max(0.,
-               std::pow(*numbers.estimate, 2) - std::pow(of_interfaces(), 2)));
+               std::pow(*memory.estimate, 2) - std::pow(of_interfaces(), 2)));
   }
 
   NumbersByCell
-  CycleErrors::by_cell(const bool of_quantity) const
+  CycleErrors::by_cell() const
   {
     NumbersByCell result;
-    if (!numbers.estimate)
+    if (!memory.estimate)
       return result;
     const auto part = [&](const double error) {
       return of_quantity ? error : std::sqrt(error);
     };
-    const double factor = sum.all > 0. ? *numbers.estimate / part(sum.all) : 0.;
-    for (const auto &of_body : states)
+    const double factor =
+      sums.all > 0. ? *memory.estimate / part(sums.all) : 0.;
+    for (const auto &of_body : cells)
       {
         result.emplace_back();
         for (const CellState &state : of_body)

@@ -73,16 +73,13 @@ namespace mortise
           for (const auto &body : bodies)
             if (splits_tetrahedra(*body, choices[body->index]))
               {
-                const auto &own = options.bodies[body->index];
-                meshes[body->index] =
-                  plan_remeshing(*body,
-                                 choices[body->index],
-                                 states[body->index],
-                                 {share_of_cell * allowed / n_cells,
-                                  most,
-                                  own.least_degree,
-                                  own.motion,
-                                  own.n_cuts});
+                RemeshingOptions own = *options.remeshing[body->index];
+                own.target           = share_of_cell * allowed / n_cells;
+                own.most_halvings    = most;
+                meshes[body->index]  = plan_remeshing(*body,
+                                                     choices[body->index],
+                                                     states[body->index],
+                                                     own);
               }
           // one that is hardly finer is not worth what it costs
           const double next = next_unknowns(bodies, states, none, meshes);
@@ -102,13 +99,10 @@ namespace mortise
               const unsigned int          n_meshes,
               CellStates                 &states)
   {
-    RefinementOptions may{options.splits,
-                          options.only_splits,
-                          options.largest_degree,
-                          {}};
-    for (const auto &own : options.bodies)
-      may.may_remesh.push_back(options.splits && n_meshes < most_meshes &&
-                               own.has_geometry);
+    RefinementOptions may = options.refinement;
+    for (const auto &own : options.remeshing)
+      may.may_remesh.push_back(may.may_split && n_meshes < most_meshes &&
+                               own.has_value());
     const auto choose = [&] {
       return allowed ? choose_refinements(bodies, states, may, *allowed) :
                        refine_new(bodies, states, may);

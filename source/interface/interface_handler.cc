@@ -126,7 +126,15 @@ namespace mortise
   }
 
   void
-  InterfaceHandler::visit_pairs(const Visitor &visitor)
+  InterfaceHandler::integrate_pairs(const Visitor &visitor)
+  {
+    Pass own         = clip(visitor);
+    totals           = report_of(own);
+    covered_fraction = std::move(own.covered);
+  }
+
+  InterfaceHandler::Pass
+  InterfaceHandler::clip(const Visitor &visitor) const
   {
     using Clock = std::chrono::steady_clock;
     PairIntegrator    integrator(options.distance);
@@ -134,12 +142,8 @@ namespace mortise
     integrator.set_points_per_direction(
       options.points_per_direction.value_or(0));
 
-    Coverage        sum;
-    double          worst_error = -1.;
-    Point<3>        worst_centre;
+    Pass            pass;
     Clock::duration clipping(0);
-    std::uint64_t   n_coinciding = 0;
-    double          sagitta = 0., largest_coverage = 0.;
     for (unsigned int s = 0; s < slave_surface.faces.size(); ++s)
       {
         auto before = Clock::now();
@@ -148,7 +152,7 @@ namespace mortise
         face.slave_area = integrator.slave_area();
         // a face with the same points is the only partner
         if (visit_coinciding(s, visitor, integrator, points, face))
-          ++n_coinciding;
+          ++pass.n_coinciding;
         else
           {
             clipping += Clock::now() - before;
@@ -168,29 +172,32 @@ namespace mortise
                   visitor(s, m, points);
               }
           }
-        covered_fraction[s] = face.covered_area / face.slave_area;
-        if (std::fabs(1. - covered_fraction[s]) > worst_error)
+        const double covered = face.covered_area / face.slave_area;
+        pass.covered.push_back(covered);
+        if (std::fabs(1. - covered) > pass.worst_error)
           {
-            worst_error  = std::fabs(1. - covered_fraction[s]);
-            worst_centre = slave_surface.faces[s].frame.center;
+            pass.worst_error  = std::fabs(1. - covered);
+            pass.worst_centre = slave_surface.faces[s].frame.center;
           }
-        largest_coverage = std::max(largest_coverage, covered_fraction[s]);
-        sagitta += face.covered_area * mortise::sagitta(slave_surface.faces[s]);
-        sum.add(face);
+        pass.largest_coverage = std::max(pass.largest_coverage, covered);
+        pass.sagitta +=
+          face.covered_area * mortise::sagitta(slave_surface.faces[s]);
+        pass.sum.add(face);
       }
-    totals.largest_coverage = Utilities::MPI::max(largest_coverage, comm);
-    totals.sagitta_mean     = Utilities::MPI::sum(sagitta, comm);
-    totals.clipping_seconds = std::chrono::duration<double>(clipping).count();
-    totals.coinciding_faces = Utilities::MPI::sum(n_coinciding, comm);
-    sum_report(sum, worst_error, worst_centre);
+    pass.clipping_seconds = std::chrono::duration<double>(clipping).count();
+    return pass;
   }
 
-  void
-  InterfaceHandler::sum_report(const Coverage &local,
-                               const double    worst_error,
-                               const Point<3> &worst_centre)
+  InterfaceReport
+  InterfaceHandler::report_of(const Pass &own) const
   {
-    const auto total = [&](const std::uint64_t n) {
+    const Coverage &local = own.sum;
+    InterfaceReport totals;
+    totals.largest_coverage = Utilities::MPI::max(own.largest_coverage, comm);
+    totals.sagitta_mean     = Utilities::MPI::sum(own.sagitta, comm);
+    totals.clipping_seconds = own.clipping_seconds;
+    totals.coinciding_faces = Utilities::MPI::sum(own.n_coinciding, comm);
+    const auto total        = [&](const std::uint64_t n) {
       return Utilities::MPI::sum(n, comm);
     };
     totals.slave_faces       = total(slave_surface.faces.size());
@@ -204,7 +211,7 @@ namespace mortise
     totals.failed_pairs      = total(local.n_failures);
     totals.slave_area        = Utilities::MPI::sum(local.slave_area, comm);
     totals.covered_area      = Utilities::MPI::sum(local.covered_area, comm);
-    totals.worst_face_error  = Utilities::MPI::max(worst_error, comm);
+    totals.worst_face_error  = Utilities::MPI::max(own.worst_error, comm);
     totals.distance_max      = Utilities::MPI::max(local.max_gap, comm);
     totals.gap_mean          = Utilities::MPI::sum(local.gap_sum, comm);
     totals.distance_mean     = Utilities::MPI::sum(local.distance_sum, comm);
@@ -214,14 +221,14 @@ namespace mortise
         *mean /= totals.covered_area;
 
     // several faces may be equally bad: name the one of the lowest rank
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(comm);
-    const unsigned int me      = Utilities::MPI::this_mpi_process(comm);
-    const unsigned int reporter =
-      Utilities::MPI::min(worst_error == totals.worst_face_error ? me : n_ranks,
-                          comm);
+    const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(comm);
+    const unsigned int me       = Utilities::MPI::this_mpi_process(comm);
+    const unsigned int reporter = Utilities::MPI::min(
+      own.worst_error == totals.worst_face_error ? me : n_ranks, comm);
     totals.worst_face_centre =
       Utilities::MPI::broadcast(comm,
-                                worst_centre,
+                                own.worst_centre,
                                 std::min(reporter, n_ranks - 1));
+    return totals;
   }
 } // namespace mortise

@@ -323,9 +323,9 @@ namespace mortise
         turning[s] = in_functions(frames[s], interface.slave().traces[s]);
     FullMatrix<double> slave_values, master_values, weighted, places, moment;
 
-    interface.visit_pairs([&](const unsigned int       s,
-                              const unsigned int       m,
-                              const IntegrationPoints &points) {
+    interface.integrate_pairs([&](const unsigned int       s,
+                                  const unsigned int       m,
+                                  const IntegrationPoints &points) {
       LocalCoupling         &local   = couplings[s];
       const FaceTrace       &slave   = interface.slave().traces[s];
       const FaceTrace       &master  = interface.master_traces()[m];

@@ -143,9 +143,9 @@ namespace mortise
                      const Offset                           &offset,
                      const MPI_Comm                          comm)
   {
-    InterfaceHandler &interface = *coupling.interface;
-    InterfacePoints   point_at(interface, displacement, offset, comm);
-    Violations        result;
+    const InterfaceHandler &interface = *coupling.interface;
+    InterfacePoints         point_at(interface, displacement, offset, comm);
+    Violations              result;
     result.energies.resize(interface.slave().faces.size(), 0.);
     std::vector<Pressing> of_slaves(interface.slave().faces.size()),
       of_masters(interface.master_faces().size());
@@ -168,6 +168,8 @@ namespace mortise
           const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
           InterfacePoint point = point_at(m, points, q);
           point.traction       = traction_at(xi, slave, tractions[s]);
+          result.penetration =
+            std::max(result.penetration, -coupling.law.gap(point));
           if (coupling.law.is_one_sided())
             for (Pressing *of : {&of_slaves[s], &of_masters[m]})
               of->add(points.weight[q], coupling.law.presses(point, c));
@@ -201,6 +203,25 @@ namespace mortise
     for (const Pressing &face : of_slaves)
       result.slave_at_edge.push_back(face.at_edge());
     result.master_at_edge = masters_at_edge(interface, of_masters, comm);
+    result.penetration    = Utilities::MPI::max(result.penetration, comm);
     return result;
+  }
+
+  double
+  largest_penetration(const Coupling          &coupling,
+                      const TraceDisplacement &displacement,
+                      const Offset            &offset,
+                      const MPI_Comm           comm)
+  {
+    InterfacePoints point_at(*coupling.interface, displacement, offset, comm);
+    double          largest = 0.;
+    coupling.interface->visit_pairs([&](const unsigned int       s,
+                                        const unsigned int       m,
+                                        const IntegrationPoints &points) {
+      point_at.reinit(s);
+      for (unsigned int q = 0; q < points.size(); ++q)
+        largest = std::max(largest, -coupling.law.gap(point_at(m, points, q)));
+    });
+    return Utilities::MPI::max(largest, comm);
   }
 } // namespace mortise

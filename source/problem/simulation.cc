@@ -2,7 +2,6 @@
 
 #include <mortise/base/error.h>
 #include <mortise/base/interruption.h>
-#include <mortise/problem/adaptive/adaptivity_report.h>
 #include <mortise/problem/contact/contact_start.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/results/points_outside.h>
@@ -183,9 +182,7 @@ namespace mortise
   }
 
   StepSummary
-  Simulation::summarise(const SolvedStep     &solved,
-                        const BoundaryForces &forces,
-                        const StepFields     &fields)
+  Simulation::summarise(const StepEvaluation &evaluation)
   {
     StepSummary result = discretisation->summary();
     if (context.parameters.steps.given())
@@ -206,15 +203,14 @@ namespace mortise
         result.solver->active_sets       = contact->n_sets();
         result.solver->linear_iterations = contact->linear_iterations();
       }
-    evaluate_step(context, *discretisation, solved, fields, result);
-    add_forces(context, bodies, forces, result);
+    evaluate_step(evaluation, result);
     for (unsigned int j = 0; j < preloads->interfaces().size(); ++j)
       result.interfaces[preloads->interfaces()[j]].preload = {
-        preloads->force(j, solved.solution), preloads->shortenings()[j]};
+        preloads->force(j, state.solution), preloads->shortenings()[j]};
     if (adaptivity)
       result.adaptivity = summary_of(*adaptivity,
                                      bodies,
-                                     solved.data.exact().get(),
+                                     evaluation.solved.data.exact().get(),
                                      result.errors);
     field_checks.throw_if_any(context.comm);
     const std::string not_finite = first_not_finite(result);
@@ -247,26 +243,25 @@ namespace mortise
     if (contact)
       next.pressing = contact->active_places();
     next.shortenings = preloads->shortenings_by_interface();
-    StepFields fields;
+    state            = std::move(next);
+    const StepEvaluation evaluation(context,
+                                    *discretisation,
+                                    {data,
+                                     load,
+                                     state.solution,
+                                     contact ? contact->undecided() :
+                                               std::vector<bool>(),
+                                     state.shortenings});
     {
-      const auto       stage = context.log.stage(context.timers, "postprocess");
-      const SolvedStep solved{data,
-                              load,
-                              next.solution,
-                              contact ? contact->undecided() :
-                                        std::vector<bool>(),
-                              next.shortenings};
-      fields = step_fields(context, *discretisation, solved);
-      const BoundaryForces forces(*discretisation, solved, fields.solutions);
+      const auto stage = context.log.stage(context.timers, "postprocess");
       if (adaptivity)
-        learn(solved, forces, fields);
-      summary.steps.push_back(summarise(solved, forces, fields));
+        learn(evaluation);
+      summary.steps.push_back(summarise(evaluation));
     }
-    state = std::move(next);
     if (is_last_cycle())
       steps.accept(report.converged);
     if (writes)
-      write_results(fields);
+      write_results(evaluation);
     if (context.parameters.steps.given() && is_last_cycle())
       print_progress();
   }

@@ -1,15 +1,12 @@
 // The cycles of Simulation: solve, estimate, refine, until the error is small
 // enough.
-#include <mortise/problem/adaptive/adaptivity_report.h>
 #include <mortise/problem/adaptive/dual_solution.h>
 #include <mortise/problem/simulation.h>
 
 namespace mortise
 {
   void
-  Simulation::learn(const SolvedStep     &solved,
-                    const BoundaryForces &forces,
-                    StepFields           &fields)
+  Simulation::learn(const StepEvaluation &evaluation)
   {
     std::optional<DualSolution> dual;
     if (const auto &quantity = adaptivity->quantity())
@@ -18,24 +15,23 @@ namespace mortise
                         *solver,
                         *preloads,
                         *quantity,
-                        fields.solutions,
-                        forces,
+                        evaluation.solutions(),
+                        evaluation.forces(),
                         adaptivity->dual_start(bodies));
     std::vector<InterfaceViolation> broken;
     Residuals                       missing;
     if (!dual)
       {
-        broken  = violations(context, *discretisation, solved, fields);
-        missing = residuals(*discretisation, solved, fields, broken);
+        broken  = violations(evaluation);
+        missing = residuals(evaluation, broken);
       }
-    adaptivity->add(bodies, fields.solutions, dual, std::move(broken), missing);
+    adaptivity->add(
+      bodies, evaluation.solutions(), dual, std::move(broken), missing);
     if (dual && !dual->report.converged)
       {
         report = dual->report;
         report.method += " of the dual problem";
       }
-    fields.estimates =
-      adaptivity->errors().by_cell(adaptivity->quantity().has_value());
   }
 
   void
@@ -64,7 +60,7 @@ namespace mortise
         context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
         discretise();
         step(writes);
-        if (adaptivity->errors().memory().estimate)
+        if (adaptivity->errors().memory.estimate)
           context.log.line("  " + found(*adaptivity, bodies));
       }
   }

@@ -7,24 +7,28 @@
 namespace mortise
 {
   void
-  Simulation::write_results(const StepFields &fields)
+  Simulation::write_results(const StepEvaluation &evaluation)
   {
     // a later cycle may not come to its end, and has the same file
     const bool each_cycle = adaptivity && !context.parameters.steps.given();
     if (!report.converged || each_cycle ||
         (is_last_cycle() && steps.output_due()))
       for (const OutputError &error :
-           files.write(steps.n_done(), steps.time(), *discretisation, fields))
+           files.write(steps.n_done(),
+                       steps.time(),
+                       evaluation,
+                       adaptivity ? adaptivity->errors().by_cell() :
+                                    NumbersByCell()))
         unwritten.push_back(error);
     const unsigned int every = context.parameters.output.checkpoint_every;
     if (every > 0 && report.converged &&
         ((adaptivity ? adaptivity->n_cycles() : steps.n_done()) % every == 0 ||
          steps.finished() || !unwritten.empty())) // it goes no further
-      write_checkpoint(fields);
+      write_checkpoint(evaluation);
   }
 
   void
-  Simulation::write_checkpoint(const StepFields &fields)
+  Simulation::write_checkpoint(const StepEvaluation &evaluation)
   {
     const auto          stage = context.log.stage(context.timers, "checkpoint");
     const Parameters   &parameters = context.parameters;
@@ -43,7 +47,8 @@ namespace mortise
       {
         mortise::write_checkpoint(parameters.output.directory,
                                   to_sections(checkpoint),
-                                  {fields.solutions, fields.multipliers},
+                                  {evaluation.solutions(),
+                                   evaluation.multipliers()},
                                   bodies,
                                   discretisation->interfaces().all(),
                                   context.comm);

@@ -70,67 +70,13 @@ namespace mortise
     dual_start(const Bodies &bodies, bool goes_on);
 
     /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: of a
-    /// quantity, @p violations and @p residuals: without. Collective.
+    /// quantity, @p broken, by interface, and @p residuals: without. Collective.
     void
     add(const Bodies                      &bodies,
         const std::vector<BodySolution>   &solutions,
         const std::optional<DualSolution> &dual,
-        std::vector<InterfaceViolation>    violations,
+        std::vector<InterfaceViolation>    broken,
         const Residuals                   &residuals);
-
-    /// Go on after a cycle with @p given.
-    void
-    resume(EstimateMemory given, CellStates of_cells)
-    {
-      numbers = std::move(given);
-      states  = std::move(of_cells);
-    }
-
-    const EstimateMemory &
-    memory() const
-    {
-      return numbers;
-    }
-
-    CellStates &
-    cells()
-    {
-      return states;
-    }
-
-    const CellStates &
-    cells() const
-    {
-      return states;
-    }
-
-    /// Of the last cycle; of one before resume() there are none.
-    const ErrorSums &
-    sums() const
-    {
-      return sum;
-    }
-
-    /// Likewise, with sizes relative to the solution.
-    const std::vector<InterfaceViolation> &
-    interfaces() const
-    {
-      return violations;
-    }
-
-    /// Likewise: what the quantity lacks, with its sign.
-    const std::optional<double> &
-    correction() const
-    {
-      return signed_error;
-    }
-
-    /// Likewise: is the quantity rounding beside its other components?
-    bool
-    quantity_is_zero() const
-    {
-      return is_zero;
-    }
 
     /// Of all interfaces, relative. A solution is at least as far from the
     /// exact one as from those whose sides are not apart; under contact it is
@@ -144,7 +90,19 @@ namespace mortise
     /// The part of each cell in the error, beside the same as the estimate,
     /// by body and active cell; empty where there is no estimate.
     NumbersByCell
-    by_cell(bool of_quantity) const;
+    by_cell() const;
+
+    /// What a run that is continued has to be given, too.
+    EstimateMemory memory;
+    CellStates     cells;
+
+    // of the last cycle; empty after a run was continued
+    ErrorSums                       sums;
+    std::vector<InterfaceViolation> violations; ///< with relative sizes
+    std::optional<double>
+      correction; ///< what the quantity lacks, with its sign
+    /// Is the quantity rounding beside its other components?
+    bool quantity_is_zero = false;
 
   private:
     /// Relative, and in cells that have slave faces.
@@ -166,14 +124,9 @@ namespace mortise
           const std::vector<BodySolution>   &solutions,
           const std::optional<DualSolution> &dual);
 
-    const double                    accuracy;
-    const MPI_Comm                  comm;
-    EstimateMemory                  numbers;
-    CellStates                      states;
-    std::vector<BodySolution>       earlier, earlier_dual;
-    ErrorSums                       sum;
-    std::vector<InterfaceViolation> violations;
-    std::optional<double>           signed_error;
-    bool                            is_zero = false;
+    const double              accuracy;
+    const MPI_Comm            comm;
+    bool                      of_quantity = false;
+    std::vector<BodySolution> earlier, earlier_dual;
   };
 } // namespace mortise

@@ -12,20 +12,10 @@ namespace mortise
   /// Within which meshes and degrees change.
   struct PlanOptions
   {
-    struct OfBody
-    {
-      /// Can another mesh of its tetrahedra be made?
-      bool         has_geometry = false;
-      unsigned int least_degree = 1;
-      RigidMotion  motion;     ///< see RemeshingOptions
-      unsigned int n_cuts = 0; ///< likewise
-    };
-
-    bool                splits         = true; ///< hexahedra, or new meshes
-    bool                only_splits    = false;
-    unsigned int        largest_degree = max_degree;
-    double              most_unknowns  = 0.;
-    std::vector<OfBody> bodies;
+    RefinementOptions refinement; ///< of tetrahedra apart
+    double            most_unknowns = 0.;
+    /// By body, where another mesh of its tetrahedra can be made.
+    std::vector<std::optional<RemeshingOptions>> remeshing;
   };
 
   struct MeshPlan

@@ -74,9 +74,17 @@ namespace mortise
                                        unsigned int             master,
                                        const IntegrationPoints &points)>;
 
-    /// Clip all pairs, slave by slave. Collective (for the totals).
+    /// Clip all pairs, slave by slave, and set coverage() and report().
+    /// Collective.
     void
-    visit_pairs(const Visitor &visitor);
+    integrate_pairs(const Visitor &visitor);
+
+    /// Clip them again, for another integral of the same points.
+    void
+    visit_pairs(const Visitor &visitor) const
+    {
+      clip(visitor);
+    }
 
     const std::string &
     name() const
@@ -111,14 +119,14 @@ namespace mortise
       return near_masters;
     }
 
-    /// Covered part of the area, by slave face. Valid after visit_pairs().
+    /// Covered part of the area, by slave face. Valid after integrate_pairs().
     const std::vector<double> &
     coverage() const
     {
       return covered_fraction;
     }
 
-    /// Valid after visit_pairs().
+    /// Likewise.
     const InterfaceReport &
     report() const
     {
@@ -142,10 +150,23 @@ namespace mortise
                      PairIntegrator    &integrator,
                      IntegrationPoints &points,
                      Coverage          &coverage) const;
-    void
-    sum_report(const Coverage         &local,
-               double                  worst_error,
-               const dealii::Point<3> &worst_centre);
+    /// What a pass over the pairs finds on this rank.
+    struct Pass
+    {
+      Coverage            sum;
+      std::vector<double> covered; ///< part of the area, by slave face
+      double              worst_error = -1.;
+      dealii::Point<3>    worst_centre;
+      double              clipping_seconds = 0.;
+      std::uint64_t       n_coinciding     = 0;
+      double              sagitta = 0., largest_coverage = 0.;
+    };
+
+    Pass
+    clip(const Visitor &visitor) const;
+    /// Sums of all ranks. Collective.
+    InterfaceReport
+    report_of(const Pass &own) const;
 
     std::string                            interface_name;
     BodySurface                            slave_surface;

@@ -1,5 +1,6 @@
 // How much the sides of an interface break its law between the functions of the
-// multipliers, as an energy: what a coupling that holds only in the mean costs.
+// multipliers: as an energy, what a coupling that holds only in the mean costs;
+// and how deep bodies are inside each other.
 #pragma once
 
 #include <mortise/mortar/interface_points.h>
@@ -45,6 +46,7 @@ namespace mortise
     /// By owned face of the slave and of the master: part of it presses, part
     /// is open.
     std::vector<bool> slave_at_edge, master_at_edge;
+    double            penetration = 0.; ///< largest_penetration()
   };
 
   /// Twice the energy that it takes to mend what is broken, by slave face: the
@@ -60,4 +62,13 @@ namespace mortise
                      const std::vector<std::vector<double>> &tractions,
                      const Offset                           &offset,
                      MPI_Comm                                comm);
+
+  /// The most by which the surfaces overlap at the quadrature points of the
+  /// interface, along the normals of the slave's faces; zero where they do not.
+  /// A length. Clips again. Collective.
+  double
+  largest_penetration(const Coupling          &coupling,
+                      const TraceDisplacement &displacement,
+                      const Offset            &offset,
+                      MPI_Comm                 comm);
 } // namespace mortise

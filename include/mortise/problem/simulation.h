@@ -7,7 +7,6 @@
 #include <mortise/problem/contact/preloads.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/load_steps.h>
-#include <mortise/problem/results/boundary_forces.h>
 #include <mortise/problem/results/field_files.h>
 #include <mortise/problem/results/step_results.h>
 #include <mortise/problem/run_checkpoint.h>
@@ -95,19 +94,15 @@ namespace mortise
     solve(const SceneData &data, SceneLoad &load);
     /// Tell how the cycle changed the solution, and that of a quantity.
     void
-    learn(const SolvedStep     &solved,
-          const BoundaryForces &forces,
-          StepFields           &fields);
+    learn(const StepEvaluation &evaluation);
     StepSummary
-    summarise(const SolvedStep     &solved,
-              const BoundaryForces &forces,
-              const StepFields     &fields);
+    summarise(const StepEvaluation &evaluation);
     void
     print_progress();
     void
-    write_results(const StepFields &fields);
+    write_results(const StepEvaluation &evaluation);
     void
-    write_checkpoint(const StepFields &fields);
+    write_checkpoint(const StepEvaluation &evaluation);
     void
     write_summary();
 

@@ -14,7 +14,7 @@ namespace mortise
   Adaptivity::degrees() const
   {
     CellDegrees result;
-    for (const auto &of_body : of_cycle.cells())
+    for (const auto &of_body : of_cycle.cells)
       {
         result.emplace_back();
         for (const CellState &state : of_body)
@@ -29,7 +29,7 @@ namespace mortise
     for (const auto &body : bodies)
       {
         const unsigned int b     = body->index;
-        auto              &cells = of_cycle.cells();
+        auto              &cells = of_cycle.cells;
         if (!next.splits.empty())
           {
             const auto &split = next.splits[b];
@@ -75,32 +75,32 @@ namespace mortise
     if (reached() || !limit().empty())
       return;
     const AdaptivityParameters &given = run.parameters.adaptivity;
-    PlanOptions                 options{given.splits(),
-                        given.strategy == "h",
-                        given.largest_degree,
-                        given.most_unknowns,
-                                        {}};
+    PlanOptions                 options{
+                      {given.splits(), given.strategy == "h", given.largest_degree, {}},
+      given.most_unknowns,
+                      {}};
     for (const auto &body : bodies)
       {
         const BodyParameters &of_body = run.parameters.bodies[body->index];
         const MeshParameters &mesh    = of_body.mesh;
-        options.bodies.push_back({body->mesh.tetrahedra &&
-                                    mesh.source == "file" &&
-                                    is_geometry_file(mesh.file),
-                                  *given_degrees(of_body).begin(),
-                                  rigid_motion(mesh),
-                                  mesh.refinements});
-        if (n_cycles() == 1 && given.splits() && body->mesh.tetrahedra &&
-            !options.bodies.back().has_geometry)
+        auto                 &own     = options.remeshing.emplace_back();
+        if (body->mesh.tetrahedra && mesh.source == "file" &&
+            is_geometry_file(mesh.file))
+          own = RemeshingOptions{0.,
+                                 0,
+                                 *given_degrees(of_body).begin(),
+                                 rigid_motion(mesh),
+                                 mesh.refinements};
+        if (n_cycles() == 1 && given.splits() && body->mesh.tetrahedra && !own)
           run.log.line("  body " + body->name +
                        ": tetrahedra without a geometry keep their size, "
                        "degrees alone rise");
       }
     std::optional<double> allowed;
-    if (of_cycle.memory().estimate)
+    if (of_cycle.memory.estimate)
       allowed =
-        of_cycle.memory().allowed * (goal ? target() : target() * target());
-    next = plan_meshes(bodies, options, allowed, n_meshes, of_cycle.cells());
+        of_cycle.memory.allowed * (goal ? target() : target() * target());
+    next = plan_meshes(bodies, options, allowed, n_meshes, of_cycle.cells);
     if (!next.meshes.empty())
       ++n_meshes;
   }
@@ -109,7 +109,7 @@ namespace mortise
   Adaptivity::limit() const
   {
     const AdaptivityParameters &given = run.parameters.adaptivity;
-    if (of_cycle.quantity_is_zero())
+    if (of_cycle.quantity_is_zero)
       return "Quantity = " + goal->name +
              " is zero beside the other components, which has no "
              "relative error";

@@ -85,11 +85,11 @@ namespace mortise
   void
   Adaptivity::keep(const Bodies &bodies)
   {
-    kept = {goal ? goal->name : "", n_meshes, of_cycle.memory(), {}, {}};
+    kept = {goal ? goal->name : "", n_meshes, of_cycle.memory, {}, {}};
     kept.sizes.resize(bodies.size());
     for (const auto &body : bodies)
       {
-        kept.cells.push_back(gather(*body, of_cycle.cells()[body->index]));
+        kept.cells.push_back(gather(*body, of_cycle.cells[body->index]));
         if (sizes.empty() || sizes[body->index] == nullptr)
           continue;
         for (const SizeField::Cell &cell : sizes[body->index]->all())
@@ -115,8 +115,8 @@ namespace mortise
                             " with the checkpoint of a run with " +
                             in_quotes(given.quantity),
                           "the same, or a run from the beginning");
-    n_meshes = given.n_meshes;
-    of_cycle.resume(given.memory, {});
+    n_meshes        = given.n_meshes;
+    of_cycle.memory = given.memory;
     for (const auto &of_body : given.sizes)
       {
         std::vector<SizeField::Cell> cells;
@@ -166,17 +166,17 @@ namespace mortise
                                    " has other cells; allowed: the meshes with "
                                    "which it was written",
                  run.comm);
-    of_cycle.resume(kept.memory, std::move(states));
+    of_cycle.cells = std::move(states);
   }
 
   void
   Adaptivity::restore(const Bodies                    &bodies,
                       const std::vector<BodySolution> &solutions)
   {
-    set_coefficients(bodies, solutions, of_cycle.cells());
+    set_coefficients(bodies, solutions, of_cycle.cells);
     std::string other;
     for_each_cell(bodies,
-                  of_cycle.cells(),
+                  of_cycle.cells,
                   [&](const Body &body, const auto &, CellState &state) {
                     const auto same = [](const auto &a, const auto &b) {
                       return a.size() == b.size();

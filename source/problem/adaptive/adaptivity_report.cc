@@ -1,4 +1,4 @@
-#include <mortise/problem/adaptive/adaptivity_report.h>
+#include <mortise/problem/adaptive/adaptivity.h>
 #include <mortise/problem/adaptive/dual_solution.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace mortise
     std::string
     worst_part(const CycleErrors &errors, const Bodies &bodies)
     {
-      const ErrorSums &sums = errors.sums();
+      const ErrorSums &sums = errors.sums;
       if (!(sums.all > 0.))
         return "";
       std::string  name;
@@ -34,7 +34,7 @@ namespace mortise
             worst = part;
             name  = "body " + bodies[b]->name;
           }
-      for (const InterfaceViolation &of : errors.interfaces())
+      for (const InterfaceViolation &of : errors.violations)
         if (const double part = of.size * of.size; part > worst)
           {
             worst = part;
@@ -55,7 +55,7 @@ namespace mortise
   {
     const CycleErrors    &of_cycle = adaptivity.errors();
     const auto           &goal     = adaptivity.quantity();
-    const auto           &estimate = of_cycle.memory().estimate;
+    const auto           &estimate = of_cycle.memory.estimate;
     AdaptivitySummary     result;
     std::optional<double> error;
     result.target   = adaptivity.target();
@@ -64,10 +64,10 @@ namespace mortise
       error = errors->energy;
     if (goal)
       {
-        const double value = of_cycle.memory().value;
+        const double value = of_cycle.memory.value;
         result.quantity    = goal->name;
         result.value       = value;
-        result.correction  = of_cycle.correction();
+        result.correction  = of_cycle.correction;
         if (exact)
           error = std::fabs(exact_value(*goal, bodies, *exact) - value) /
                   (value != 0. ? std::fabs(value) : 1.);
@@ -85,7 +85,7 @@ namespace mortise
   std::string
   found(const Adaptivity &adaptivity, const Bodies &bodies)
   {
-    const EstimateMemory &memory = adaptivity.errors().memory();
+    const EstimateMemory &memory = adaptivity.errors().memory;
     const auto           &goal   = adaptivity.quantity();
     return (goal ? goal->name + " = " + RunLog::number(memory.value) + ", " :
                    std::string()) +
@@ -101,7 +101,7 @@ namespace mortise
   std::string
   missed(const Adaptivity &adaptivity)
   {
-    const EstimateMemory &memory = adaptivity.errors().memory();
+    const EstimateMemory &memory = adaptivity.errors().memory;
     return "The error is " +
            (memory.estimate ?
               "estimated as " + RunLog::number(*memory.estimate) +

@@ -4,7 +4,6 @@
 #include <mortise/base/error.h>
 #include <mortise/body/boundary_faces.h>
 #include <mortise/mortar/nodal_block.h>
-#include <mortise/mortar/penetration.h>
 #include <mortise/problem/results/contact_results.h>
 #include <mortise/problem/support/rigid_support.h>
 #include <mortise/problem/support/side_faces.h>
@@ -36,45 +35,25 @@ namespace mortise
       return where.centre.norm() + where.size;
     }
 
-    /// Of all interfaces, by owned multiplier.
-    struct ContactState
-    {
-      ContactState(const Discretisation &discretisation,
-                   const SolvedStep     &solved)
-        : pressure(solved.solution.multiplier)
-        , gap(discretisation.gaps(solved.load, solved.solution))
-        , status(pressure)
-      {
-        const std::vector<bool> &active =
-          *discretisation.linear_system().active;
-        for (unsigned int i = 0; i < active.size(); ++i)
-          status.begin()[i] = active[i] ? 1. : 0.;
-      }
-
-      const Vector &pressure;
-      Vector        gap;
-      Vector        status; ///< one where it presses, else zero
-    };
-
     ContactSummary
-    contact_summary(const Coupling          &coupling,
-                    const ContactState      &state,
-                    const std::vector<bool> &undecided,
-                    const RunContext        &run)
+    contact_summary(const StepEvaluation &step, const Coupling &coupling)
     {
-      const MPI_Comm     comm  = run.comm;
-      const auto        &about = run.parameters.output.moments_about;
+      const MPI_Comm           comm  = step.run.comm;
+      const auto              &about = step.run.parameters.output.moments_about;
+      const Vector            &pressures = step.solved.solution.multiplier;
+      const std::vector<bool> &active_ones =
+        *step.discretisation.linear_system().active;
       const unsigned int first = coupling.multipliers->range().first;
       ContactSummary     result;
       Tensor<1, dim>     force, moment;
       double             work = 0., least = std::numeric_limits<double>::max();
       for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
         {
-          const NormalMultiplier &of     = coupling.normal_multipliers[k];
-          const bool              active = state.status.begin()[first + k] > 0.;
-          const double            pressure = state.pressure.begin()[first + k];
-          least = std::min(least, state.gap.begin()[first + k]);
-          result.undecided += undecided[first + k] ? 1 : 0;
+          const NormalMultiplier &of       = coupling.normal_multipliers[k];
+          const bool              active   = active_ones[first + k];
+          const double            pressure = pressures.begin()[first + k];
+          least = std::min(least, step.gaps().begin()[first + k]);
+          result.undecided += step.solved.undecided[first + k] ? 1 : 0;
           ++(active ? result.active : result.inactive);
           if (!active)
             continue;
@@ -83,7 +62,7 @@ namespace mortise
           force -= pressure * of.normal;
           moment -= pressure * of.moment;
         }
-      for (const auto &of_face : values_by_row(coupling, state.pressure, comm))
+      for (const auto &of_face : values_by_row(coupling, pressures, comm))
         for (const double pressure : of_face)
           result.pressure_max = std::max(result.pressure_max, pressure);
       result.area          = Utilities::MPI::sum(result.area, comm);
@@ -145,30 +124,27 @@ namespace mortise
 
     /// How far the sides of interface @p i move against each other at most. Collective.
     double
-    relative_motion(const RunContext     &run,
-                    const Discretisation &discretisation,
-                    const unsigned int    i,
-                    const StepFields     &fields)
+    relative_motion(const StepEvaluation &step, const unsigned int i)
     {
-      const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
-      MotionRange                range;
+      const InterfaceParameters &sides =
+        step.discretisation.interfaces().sides()[i];
+      MotionRange range;
       for (const SideParameters *side : {&sides.slave, &sides.master})
-        range.add(side_faces(discretisation.bodies(), *side, ""),
-                  fields.solutions[side->body].displacement);
-      return range.width(run.comm);
+        range.add(side_faces(step.discretisation.bodies(), *side, ""),
+                  step.solutions()[side->body].displacement);
+      return range.width(step.run.comm);
     }
 
     /// Throws InputError where a face without a partner could have met one.
     void
-    check_partners(const RunContext     &run,
-                   const Discretisation &discretisation,
+    check_partners(const StepEvaluation &step,
                    const unsigned int    i,
                    const double          moved)
     {
-      const InterfaceParameters &sides = discretisation.interfaces().sides()[i];
-      const InterfaceHandler    &interface =
-        *discretisation.interfaces().all()[i].interface;
-      std::ostringstream text;
+      const Pairing             &interfaces = step.discretisation.interfaces();
+      const InterfaceParameters &sides      = interfaces.sides()[i];
+      const InterfaceHandler    &interface  = *interfaces.all()[i].interface;
+      std::ostringstream         text;
       for (unsigned int s = 0; s < interface.coverage().size(); ++s)
         if (const SurfaceFace &face = interface.slave().faces[s];
             interface.coverage()[s] < 0.99 && text.str().empty() &&
@@ -184,37 +160,27 @@ namespace mortise
                << RunLog::number(sides.search_distance.of(face.size))
                << ", so that contact there would go unseen; allowed: a larger "
                   "Search distance, or smaller displacements";
-      throw_if_any(text.str(), run.comm);
+      throw_if_any(text.str(), step.run.comm);
     }
   } // namespace
 
   void
-  add_contact(const RunContext     &run,
-              const Discretisation &discretisation,
-              const SolvedStep     &solved,
-              const StepFields     &fields,
-              StepSummary          &summary)
+  add_contact(const StepEvaluation &step, StepSummary &summary)
   {
-    const auto             &interfaces = discretisation.interfaces().all();
-    const ContactState      state(discretisation, solved);
-    const TraceDisplacement displacement =
-      discretisation.trace_displacement(solved.load, fields.solutions);
-    for (unsigned int i = 0; i < interfaces.size(); ++i)
+    const Pairing &interfaces = step.discretisation.interfaces();
+    RunLog        &log        = step.run.log;
+    for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       {
-        if (interfaces[i].law.is_one_sided())
+        if (interfaces.all()[i].law.is_one_sided())
           {
-            const double moved =
-              relative_motion(run, discretisation, i, fields);
-            check_partners(run, discretisation, i, moved);
-            ContactSummary contact =
-              contact_summary(interfaces[i], state, solved.undecided, run);
-            const InterfaceParameters &given =
-              discretisation.interfaces().sides()[i];
-            contact.motion_max      = moved;
-            contact.penetration_max = largest_penetration(
-              interfaces[i], displacement, solved.data.offset(given), run.comm);
+            const double moved = relative_motion(step, i);
+            check_partners(step, i, moved);
+            ContactSummary contact = contact_summary(step, interfaces.all()[i]);
+            const InterfaceParameters &given = interfaces.sides()[i];
+            contact.motion_max               = moved;
+            contact.penetration_max          = step.penetration(i);
             if (contact.undecided > 0)
-              run.log.warning(
+              log.warning(
                 "interface " + given.name + ": at " +
                 std::to_string(contact.undecided) + " of " +
                 std::to_string(contact.active + contact.inactive) +
@@ -224,8 +190,8 @@ namespace mortise
                 contact.penetration_max >
                   rounding_of_places *
                     largest_coordinate(
-                      *discretisation.bodies()[given.slave.body]))
-              run.log.warning(
+                      *step.discretisation.bodies()[given.slave.body]))
+              log.warning(
                 "interface " + given.name + ": the bodies overlap by up to " +
                 RunLog::number(contact.penetration_max) +
                 " between nodes, of " + RunLog::number(moved) +
@@ -236,33 +202,35 @@ namespace mortise
       }
   }
 
-  std::vector<std::vector<std::vector<double>>>
-  contact_fields(const RunContext     &run,
-                 const Discretisation &discretisation,
-                 const SolvedStep     &solved)
+  std::vector<std::vector<double>>
+  contact_fields(const StepEvaluation &step, const unsigned int i)
   {
-    const ContactState                            state(discretisation, solved);
-    std::vector<std::vector<std::vector<double>>> result;
-    for (const Coupling &coupling : discretisation.interfaces().all())
+    const Coupling &coupling = step.discretisation.interfaces().all()[i];
+    if (!coupling.law.is_one_sided())
+      return {};
+    Vector                   status = step.solved.solution.multiplier;
+    const std::vector<bool> &active =
+      *step.discretisation.linear_system().active;
+    std::transform(active.begin(),
+                   active.end(),
+                   status.begin(),
+                   [](const bool is) { return is ? 1. : 0.; });
+    const auto &traces = coupling.interface->slave().traces;
+    std::vector<std::vector<double>> by_face(traces.size());
+    for (const Vector *field : {&step.solved.solution.multiplier,
+                                &step.gaps(),
+                                &std::as_const(status)})
       {
-        auto &by_face = result.emplace_back();
-        if (!coupling.law.is_one_sided())
-          continue;
-        const auto &traces = coupling.interface->slave().traces;
-        by_face.resize(traces.size());
-        for (const Vector *field : {&state.pressure, &state.gap, &state.status})
+        const auto values = values_by_row(coupling, *field, step.run.comm);
+        for (unsigned int s = 0; s < traces.size(); ++s)
           {
-            const auto values = values_by_row(coupling, *field, run.comm);
-            for (unsigned int s = 0; s < traces.size(); ++s)
-              {
-                const auto &functions =
-                  face_nodal_basis(traces[s].shape, traces[s].degree).functions;
-                for (unsigned int k = 0; k < functions.m(); ++k)
-                  by_face[s].push_back(std::inner_product(
-                    values[s].begin(), values[s].end(), &functions(k, 0), 0.));
-              }
+            const auto &functions =
+              face_nodal_basis(traces[s].shape, traces[s].degree).functions;
+            for (unsigned int k = 0; k < functions.m(); ++k)
+              by_face[s].push_back(std::inner_product(
+                values[s].begin(), values[s].end(), &functions(k, 0), 0.));
           }
       }
-    return result;
+    return by_face;
   }
 } // namespace mortise

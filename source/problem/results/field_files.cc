@@ -2,6 +2,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/output/fields.h>
+#include <mortise/problem/results/contact_results.h>
 #include <mortise/problem/results/field_files.h>
 
 #include <algorithm>
@@ -73,8 +74,8 @@ namespace mortise
   std::vector<OutputError>
   FieldFiles::write(const unsigned int    step,
                     const double          time,
-                    const Discretisation &discretisation,
-                    const StepFields     &fields)
+                    const StepEvaluation &evaluation,
+                    const NumbersByCell  &estimates)
   {
     std::vector<OutputError> unwritten;
     const std::string       &directory = run.parameters.output.directory;
@@ -89,7 +90,7 @@ namespace mortise
                                    wants("stress"),
                                    wants("pressure"),
                                    wants("traction")};
-    const Bodies        &bodies = discretisation.bodies();
+    const Bodies        &bodies = evaluation.discretisation.bodies();
     steps.emplace_back(step, time);
     if (selection.displacement || selection.stress || selection.pressure ||
         wants("degree") || wants("estimate"))
@@ -98,16 +99,16 @@ namespace mortise
           std::vector<CellField> of_cells;
           if (wants("degree"))
             of_cells.push_back({"degree", degrees(*body)});
-          if (wants("estimate") && !fields.estimates.empty())
-            of_cells.push_back({"estimate", fields.estimates[body->index]});
+          if (wants("estimate") && !estimates.empty())
+            of_cells.push_back({"estimate", estimates[body->index]});
           write_body_fields(*body,
-                            fields.solutions[body->index],
+                            evaluation.solutions()[body->index],
                             selection,
                             of_cells,
                             directory + "/" + file_name(body->name, step));
           write_collection(body->name);
         });
-    const Pairing &interfaces = discretisation.interfaces();
+    const Pairing &interfaces = evaluation.discretisation.interfaces();
     if (selection.traction)
       for (unsigned int i = 0; i < interfaces.all().size(); ++i)
         try_output(unwritten, [&] {
@@ -115,11 +116,9 @@ namespace mortise
           const unsigned int slave    = interfaces.sides()[i].slave.body;
           write_interface_fields(*bodies[slave],
                                  coupling,
-                                 fields.tractions[i],
-                                 fields.contact.empty() ?
-                                   std::vector<std::vector<double>>() :
-                                   fields.contact[i],
-                                 fields.solutions[slave].displacement,
+                                 evaluation.tractions()[i],
+                                 contact_fields(evaluation, i),
+                                 evaluation.solutions()[slave].displacement,
                                  directory + "/" +
                                    file_name(coupling.interface->name(), step));
           write_collection(coupling.interface->name());

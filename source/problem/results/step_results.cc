@@ -14,74 +14,26 @@ namespace mortise
 {
   using namespace dealii;
 
-  StepFields
-  step_fields(const RunContext     &run,
-              const Discretisation &discretisation,
-              const SolvedStep     &solved)
-  {
-    StepFields fields;
-    fields.solutions = discretisation.solutions(solved.load, solved.solution);
-    for (const Coupling &coupling : discretisation.interfaces().all())
-      {
-        const Vector &multiplier = solved.solution.multiplier;
-        fields.tractions.push_back(
-          multiplier_on_faces(coupling, multiplier, run.comm));
-        fields.multipliers.push_back(
-          multiplier_coefficients(coupling, multiplier, run.comm));
-      }
-    const auto &asked = run.parameters.output.fields;
-    if (discretisation.interfaces().have_contact() &&
-        std::find(asked.begin(), asked.end(), "traction") != asked.end())
-      fields.contact = contact_fields(run, discretisation, solved);
-    return fields;
-  }
-
-  namespace
-  {
-    /// @p offset, which may be null, and @p shortening.
-    std::function<double(const Point<dim> &)>
-    offset_with(const std::function<double(const Point<dim> &)> &offset,
-                const double                                     shortening)
-    {
-      if (shortening == 0.)
-        return offset;
-      return [offset, shortening](const Point<dim> &x) {
-        return (offset ? offset(x) : 0.) + shortening;
-      };
-    }
-  } // namespace
-
   std::vector<InterfaceViolation>
-  violations(const RunContext     &run,
-             const Discretisation &discretisation,
-             const SolvedStep     &solved,
-             const StepFields     &fields)
+  violations(const StepEvaluation &step)
   {
-    const Pairing          &interfaces = discretisation.interfaces();
-    const TraceDisplacement displacement =
-      discretisation.trace_displacement(solved.load, fields.solutions);
+    const Bodies  &bodies     = step.discretisation.bodies();
+    const Pairing &interfaces = step.discretisation.interfaces();
     std::vector<InterfaceViolation> result;
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       {
-        const InterfaceParameters &given = interfaces.sides()[i];
-        const Violations           broken =
-          violation_energies(interfaces.all()[i],
-                             displacement,
-                             fields.tractions[i],
-                             offset_with(solved.data.offset(given),
-                                         solved.shortenings[i]),
-                             run.comm);
-        const InterfaceHandler &interface = *interfaces.all()[i].interface;
-        const auto             &cells     = interface.slave().cells;
+        const InterfaceParameters &given     = interfaces.sides()[i];
+        const Violations          &broken    = step.violation(i);
+        const InterfaceHandler    &interface = *interfaces.all()[i].interface;
+        const auto                &cells     = interface.slave().cells;
         InterfaceViolation of{given.name, 0., given.slave.body, {}, {}, {}};
-        of.of_cells.resize(
-          discretisation.bodies()[of.body]->triangulation().n_active_cells(),
-          0.);
+        of.of_cells.resize(bodies[of.body]->triangulation().n_active_cells(),
+                           0.);
         for (unsigned int s = 0; s < cells.size(); ++s)
           of.of_cells[cells[s]->active_cell_index()] += broken.energies[s];
         of.size             = std::sqrt(Utilities::MPI::sum(
           std::accumulate(broken.energies.begin(), broken.energies.end(), 0.),
-          run.comm));
+          step.run.comm));
         const auto add_edge = [&](const unsigned int       body,
                                   const BodySurface       &surface,
                                   const std::vector<bool> &at_edge) {
@@ -101,37 +53,33 @@ namespace mortise
   }
 
   Residuals
-  residuals(const Discretisation                  &discretisation,
-            const SolvedStep                      &solved,
-            const StepFields                      &fields,
+  residuals(const StepEvaluation                  &step,
             const std::vector<InterfaceViolation> &interfaces)
   {
+    const SceneData      &given = step.solved.data;
     std::vector<BodyData> data;
-    for (const auto &body : discretisation.bodies())
-      data.push_back(
-        {solved.data.loads(*body), solved.data.dirichlet(*body), {}});
+    for (const auto &body : step.discretisation.bodies())
+      data.push_back({given.loads(*body), given.dirichlet(*body), {}});
     for (const InterfaceViolation &of : interfaces)
       for (const auto &[body, tractions] : of.tractions)
         data[body].interfaces.push_back(&tractions);
-    return residuals(discretisation.bodies(), fields.solutions, data);
+    return residuals(step.discretisation.bodies(), step.solutions(), data);
   }
 
   namespace
   {
     ErrorSummary
-    errors_of(const Discretisation &discretisation,
-              const ExactSolution  &exact,
-              const StepFields     &fields)
+    errors_of(const StepEvaluation &step, const ExactSolution &exact)
     {
-      const Bodies        &bodies     = discretisation.bodies();
-      const Pairing       &interfaces = discretisation.interfaces();
+      const Bodies        &bodies     = step.discretisation.bodies();
+      const Pairing       &interfaces = step.discretisation.interfaces();
       const SolutionErrors errors =
-        solution_errors(bodies, fields.solutions, exact);
+        solution_errors(bodies, step.solutions(), exact);
       ErrorSummary result;
       result.displacement_l2 = errors.displacement_l2;
       result.displacement_h1 = errors.displacement_h1;
       result.energy          = errors.energy;
-      if (discretisation.linear_system().mixed())
+      if (step.discretisation.linear_system().mixed())
         result.pressure_l2 = errors.pressure_l2;
       if (interfaces.all().empty())
         return result;
@@ -140,70 +88,59 @@ namespace mortise
         tied.push_back(
           {interfaces.sides()[i].slave.body, interfaces.given_slave(i)});
       result.multiplier_l2 = multiplier_error(
-        bodies, interfaces.all(), tied, fields.tractions, exact);
+        bodies, interfaces.all(), tied, step.tractions(), exact);
       return result;
     }
 
   } // namespace
 
   void
-  evaluate_step(const RunContext     &run,
-                const Discretisation &discretisation,
-                const SolvedStep     &solved,
-                const StepFields     &fields,
-                StepSummary          &summary)
+  evaluate_step(const StepEvaluation &step, StepSummary &summary)
   {
-    const Bodies        &bodies     = discretisation.bodies();
-    const auto          &interfaces = discretisation.interfaces().all();
-    const auto          &point      = run.parameters.output.moments_about;
-    const Tensor<1, dim> about({point[0], point[1], point[2]});
+    const Bodies           &bodies     = step.discretisation.bodies();
+    const auto             &interfaces = step.discretisation.interfaces().all();
+    const OutputParameters &asked      = step.run.parameters.output;
+    const auto             &point      = asked.moments_about;
+    const Point<dim>        about(point[0], point[1], point[2]);
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
-        const Extremes largest = extremes(*bodies[b], fields.solutions[b]);
+        const Extremes largest = extremes(*bodies[b], step.solutions()[b]);
         summary.bodies[b].displacement_max = largest.displacement;
         summary.bodies[b].von_mises_max    = largest.von_mises;
       }
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       {
-        const Resultants carried =
-          resultants(interfaces[i], solved.solution.multiplier, run.comm);
-        InterfaceSummary &of = summary.interfaces[i];
-        of.force             = components(carried.force);
+        const Resultants  carried = resultants(interfaces[i],
+                                              step.solved.solution.multiplier,
+                                              step.run.comm);
+        InterfaceSummary &of      = summary.interfaces[i];
+        of.force                  = components(carried.force);
         of.moment =
           components(carried.moment - cross_product_3d(about, carried.force));
         of.force_residual  = carried.force_residual;
         of.moment_residual = carried.moment_residual;
       }
-    if (discretisation.interfaces().have_contact())
-      add_contact(run, discretisation, solved, fields, summary);
-    if (const auto &exact = solved.data.exact())
-      summary.errors = errors_of(discretisation, *exact, fields);
-    for (const PointQuantity &quantity : run.parameters.output.points)
+    add_contact(step, summary);
+    if (const auto &exact = step.solved.data.exact())
+      summary.errors = errors_of(step, *exact);
+    for (const PointQuantity &quantity : asked.points)
       {
         const auto value =
           point_value(*bodies[quantity.body],
-                      fields.solutions[quantity.body].displacement,
+                      step.solutions()[quantity.body].displacement,
                       quantity.point);
         summary.quantities.emplace_back(quantity.name,
                                         value ? components(*value) :
                                                 std::vector<double>{});
       }
-  }
-
-  void
-  add_forces(const RunContext     &run,
-             const Bodies         &bodies,
-             const BoundaryForces &forces,
-             StepSummary          &summary)
-  {
-    const auto &about   = run.parameters.output.moments_about;
-    summary.equilibrium = forces.equilibrium();
-    for (const ResultantQuantity &quantity : run.parameters.output.resultants)
+    summary.equilibrium = step.forces().equilibrium();
+    for (const ResultantQuantity &quantity : asked.resultants)
       {
         const ForceAndMoment on_boundary =
-          forces.on(quantity.body,
-                    bodies[quantity.body]->boundary_id(quantity.boundary, ""),
-                    Point<dim>(about[0], about[1], about[2]));
+          step.forces().on(quantity.body,
+                           bodies[quantity.body]->boundary_id(quantity.boundary,
+                                                              ""),
+                           about);
         summary.quantities.emplace_back(quantity.name,
                                         components(on_boundary.force));
         summary.quantities.emplace_back(quantity.name + ", moment",

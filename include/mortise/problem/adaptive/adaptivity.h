@@ -4,6 +4,7 @@
 
 #include <mortise/adapt/cycle_errors.h>
 #include <mortise/adapt/mesh_plan.h>
+#include <mortise/output/summary.h>
 #include <mortise/problem/adaptive/kept_cycles.h>
 #include <mortise/problem/input/quantity.h>
 #include <mortise/problem/input/run_context.h>
@@ -54,7 +55,7 @@ namespace mortise
     unsigned int
     n_cycles() const
     {
-      return of_cycle.memory().n_cycles;
+      return of_cycle.memory.n_cycles;
     }
 
     double
@@ -95,7 +96,7 @@ namespace mortise
     bool
     reached() const
     {
-      const auto &at_most = of_cycle.memory().at_most;
+      const auto &at_most = of_cycle.memory.at_most;
       return at_most && *at_most <= met_at();
     }
 
@@ -157,4 +158,19 @@ namespace mortise
     std::vector<std::shared_ptr<const SizeField>> sizes;
     KeptCycles                                    kept;
   };
+
+  /// The last cycle; @p exact may be null, @p errors are those of the whole solution. Collective.
+  AdaptivitySummary
+  summary_of(const Adaptivity                  &adaptivity,
+             const Bodies                      &bodies,
+             const ExactSolution               *exact,
+             const std::optional<ErrorSummary> &errors);
+
+  /// Estimate and target, in words.
+  std::string
+  found(const Adaptivity &adaptivity, const Bodies &bodies);
+
+  /// That the target is not reached, why, and what was.
+  std::string
+  missed(const Adaptivity &adaptivity);
 } // namespace mortise

@@ -3,8 +3,9 @@
 // gathers them.
 #pragma once
 
+#include <mortise/adapt/cell_states.h>
 #include <mortise/output/whole_file.h>
-#include <mortise/problem/results/step_results.h>
+#include <mortise/problem/results/step_evaluation.h>
 
 #include <utility>
 #include <vector>
@@ -20,12 +21,12 @@ namespace mortise
     {}
 
     /// Write what was asked for, as step @p step at @p time. Returns what could
-    /// not be written. Collective.
+    /// not be written. @p estimates: CycleErrors::by_cell(), or none. Collective.
     std::vector<OutputError>
     write(unsigned int          step,
           double                time,
-          const Discretisation &discretisation,
-          const StepFields     &fields);
+          const StepEvaluation &evaluation,
+          const NumbersByCell  &estimates);
 
     /// Steps and times that were written.
     const std::vector<std::pair<unsigned int, double>> &

@@ -2,7 +2,7 @@
 // which stand while loads change. Other meshes need another one.
 #pragma once
 
-#include <mortise/mortar/penetration.h>
+#include <mortise/mortar/interface_points.h>
 #include <mortise/output/checkpoint.h>
 #include <mortise/problem/scene/pairing.h>
 #include <mortise/problem/scene/scene_spaces.h>

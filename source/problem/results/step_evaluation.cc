@@ -1,0 +1,114 @@
+#include <mortise/problem/results/step_evaluation.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// What @p value has, from @p make the first time.
+    template <typename T, typename Make>
+    const T &
+    once(std::optional<T> &value, const Make &make)
+    {
+      if (!value)
+        value.emplace(make());
+      return *value;
+    }
+
+    /// @p of(coupling, multiplier, comm) for all interfaces.
+    template <typename Of>
+    StepEvaluation::OnFaces
+    on_all_faces(const StepEvaluation &step, const Of &of)
+    {
+      StepEvaluation::OnFaces result;
+      for (const Coupling &coupling : step.discretisation.interfaces().all())
+        result.push_back(
+          of(coupling, step.solved.solution.multiplier, step.run.comm));
+      return result;
+    }
+  } // namespace
+
+  const std::vector<BodySolution> &
+  StepEvaluation::solutions() const
+  {
+    return once(by_body, [&] {
+      return discretisation.solutions(solved.load, solved.solution);
+    });
+  }
+
+  const StepEvaluation::OnFaces &
+  StepEvaluation::multipliers() const
+  {
+    return once(coefficients,
+                [&] { return on_all_faces(*this, multiplier_coefficients); });
+  }
+
+  const StepEvaluation::OnFaces &
+  StepEvaluation::tractions() const
+  {
+    return once(on_faces,
+                [&] { return on_all_faces(*this, multiplier_on_faces); });
+  }
+
+  const Vector &
+  StepEvaluation::gaps() const
+  {
+    return once(all_gaps, [&] {
+      return discretisation.gaps(solved.load, solved.solution);
+    });
+  }
+
+  const TraceDisplacement &
+  StepEvaluation::traces() const
+  {
+    return once(on_traces, [&] {
+      return discretisation.trace_displacement(solved.load, solutions());
+    });
+  }
+
+  const BoundaryForces &
+  StepEvaluation::forces() const
+  {
+    return once(at_boundaries, [&] {
+      return BoundaryForces(discretisation, solved, solutions());
+    });
+  }
+
+  Offset
+  StepEvaluation::offset(const unsigned int i) const
+  {
+    const Offset given =
+      solved.data.offset(discretisation.interfaces().sides()[i]);
+    const double shortening =
+      solved.shortenings.empty() ? 0. : solved.shortenings[i];
+    if (shortening == 0.)
+      return given;
+    return [given, shortening](const Point<dim> &x) {
+      return (given ? given(x) : 0.) + shortening;
+    };
+  }
+
+  const Violations &
+  StepEvaluation::violation(const unsigned int i) const
+  {
+    return once(of_points[i], [&] {
+      return violation_energies(discretisation.interfaces().all()[i],
+                                traces(),
+                                tractions()[i],
+                                offset(i),
+                                run.comm);
+    });
+  }
+
+  double
+  StepEvaluation::penetration(const unsigned int i) const
+  {
+    return of_points[i] ?
+             of_points[i]->penetration :
+             largest_penetration(discretisation.interfaces().all()[i],
+                                 traces(),
+                                 offset(i),
+                                 run.comm);
+  }
+} // namespace mortise
