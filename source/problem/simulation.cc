@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 namespace mortise
@@ -24,6 +25,18 @@ namespace mortise
       "Force, Moment or a Displacement other than zero on a boundary; Body force, Gravity "
       "with a Density, Temperature with a Thermal expansion in a body; Offset or Preload of "
       "an interface";
+
+    /// Do smaller steps help where one does not converge?
+    bool
+    is_nonlinear(const Parameters &parameters)
+    {
+      return parameters.steps.given() && !parameters.adaptivity.target_error &&
+             std::any_of(parameters.interfaces.begin(),
+                         parameters.interfaces.end(),
+                         [](const InterfaceParameters &interface) {
+                           return interface.law == Law::contact;
+                         });
+    }
 
     /// Are all displacements of @p step rounding beside the bodies?
     bool
@@ -45,8 +58,8 @@ namespace mortise
                          const MPI_Comm    comm)
     : parameters(with_tolerance(given))
     , context{parameters, log, timers, comm}
-    , steps(parameters.steps, false)
-    , files(context)
+    , steps(parameters.steps, is_nonlinear(parameters))
+    , output(context)
   {
     summary.program = program_info(Utilities::MPI::n_mpi_processes(comm));
     summary.title   = parameters.title;
@@ -79,134 +92,39 @@ namespace mortise
   void
   Simulation::discretise()
   {
-    const bool first = discretisation == nullptr;
+    const bool first = equations == nullptr;
     if (bodies.empty())
       create_meshes();
-    if (adaptivity && !summary.steps.empty())
-      extend_search();
     const SceneData data(context.parameters, steps.next(), field_checks);
     if (!state.pressing && restart.empty())
       state.pressing = contact_start(context, steps.next(), bodies);
+    equations.reset();
     // meshes of the last step do not suit the next one
-    const bool again =
-      adaptivity && adaptivity->n_cycles() == 0 && discretisation != nullptr;
-    contact.reset();
-    preloads.reset();
-    solver.reset();
-    discretisation.reset();
-    if (again)
+    if (adaptivity && adaptivity->n_cycles() == 0 && !first)
       create_meshes();
     else if (adaptivity)
       adaptivity->refine(bodies);
-    discretisation =
-      std::make_unique<Discretisation>(context,
-                                       data,
-                                       bodies,
-                                       adaptivity ? adaptivity->degrees() :
-                                                    CellDegrees());
+    const CyclePlan plan = cycle_plan();
+    equations            = std::make_unique<SceneSolver>(
+      context, data, bodies, state, adaptivity ? &plan : nullptr);
     if (first)
       check_points(context, bodies);
-    summary.balance = discretisation->interfaces().balance();
-
-    const SolverParameters &given = context.parameters.solver;
-    SolverOptions           options;
-    options.method         = discretisation->choice().method;
-    options.tolerance      = given.tolerance;
-    options.max_iterations = given.max_iterations;
-    options.max_gathered   = given.max_gathered;
-    // steps of contact know themselves where to start
-    if (context.parameters.steps.given() && !adaptivity &&
-        !discretisation->interfaces().have_contact())
-      options.successive = 4;
-    if (given.print_iterations)
-      options.monitor = [&](const unsigned int iteration,
-                            const double       residual) {
-        context.log.line("    iteration " + std::to_string(iteration) +
-                         "  residual " + RunLog::number(residual));
-      };
-    solver   = make_linear_solver(discretisation->linear_system(), options);
-    preloads = std::make_unique<Preloads>(context,
-                                          *discretisation,
-                                          *solver,
-                                          state.shortenings);
-    if (discretisation->interfaces().have_contact())
-      contact = std::make_unique<ContactStep>(
-        context, *discretisation, *solver, *preloads, state.pressing);
-    // a factorisation gives one of many answers and does not tell
-    if (options.method == SolverMethod::direct)
-      discretisation->check_multipliers();
-  }
-
-  SystemVector
-  Simulation::solve(const SceneData &data, SceneLoad &load)
-  {
-    preloads->begin(data, load);
-    SystemVector                    solution;
-    const std::vector<BodySolution> none;
-    const auto &start = adaptivity ? adaptivity->start(bodies) : none;
-    if (contact)
-      report = contact->solve(load, solution);
-    else if (start.empty())
-      report = preloads->solve(false, load, solution);
-    else
-      {
-        solution = discretisation->system_vector(start, load);
-        report   = preloads->solve(true, load, solution);
-      }
-    if (!discretisation->choice().reason.empty())
-      report.preconditioner += "; " + discretisation->choice().reason;
-    if (!std::isfinite(report.relative_residual))
-      report.converged = false;
-    if (!report.converged)
-      discretisation->check_multipliers();
-
-    if (report.setup_seconds > 0.)
-      {
-        context.timers.add("solver_setup", report.setup_seconds);
-        context.log.stage_line("solver_setup",
-                               report.setup_seconds,
-                               report.preconditioner);
-      }
-    context.timers.add("solve", report.solve_seconds);
-    context.log.stage_line("solve",
-                           report.solve_seconds,
-                           report.method + ", " +
-                             std::to_string(report.iterations) +
-                             " iterations, residual " +
-                             RunLog::number(report.relative_residual) +
-                             (report.converged && report.attainable > 0. ?
-                                ", all that rounding leaves with moduli and "
-                                "sizes this different" :
-                                ""));
-    return solution;
+    summary.balance = equations->discretisation.interfaces().balance();
   }
 
   StepSummary
   Simulation::summarise(const StepEvaluation &evaluation)
   {
-    StepSummary result = discretisation->summary();
+    StepSummary result = equations->discretisation.summary();
     if (context.parameters.steps.given())
       {
         result.step = steps.n_done() + 1;
         result.time = steps.next();
       }
-    result.solver = {report.method,
-                     report.preconditioner,
-                     report.iterations,
-                     report.relative_residual,
-                     {},
-                     {}};
     if (adaptivity)
       result.cycle = adaptivity->n_cycles() - 1;
-    if (contact)
-      {
-        result.solver->active_sets       = contact->n_sets();
-        result.solver->linear_iterations = contact->linear_iterations();
-      }
     evaluate_step(evaluation, result);
-    for (unsigned int j = 0; j < preloads->interfaces().size(); ++j)
-      result.interfaces[preloads->interfaces()[j]].preload = {
-        preloads->force(j, state.solution), preloads->shortenings()[j]};
+    equations->summarise(state.solution, result);
     if (adaptivity)
       result.adaptivity = summary_of(*adaptivity,
                                      bodies,
@@ -226,36 +144,39 @@ namespace mortise
   void
   Simulation::step(const bool writes)
   {
-    const double    time = steps.next();
-    const SceneData data(context.parameters, time, field_checks);
-    if (!adaptivity)
-      announce_step();
-    SceneLoad load = discretisation->load(data);
-    field_checks.throw_if_any(context.comm);
-    check_loads(load.rhs);
-    State next{time, solve(data, load), {}, {}};
-    if (!report.converged && steps.halve())
+    std::optional<SceneData>        data;
+    std::optional<SceneLoad>        load;
+    State                           next;
+    const std::vector<BodySolution> none;
+    do
       {
-        context.log.line("  not converged: half the step");
-        return;
+        if (load)
+          context.log.line("  not converged: half the step");
+        if (!adaptivity)
+          announce_step();
+        data.emplace(context.parameters, steps.next(), field_checks);
+        load = equations->discretisation.load(*data);
+        field_checks.throw_if_any(context.comm);
+        check_loads(load->rhs);
+        next      = equations->solve(*data,
+                                adaptivity ? adaptivity->start(bodies) : none,
+                                *load);
+        next.time = steps.next();
+        report    = equations->report();
       }
-
-    if (contact)
-      next.pressing = contact->active_places();
-    next.shortenings = preloads->shortenings_by_interface();
-    state            = std::move(next);
+    while (!report.converged && steps.halve());
+    state = std::move(next);
     const StepEvaluation evaluation(context,
-                                    *discretisation,
-                                    {data,
-                                     load,
+                                    equations->discretisation,
+                                    {*data,
+                                     *load,
                                      state.solution,
-                                     contact ? contact->undecided() :
-                                               std::vector<bool>(),
+                                     equations->undecided(),
                                      state.shortenings});
     {
       const auto stage = context.log.stage(context.timers, "postprocess");
       if (adaptivity)
-        learn(evaluation);
+        estimate_error(evaluation);
       summary.steps.push_back(summarise(evaluation));
     }
     if (is_last_cycle())
@@ -263,7 +184,7 @@ namespace mortise
     if (writes)
       write_results(evaluation);
     if (context.parameters.steps.given() && is_last_cycle())
-      print_progress();
+      output.print_progress(steps);
   }
 
   void
@@ -279,7 +200,14 @@ namespace mortise
   {
     report.converged = true;
     if (parameters.adaptivity.target_error && !steps.finished())
-      return adapt(writes);
+      run_cycles(writes);
+    else
+      run_steps(writes);
+  }
+
+  void
+  Simulation::run_steps(const bool writes)
+  {
     if (steps.finished()) // of a run that was continued
       context.log.line("the end at t = " + RunLog::number(steps.time()) +
                        " was reached before; another Steps/End time goes on");
@@ -287,7 +215,7 @@ namespace mortise
       discretise();
     if (!steps.finished() && !restart.empty())
       restore(restart);
-    while (!steps.finished() && report.converged && unwritten.empty())
+    while (!steps.finished() && report.converged && output.unwritten().empty())
       step(writes);
     summary.status = !report.converged ? "not converged" :
                      !steps.finished() ? "stopped" :
@@ -315,7 +243,8 @@ namespace mortise
         summary.status = "stopped";
         if (!report.method.empty() && !summary.steps.empty())
           {
-            write_summary(); // steps of this run are worth keeping
+            output.write_summary(
+              summary); // steps of this run are worth keeping
             if (adaptivity)
               context.log.line("the results of cycle " +
                                std::to_string(summary.steps.back().cycle) +
@@ -323,11 +252,11 @@ namespace mortise
           }
         throw;
       }
-    write_summary();
+    output.write_summary(summary);
     print_table(context.log, summary.steps.back());
-    if (!unwritten.empty())
+    if (!output.unwritten().empty())
       throw InputError(
-        describe(unwritten) + "\n" +
+        describe(output.unwritten()) + "\n" +
         (summary.status != "stopped" ? "" :
          adaptivity                  ? "The run was stopped after cycle " +
                         std::to_string(summary.steps.back().cycle) + "; " :
@@ -338,9 +267,42 @@ namespace mortise
       throw ConvergenceError(
         not_converged(report,
                       context.parameters.solver.tolerance,
-                      contact && !contact->settled() ? contact->n_sets() : 0,
-                      discretisation->choice().advice));
+                      equations->unsettled_sets(),
+                      equations->discretisation.choice().advice));
     if (adaptivity && !adaptivity->reached())
       throw ConvergenceError(missed(*adaptivity));
+  }
+
+  void
+  Simulation::write_results(const StepEvaluation &evaluation)
+  {
+    // a later cycle may not come to its end, and has the same file
+    const bool each_cycle = adaptivity && !parameters.steps.given();
+    if (!report.converged || each_cycle ||
+        (is_last_cycle() && steps.output_due()))
+      output.write_fields(steps,
+                          evaluation,
+                          adaptivity ? adaptivity->errors().by_cell() :
+                                       NumbersByCell());
+    const unsigned int every = parameters.output.checkpoint_every;
+    if (every == 0 || !report.converged ||
+        ((adaptivity ? adaptivity->n_cycles() : steps.n_done()) % every != 0 &&
+         !steps.finished() &&
+         output.unwritten().empty())) // else it goes no further
+      return;
+    const RunCheckpoint checkpoint{
+      std::filesystem::absolute(parameters.file).string(),
+      parameters.assignments,
+      steps.longest(),
+      steps.n_done(),
+      {steps.time(), {}, state.pressing, state.shortenings},
+      adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
+        to_bytes(adaptivity->checkpoint()) :
+        std::string(),
+      summary.steps,
+      output.files.written()};
+    output.write_checkpoint(to_sections(checkpoint), evaluation, bodies);
+    summary.status = "running";
+    output.write_summary(summary);
   }
 } // namespace mortise

@@ -6,14 +6,14 @@
 namespace mortise
 {
   void
-  Simulation::learn(const StepEvaluation &evaluation)
+  Simulation::estimate_error(const StepEvaluation &evaluation)
   {
     std::optional<DualSolution> dual;
     if (const auto &quantity = adaptivity->quantity())
       dual = solve_dual(context,
-                        *discretisation,
-                        *solver,
-                        *preloads,
+                        equations->discretisation,
+                        *equations->linear_solver,
+                        equations->preloads,
                         *quantity,
                         evaluation.solutions(),
                         evaluation.forces(),
@@ -34,14 +34,19 @@ namespace mortise
       }
   }
 
-  void
-  Simulation::extend_search()
+  CyclePlan
+  Simulation::cycle_plan() const
   {
     constexpr double margin = 1.25; // the next solution moves otherwise
-    for (const InterfaceSummary &of : summary.steps.back().interfaces)
-      for (InterfaceParameters &given : parameters.interfaces)
-        if (of.contact && given.name == of.name)
-          given.search_distance.least = margin * of.contact->motion_max;
+    CyclePlan        plan;
+    if (!adaptivity)
+      return plan;
+    plan.degrees = adaptivity->degrees();
+    if (!summary.steps.empty())
+      for (const InterfaceSummary &of : summary.steps.back().interfaces)
+        if (of.contact)
+          plan.least_search[of.name] = margin * of.contact->motion_max;
+    return plan;
   }
 
   bool
@@ -55,7 +60,7 @@ namespace mortise
   Simulation::cycle(const bool writes)
   {
     announce_step();
-    while (!is_last_cycle() && unwritten.empty())
+    while (!is_last_cycle() && output.unwritten().empty())
       {
         context.log.line("cycle " + std::to_string(adaptivity->n_cycles()));
         discretise();
@@ -66,7 +71,7 @@ namespace mortise
   }
 
   void
-  Simulation::adapt(const bool writes)
+  Simulation::run_cycles(const bool writes)
   {
     if (!adaptivity)
       adaptivity.emplace(context);
@@ -82,14 +87,16 @@ namespace mortise
       }
     cycle(writes);
     while (parameters.steps.given() && report.converged &&
-           adaptivity->reached() && !steps.finished() && unwritten.empty())
+           adaptivity->reached() && !steps.finished() &&
+           output.unwritten().empty())
       {
         adaptivity.emplace(context);
         cycle(writes);
       }
-    summary.status = !report.converged                       ? "not converged" :
-                     !unwritten.empty() && !steps.finished() ? "stopped" :
-                     adaptivity->reached()                   ? "done" :
+    summary.status = !report.converged ? "not converged" :
+                     !output.unwritten().empty() && !steps.finished() ?
+                                         "stopped" :
+                     adaptivity->reached() ? "done" :
                                              "target not reached";
   }
 } // namespace mortise

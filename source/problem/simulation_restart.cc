@@ -34,7 +34,7 @@ namespace mortise
   {
     restart       = directory;
     summary.steps = checkpoint.steps;
-    files.resume(checkpoint.files);
+    output.files.resume(checkpoint.files);
     state = checkpoint.state;
     if (!checkpoint.adaptivity.empty() && parameters.adaptivity.target_error)
       {
@@ -59,29 +59,21 @@ namespace mortise
       steps.resume(state.time, checkpoint.n_steps, checkpoint.longest_step);
     if (adaptivity && !steps.finished())
       state.time = steps.next();
-    clock.share = steps.share();
+    output.begin_at(steps.share());
   }
 
   void
   Simulation::restore(const std::string &directory)
   {
     const CheckpointFile file(checkpoint_file_name(directory), context.comm);
-    const SceneValues    values = read_scene(file,
-                                          bodies,
-                                          discretisation->interfaces().all(),
-                                          context.comm);
+    const SceneValues    values = read_scene(
+      file, bodies, equations->discretisation.interfaces().all(), context.comm);
     throw_if_any(all_finite(values) ?
                    "" :
                    file.damaged("it has values that are not finite").what(),
                  context.comm);
     const SceneData data(context.parameters, state.time, field_checks);
-    SceneLoad       load = discretisation->load(data);
-    state.solution       = discretisation->system_vector(values, load);
-    preloads->begin(data, load);
-    if (contact)
-      contact->resume(load, state.solution);
-    else
-      solver->remember(load.rhs, state.solution);
+    state.solution = equations->resume(data, values);
     if (adaptivity)
       adaptivity->restore(bodies, values.solutions);
     context.log.line(adaptivity ?

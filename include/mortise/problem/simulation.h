@@ -3,21 +3,17 @@
 #pragma once
 
 #include <mortise/problem/adaptive/adaptivity.h>
-#include <mortise/problem/contact/contact_step.h>
-#include <mortise/problem/contact/preloads.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/load_steps.h>
-#include <mortise/problem/results/field_files.h>
-#include <mortise/problem/results/step_results.h>
 #include <mortise/problem/run_checkpoint.h>
-#include <mortise/problem/scene/discretisation.h>
+#include <mortise/problem/results/step_results.h>
+#include <mortise/problem/run_output.h>
+#include <mortise/problem/scene_solver.h>
 #include <mortise/problem/state.h>
-#include <mortise/solvers/solve.h>
 
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace mortise
 {
@@ -62,23 +58,27 @@ namespace mortise
     }
 
   private:
-    /// What no step changes; of the next cycle, if there are cycles.
+    /// The next meshes, if there are cycles, and the equations on them.
     void
     discretise();
-    /// All steps, or cycles; with files if @p writes.
+    /// All that is asked for; with files if @p writes.
     void
     march(bool writes);
-    /// Solve with other meshes and degrees until the error is small enough, or
-    /// no others are allowed; every step from the first mesh on.
+    /// Step by step on one mesh.
     void
-    adapt(bool writes);
-    /// Likewise, for one step.
+    run_steps(bool writes);
+    /// Each step with other meshes and degrees until the error is small enough,
+    /// or no others are allowed, from the first mesh on.
+    void
+    run_cycles(bool writes);
+    /// Likewise, one step.
     void
     cycle(bool writes);
-    /// Cells become smaller than what the sides of contact move: it is looked
-    /// for as far as they have moved in the last cycle.
-    void
-    extend_search();
+    /// What the next cycle has beside the parameters: cells become smaller than
+    /// what the sides of contact move, which are looked for as far as they have
+    /// moved in the last one.
+    CyclePlan
+    cycle_plan() const;
     bool
     is_last_cycle() const;
     void
@@ -89,47 +89,27 @@ namespace mortise
     /// Set the state to that of the checkpoint in @p directory.
     void
     restore(const std::string &directory);
-    /// Shortenings of preloads become part of @p load.
-    SystemVector
-    solve(const SceneData &data, SceneLoad &load);
-    /// Tell how the cycle changed the solution, and that of a quantity.
+    /// Estimate the error of the cycle, with a quantity by its dual problem.
     void
-    learn(const StepEvaluation &evaluation);
+    estimate_error(const StepEvaluation &evaluation);
     StepSummary
     summarise(const StepEvaluation &evaluation);
     void
-    print_progress();
-    void
     write_results(const StepEvaluation &evaluation);
-    void
-    write_checkpoint(const StepEvaluation &evaluation);
-    void
-    write_summary();
 
-    /// What was done after so many seconds; from where progress is estimated.
-    struct Clock
-    {
-      double share = 0., seconds = 0.;
-    };
-
-    Parameters       parameters;
+    const Parameters parameters;
     Timers           timers;
-    Clock            clock;
     const RunContext context;
     FieldChecks      field_checks; ///< of what is given
 
-    LoadSteps                       steps;
-    std::string                     restart; ///< directory of a checkpoint
-    Bodies                          bodies;
-    std::unique_ptr<Discretisation> discretisation;
-    std::unique_ptr<LinearSolver>   solver;
-    std::unique_ptr<Preloads>       preloads;
-    std::unique_ptr<ContactStep>    contact;    ///< null without
-    std::optional<Adaptivity>       adaptivity; ///< with a target
-    SolveReport                     report;     ///< of the last step
-    State                           state;
-    Summary                         summary;
-    FieldFiles                      files;
-    std::vector<OutputError>        unwritten;
+    LoadSteps                    steps;
+    std::string                  restart; ///< directory of a checkpoint
+    Bodies                       bodies;
+    std::unique_ptr<SceneSolver> equations;
+    std::optional<Adaptivity>    adaptivity; ///< with a target
+    SolveReport                  report;     ///< of the last step
+    State                        state;
+    Summary                      summary;
+    RunOutput                    output;
   };
 } // namespace mortise

@@ -13,14 +13,14 @@ namespace mortise
 {
   using namespace dealii;
 
-  Discretisation::Discretisation(const RunContext  &run,
-                                 const SceneData   &data,
-                                 Bodies            &bodies,
-                                 const CellDegrees &degrees)
+  Discretisation::Discretisation(const RunContext &run,
+                                 const SceneData  &data,
+                                 Bodies           &bodies,
+                                 const CyclePlan  &cycle)
     : run(run)
-    , spaces(bodies)
+    , spaces(bodies, cycle)
   {
-    create_spaces(run, data, degrees, spaces);
+    create_spaces(run, data, spaces);
     for (const auto &body : bodies)
       volumes.push_back(body_volume(*body));
     system.communicator       = run.comm;

@@ -137,8 +137,11 @@ namespace mortise
     auto          stage = run.log.stage(run.timers, "interface_search");
     std::uint64_t faces = 0;
     std::string   divided;
-    for (const InterfaceParameters &given : run.parameters.interfaces)
+    for (InterfaceParameters given : run.parameters.interfaces)
       {
+        const auto &least = spaces.cycle.least_search;
+        if (const auto length = least.find(given.name); length != least.end())
+          given.search_distance.least = length->second;
         const auto slave = faces_of(given, given.slave);
         // tractions jump at edges
         const auto patches =

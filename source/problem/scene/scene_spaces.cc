@@ -231,10 +231,9 @@ namespace mortise
   }
 
   void
-  create_spaces(const RunContext  &run,
-                const SceneData   &data,
-                const CellDegrees &degrees,
-                SceneSpaces       &spaces)
+  create_spaces(const RunContext &run,
+                const SceneData  &data,
+                SceneSpaces      &spaces)
   {
     auto stage = run.log.stage(run.timers, "spaces");
 
@@ -243,10 +242,10 @@ namespace mortise
     for (const auto &body : spaces.bodies)
       {
         const BodyParameters &given = run.parameters.bodies[body->index];
-        if (degrees.empty())
+        if (spaces.cycle.degrees.empty())
           create_space(run, *body);
         else
-          body->create_space(degrees[body->index]);
+          body->create_space(spaces.cycle.degrees[body->index]);
         handlers.push_back(&body->dof_handler);
         if (body->n_straightened > 0)
           run.log.warning("body " + body->name +

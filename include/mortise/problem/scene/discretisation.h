@@ -18,10 +18,10 @@ namespace mortise
   public:
     /// @p run and @p bodies, which get their spaces, must live on. @p data: at any time.
     /// Collective; throws InputError.
-    Discretisation(const RunContext  &run,
-                   const SceneData   &data,
-                   Bodies            &bodies,
-                   const CellDegrees &degrees = {});
+    Discretisation(const RunContext &run,
+                   const SceneData  &data,
+                   Bodies           &bodies,
+                   const CyclePlan  &cycle = {});
 
     /// The right hand side at the time of @p data. Collective; throws InputError where prescribed
     /// displacements change the volume of an incompressible body.

@@ -7,18 +7,34 @@
 #include <mortise/problem/scene/scene_data.h>
 #include <mortise/solvers/solve.h>
 
+#include <map>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace mortise
 {
+  /// By body and active cell of its mesh; empty: those of the parameters.
+  using CellDegrees = std::vector<std::vector<unsigned int>>;
+
+  /// What a cycle of an adaptive run has beside the parameters.
+  struct CyclePlan
+  {
+    CellDegrees degrees;
+    /// By name of an interface: partners are looked for at least as far, a
+    /// length.
+    std::map<std::string, double> least_search;
+  };
+
   struct SceneSpaces
   {
-    explicit SceneSpaces(Bodies &bodies)
+    SceneSpaces(Bodies &bodies, const CyclePlan &cycle)
       : bodies(bodies)
+      , cycle(cycle)
     {}
 
-    Bodies &bodies; ///< with their meshes
+    Bodies         &bodies; ///< with their meshes
+    const CyclePlan cycle;
     /// By body: what is prescribed, and whether it is ever different from zero.
     std::vector<std::vector<DirichletCondition>> dirichlet;
     /// By body: conformity, and what is prescribed as zero; not closed.
@@ -56,15 +72,11 @@ namespace mortise
   void
   create_space(const RunContext &run, Body &body);
 
-  /// By body and active cell of its mesh; empty: those of the parameters.
-  using CellDegrees = std::vector<std::vector<unsigned int>>;
-
   /// Spaces, constraints, numbering and the choice of the method. Collective.
   void
-  create_spaces(const RunContext  &run,
-                const SceneData   &data,
-                const CellDegrees &degrees,
-                SceneSpaces       &spaces);
+  create_spaces(const RunContext &run,
+                const SceneData  &data,
+                SceneSpaces      &spaces);
 
   /// The displacements that @p data prescribes. Collective.
   PrescribedValues

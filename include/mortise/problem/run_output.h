@@ -1,0 +1,68 @@
+// What a run writes: fields, checkpoints, the summary; and what could not be.
+#pragma once
+
+#include <mortise/output/checkpoint_file.h>
+#include <mortise/output/whole_file.h>
+#include <mortise/problem/load_steps.h>
+#include <mortise/problem/results/field_files.h>
+
+#include <vector>
+
+namespace mortise
+{
+  class RunOutput
+  {
+  public:
+    /// @p run must live on.
+    explicit RunOutput(const RunContext &run)
+      : files(run)
+      , run(run)
+    {}
+
+    /// The fields of a step, see FieldFiles. Collective, as all that follows.
+    void
+    write_fields(const LoadSteps      &steps,
+                 const StepEvaluation &evaluation,
+                 const NumbersByCell  &estimates);
+
+    /// @p of_run: what the driver keeps, beside the values of @p evaluation on @p bodies.
+    void
+    write_checkpoint(const Sections       &of_run,
+                     const StepEvaluation &evaluation,
+                     const Bodies         &bodies);
+
+    /// With timings and memory so far.
+    void
+    write_summary(Summary &summary);
+
+    /// How much of @p steps is done, and how long the rest may take.
+    void
+    print_progress(const LoadSteps &steps);
+
+    /// Progress is estimated from this share on.
+    void
+    begin_at(const double share)
+    {
+      clock.share = share;
+    }
+
+    const std::vector<OutputError> &
+    unwritten() const
+    {
+      return errors;
+    }
+
+    FieldFiles files;
+
+  private:
+    /// What was done after so many seconds.
+    struct Clock
+    {
+      double share = 0., seconds = 0.;
+    };
+
+    const RunContext        &run;
+    Clock                    clock;
+    std::vector<OutputError> errors;
+  };
+} // namespace mortise

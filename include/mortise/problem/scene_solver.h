@@ -1,0 +1,80 @@
+// A scene on its meshes together with what solves its steps: discretisation,
+// linear solver, preloads and the active sets of contact.
+#pragma once
+
+#include <mortise/problem/contact/contact_step.h>
+#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/results/solved_step.h>
+#include <mortise/problem/scene/discretisation.h>
+#include <mortise/problem/state.h>
+#include <mortise/solvers/solve.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  class SceneSolver
+  {
+  public:
+    /// @p run and @p bodies, which get their spaces, must live on. @p data: at any time; @p last: of the
+    /// last step; @p cycle: null without cycles. Collective; throws InputError.
+    SceneSolver(const RunContext &run,
+                const SceneData  &data,
+                Bodies           &bodies,
+                const State      &last,
+                const CyclePlan  *cycle);
+
+    /// Go on from @p values, the solution of the time of @p data. Collective.
+    SystemVector
+    resume(const SceneData &data, const SceneValues &values);
+
+    /// The next state, without its time, for @p load at that of @p data; shortenings of preloads become part of @p load.
+    /// @p start, by body, may be empty. Collective; throws InputError.
+    State
+    solve(const SceneData                 &data,
+          const std::vector<BodySolution> &start,
+          SceneLoad                       &load);
+
+    /// Of the last solve().
+    const SolveReport &
+    report() const
+    {
+      return last_report;
+    }
+
+    /// The next solve() is judged by this, too.
+    void
+    add_report(const SolveReport &of_dual)
+    {
+      last_report = of_dual;
+    }
+
+    /// Add to @p summary how @p solution was found.
+    void
+    summarise(const SystemVector &solution, StepSummary &summary) const;
+
+    /// By owned multiplier of contact, else empty: neither pressure nor gap.
+    std::vector<bool>
+    undecided() const
+    {
+      return contact ? contact->undecided() : std::vector<bool>();
+    }
+
+    /// Of contact, where they did not come to an end; else zero.
+    unsigned int
+    unsettled_sets() const
+    {
+      return contact && !contact->settled() ? contact->n_sets() : 0;
+    }
+
+    Discretisation                discretisation;
+    std::unique_ptr<LinearSolver> linear_solver;
+    Preloads                      preloads;
+
+  private:
+    const RunContext            &run;
+    std::unique_ptr<ContactStep> contact; ///< null without
+    SolveReport                  last_report;
+  };
+} // namespace mortise

@@ -1,0 +1,68 @@
+#include <mortise/output/checkpoint.h>
+#include <mortise/problem/run_output.h>
+
+namespace mortise
+{
+  void
+  RunOutput::write_fields(const LoadSteps      &steps,
+                          const StepEvaluation &evaluation,
+                          const NumbersByCell  &estimates)
+  {
+    for (const OutputError &error :
+         files.write(steps.n_done(), steps.time(), evaluation, estimates))
+      errors.push_back(error);
+  }
+
+  void
+  RunOutput::write_checkpoint(const Sections       &of_run,
+                              const StepEvaluation &evaluation,
+                              const Bodies         &bodies)
+  {
+    const auto stage = run.log.stage(run.timers, "checkpoint");
+    try
+      {
+        mortise::write_checkpoint(run.parameters.output.directory,
+                                  of_run,
+                                  {evaluation.solutions(),
+                                   evaluation.multipliers()},
+                                  bodies,
+                                  evaluation.discretisation.interfaces().all(),
+                                  run.comm);
+      }
+    catch (const OutputError &error)
+      {
+        errors.push_back(error);
+      }
+  }
+
+  void
+  RunOutput::write_summary(Summary &summary)
+  {
+    summary.timings = run.timers.walls(run.comm);
+    summary.memory  = peak_memory_mib(run.comm);
+    try
+      {
+        mortise::write_summary(summary,
+                               run.parameters.output.directory,
+                               run.comm);
+      }
+    catch (const OutputError &error)
+      {
+        errors.push_back(error);
+      }
+  }
+
+  void
+  RunOutput::print_progress(const LoadSteps &steps)
+  {
+    const double share = steps.share(), seconds = run.timers.total();
+    const double left =
+      (seconds - clock.seconds) / (share - clock.share) * (1. - share);
+    if (clock.seconds == 0.)
+      clock = {share, seconds}; // the first step made the preconditioner, too
+    run.log.line(
+      "  " + RunLog::number(100. * share) + " % done in " +
+      RunLog::number(seconds) + " s" +
+      (steps.finished() ? "" : ", about " + RunLog::number(left) + " s left"));
+  }
+} // namespace mortise

@@ -1,0 +1,136 @@
+#include <mortise/problem/scene_solver.h>
+
+#include <cmath>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    SolverOptions
+    solver_options(const RunContext     &run,
+                   const Discretisation &discretisation,
+                   const bool            has_cycles)
+    {
+      const SolverParameters &given = run.parameters.solver;
+      SolverOptions           options;
+      options.method         = discretisation.choice().method;
+      options.tolerance      = given.tolerance;
+      options.max_iterations = given.max_iterations;
+      options.max_gathered   = given.max_gathered;
+      // steps of contact know themselves where to start
+      if (run.parameters.steps.given() && !has_cycles &&
+          !discretisation.interfaces().have_contact())
+        options.successive = 4;
+      if (given.print_iterations)
+        options.monitor = [&log = run.log](const unsigned int iteration,
+                                           const double       residual) {
+          log.line("    iteration " + std::to_string(iteration) +
+                   "  residual " + RunLog::number(residual));
+        };
+      return options;
+    }
+  } // namespace
+
+  SceneSolver::SceneSolver(const RunContext &run,
+                           const SceneData  &data,
+                           Bodies           &bodies,
+                           const State      &last,
+                           const CyclePlan  *cycle)
+    : discretisation(run, data, bodies, cycle ? *cycle : CyclePlan())
+    , linear_solver(
+        make_linear_solver(discretisation.linear_system(),
+                           solver_options(run, discretisation, cycle)))
+    , preloads(run, discretisation, *linear_solver, last.shortenings)
+    , run(run)
+  {
+    if (discretisation.interfaces().have_contact())
+      contact = std::make_unique<ContactStep>(
+        run, discretisation, *linear_solver, preloads, last.pressing);
+    // a factorisation gives one of many answers and does not tell
+    if (discretisation.choice().method == SolverMethod::direct)
+      discretisation.check_multipliers();
+  }
+
+  SystemVector
+  SceneSolver::resume(const SceneData &data, const SceneValues &values)
+  {
+    SceneLoad    load     = discretisation.load(data);
+    SystemVector solution = discretisation.system_vector(values, load);
+    preloads.begin(data, load);
+    if (contact)
+      contact->resume(load, solution);
+    else
+      linear_solver->remember(load.rhs, solution);
+    return solution;
+  }
+
+  State
+  SceneSolver::solve(const SceneData                 &data,
+                     const std::vector<BodySolution> &start,
+                     SceneLoad                       &load)
+  {
+    State        next;
+    SolveReport &report = last_report;
+    preloads.begin(data, load);
+    if (contact)
+      report = contact->solve(load, next.solution);
+    else if (start.empty())
+      report = preloads.solve(false, load, next.solution);
+    else
+      {
+        next.solution = discretisation.system_vector(start, load);
+        report        = preloads.solve(true, load, next.solution);
+      }
+    if (!discretisation.choice().reason.empty())
+      report.preconditioner += "; " + discretisation.choice().reason;
+    if (!std::isfinite(report.relative_residual))
+      report.converged = false;
+    if (!report.converged)
+      discretisation.check_multipliers();
+
+    if (report.setup_seconds > 0.)
+      {
+        run.timers.add("solver_setup", report.setup_seconds);
+        run.log.stage_line("solver_setup",
+                           report.setup_seconds,
+                           report.preconditioner);
+      }
+    run.timers.add("solve", report.solve_seconds);
+    run.log.stage_line("solve",
+                       report.solve_seconds,
+                       report.method + ", " +
+                         std::to_string(report.iterations) +
+                         " iterations, residual " +
+                         RunLog::number(report.relative_residual) +
+                         (report.converged && report.attainable > 0. ?
+                            ", all that rounding leaves with moduli and "
+                            "sizes this different" :
+                            ""));
+    if (contact)
+      next.pressing = contact->active_places();
+    next.shortenings = preloads.shortenings_by_interface();
+    return next;
+  }
+
+  void
+  SceneSolver::summarise(const SystemVector &solution,
+                         StepSummary        &summary) const
+  {
+    summary.solver = {last_report.method,
+                      last_report.preconditioner,
+                      last_report.iterations,
+                      last_report.relative_residual,
+                      {},
+                      {}};
+    if (contact)
+      {
+        summary.solver->active_sets       = contact->n_sets();
+        summary.solver->linear_iterations = contact->linear_iterations();
+      }
+    for (unsigned int j = 0; j < preloads.interfaces().size(); ++j)
+      summary.interfaces[preloads.interfaces()[j]].preload = {
+        preloads.force(j, solution), preloads.shortenings()[j]};
+  }
+} // namespace mortise
