@@ -1,7 +1,5 @@
 // The columns of the constraint on one side of an interface, as its assembly
-// takes them: by_node, whether they are nodes or displacements; component(c),
-// the functions of the face in them; in_columns(), a local matrix for these
-// functions.
+// takes them.
 #pragma once
 
 #include <mortise/mortar/nodal_block.h>
@@ -10,33 +8,11 @@
 
 namespace mortise
 {
-  /// The columns of one side of the constraint: hierarchical functions.
-  struct HierarchicalColumns
-  {
-    static constexpr bool by_node = false;
-
-    const FaceTrace &trace;
-
-    Expansion
-    component(const unsigned int c) const
-    {
-      return mortise::component(trace, c);
-    }
-
-    const dealii::FullMatrix<double> &
-    in_columns(const dealii::FullMatrix<double> &local) const
-    {
-      return local;
-    }
-  };
-
   /// Nodes, where some of the face hang those that they hang on: the matrix
   /// also has the columns of components that are prescribed.
   class NodalColumns
   {
   public:
-    static constexpr bool by_node = true;
-
     explicit NodalColumns(const FaceTrace &trace)
       : trace(trace)
       , begin(1)
@@ -54,12 +30,14 @@ namespace mortise
         }
     }
 
+    /// The functions of a component in them.
     Expansion
-    component(const unsigned int) const
+    component() const
     {
       return {begin, index, weight, 0};
     }
 
+    /// A local matrix for these functions.
     dealii::FullMatrix<double>
     in_columns(const dealii::FullMatrix<double> &local) const
     {

@@ -1,14 +1,9 @@
-#include <deal.II/base/mpi.h>
-
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-
 #include <mortise/mortar/coupling.h>
 #include <mortise/mortar/row_assembler.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "constraint_columns.h"
@@ -21,13 +16,12 @@ namespace mortise
   {
     using Index = types::global_dof_index;
 
-    /// The rows of component @p c: those along the normal times its part of that;
-    /// or only those whose entries no earlier component has, too.
+    /// The rows of component @p c whose entries no earlier component has, too:
+    /// those along the normal times its part of that.
     class ConstraintRows
     {
     public:
-      ConstraintRows(const MultiplierSpace::FaceRows &rows,
-                     const bool                       representatives)
+      explicit ConstraintRows(const MultiplierSpace::FaceRows &rows)
       {
         const unsigned int n = rows.n_nodes();
         // by component and node
@@ -36,7 +30,7 @@ namespace mortise
           rows.for_each_direction(
             r, [&](const unsigned int k, const Tensor<1, dim> &direction) {
               for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                if (!representatives || !rows.is_represented[e])
+                if (!rows.is_represented[e])
                   for (unsigned int c = 0; c < dim; ++c)
                     if (direction[c] != 0.)
                       weights[c * n + k][rows.index[e]] +=
@@ -111,14 +105,11 @@ namespace mortise
       return rows;
     }
 
-    /// [D, -M] with the columns that @p Columns makes of a trace; by node once
-    /// for the components that share their entries.
-    template <typename Columns>
-    void
+    /// [D, -M] by node, once for the components that share their entries.
+    SparseMatrix
     assemble_blocks(const std::vector<Coupling> &couplings,
                     const RowsByFace            &all_rows,
-                    const CouplingPartition     &partition,
-                    SparseMatrix                &matrix)
+                    const CouplingPartition     &partition)
     {
       RowAssembler assembler(partition.owned_multiplier,
                              partition.owned_displacement);
@@ -128,7 +119,7 @@ namespace mortise
         for_each_face(
           couplings, [&](const Coupling &coupling, const unsigned int s) {
             const ConstraintRows rows(
-              (*all_rows[&coupling - couplings.data()])[s], Columns::by_node);
+              (*all_rows[&coupling - couplings.data()])[s]);
             const LocalCoupling &local = coupling.local[s];
             const FaceTrace     &slave = coupling.interface->slave().traces[s];
             const auto           for_each_component = [&](const auto &of) {
@@ -139,26 +130,26 @@ namespace mortise
             const auto all = [&](const FaceTrace          &side,
                                  const FullMatrix<double> &block,
                                  const double              factor) {
-              const Columns            columns{side};
+              const NodalColumns       columns(side);
               const FullMatrix<double> in_columns =
                 values ? columns.in_columns(block) : block;
               for_each_component([&](const unsigned int c) {
                 visit(rows.component(c),
-                      columns.component(c),
+                      columns.component(),
                       in_columns,
                       factor);
               });
             };
-            if (local.is_dual() && Columns::by_node)
+            if (local.is_dual())
               {
-                const Columns own{slave};
+                const NodalColumns own(slave);
                 for_each_entity(slave.basis(), [&](const auto &nodes) {
                   FullMatrix<double> block(nodes.size(), nodes.size());
                   for (unsigned int i = 0; i < nodes.size(); ++i)
                     block(i, i) = local.weights[nodes[i]];
                   for_each_component([&](const unsigned int c) {
                     const ExpansionPart row(rows.component(c), nodes),
-                      column(own.component(c), nodes);
+                      column(own.component(), nodes);
                     visit(row(), column(), block, 1.);
                   });
                 });
@@ -186,20 +177,9 @@ namespace mortise
                          const double              factor) {
                        assembler.add(row, column, block, factor, false);
                      });
-      assembler.create(matrix, partition.comm);
+      return assembler.create(partition.comm, dim);
     }
   } // namespace
-
-  void
-  assemble_constraint(const std::vector<Coupling> &couplings,
-                      const CouplingPartition     &partition,
-                      SparseMatrix                &coupling)
-  {
-    assemble_blocks<HierarchicalColumns>(couplings,
-                                         rows_of(couplings),
-                                         partition,
-                                         coupling);
-  }
 
   namespace
   {
@@ -214,30 +194,6 @@ namespace mortise
                           dim);
       return nodes;
     }
-
-    using Frames = std::vector<std::tuple<Index, Index, double>>;
-
-    void
-    assemble_frames(const Frames   &all,
-                    const IndexSet &owned_multiplier,
-                    const IndexSet &owned_rows,
-                    const MPI_Comm  comm,
-                    SparseMatrix   &frames)
-    {
-      IndexSet relevant = owned_multiplier;
-      for (const auto &[multiplier, row, weight] : all)
-        relevant.add_index(multiplier);
-      relevant.compress();
-      DynamicSparsityPattern pattern(relevant.size(),
-                                     owned_rows.size(),
-                                     relevant);
-      for (const auto &[multiplier, row, weight] : all)
-        pattern.add(multiplier, row);
-      frames.reinit(owned_multiplier, owned_rows, pattern, comm, true);
-      for (const auto &[multiplier, row, weight] : all)
-        frames.set(multiplier, row, weight);
-      frames.compress(VectorOperation::insert);
-    }
   } // namespace
 
   CouplingMatrix
@@ -251,34 +207,28 @@ namespace mortise
       [&rows](const std::vector<CouplingMatrix::Row> &more) {
         rows.insert(rows.end(), more.begin(), more.end());
       };
-    SparseMatrix entries, frames;
     if (!with_frames)
       {
         for (const Coupling &coupling : couplings)
           add_rows(coupling.multipliers->matrix_rows());
-        assemble_blocks<NodalColumns>(couplings,
-                                      rows_of(couplings),
-                                      {nodes,
-                                       partition.owned_multiplier,
-                                       partition.comm},
-                                      entries);
-        return {std::move(entries), rows, std::move(frames)};
+        return {
+          assemble_blocks(couplings,
+                          rows_of(couplings),
+                          {nodes, partition.owned_multiplier, partition.comm}),
+          rows,
+          SparseMatrix()};
       }
 
     Index mine = 0;
     for (const Coupling &coupling : couplings)
       mine +=
         coupling.multipliers->n_component_rows(coupling.interface->slave());
-    const auto counts = Utilities::MPI::all_gather(partition.comm, mine);
-    const auto me     = Utilities::MPI::this_mpi_process(partition.comm);
-    const auto first =
-      std::accumulate(counts.begin(), counts.begin() + me, Index(0));
-    IndexSet owned(std::accumulate(counts.begin(), counts.end(), Index(0)));
-    owned.add_range(first, first + mine);
+    const IndexSet owned = owned_range(mine, partition.comm);
+    const Index    first = mine > 0 ? owned.nth_index_in_set(0) : 0;
 
     std::vector<MultiplierSpace::ComponentRows> all;
     RowsByFace                                  by_face;
-    Frames                                      all_frames;
+    std::vector<SparseMatrix::Entry>            frames;
     all.reserve(couplings.size());
     for (const Coupling &coupling : couplings)
       {
@@ -287,16 +237,15 @@ namespace mortise
                                                first + rows.size()));
         by_face.push_back(&all.back().rows.by_face);
         add_rows(all.back().rows.owned);
-        all_frames.insert(all_frames.end(),
-                          all.back().frames.begin(),
-                          all.back().frames.end());
+        for (const auto &[multiplier, row, weight] : all.back().frames)
+          frames.push_back({multiplier, row, weight});
       }
-    assemble_blocks<NodalColumns>(couplings,
-                                  by_face,
-                                  {nodes, owned, partition.comm},
-                                  entries);
-    assemble_frames(
-      all_frames, partition.owned_multiplier, owned, partition.comm, frames);
-    return {std::move(entries), rows, std::move(frames)};
+    return {assemble_blocks(couplings, by_face, {nodes, owned, partition.comm}),
+            rows,
+            SparseMatrix(partition.owned_multiplier,
+                         owned,
+                         partition.comm,
+                         frames,
+                         VectorOperation::insert)};
   }
 } // namespace mortise

@@ -1,8 +1,4 @@
 // See coupling_matrix.h.
-#include <deal.II/base/exceptions.h>
-
-#include <EpetraExt_MatrixMatrix.h>
-#include <Epetra_Import.h>
 #include <mortise/mortar/coupling_matrix.h>
 
 #include <algorithm>
@@ -12,219 +8,166 @@ namespace mortise
 {
   using namespace dealii;
 
-  CouplingMatrix::CouplingMatrix(SparseMatrix &&by_displacement)
-    : entries(std::make_unique<SparseMatrix>(std::move(by_displacement)))
-  {}
-
   CouplingMatrix::CouplingMatrix(SparseMatrix          &&entries,
                                  const std::vector<Row> &rows,
                                  SparseMatrix          &&frames)
-    : components_per_node(dim)
-    , entries(std::make_unique<SparseMatrix>(std::move(entries)))
+    : entries(std::move(entries))
+    , frames_of_rows(std::move(frames))
   {
-    if (frames.m() > 0)
-      frames_of_rows = std::make_unique<SparseMatrix>(std::move(frames));
     for (const Row &row : rows)
       {
         representatives.push_back(
-          scalar().RowMap().LID(static_cast<int>(row.entries)));
+          scalar().rows().index_within_set(row.entries));
         components.push_back(row.component);
       }
   }
 
   void
-  CouplingMatrix::constrain(std::vector<unsigned int> constrained)
+  CouplingMatrix::constrain(const std::vector<unsigned int> &given)
   {
-    this->constrained = std::move(constrained);
-  }
-
-  const Epetra_CrsMatrix &
-  CouplingMatrix::by_displacement() const
-  {
-    Assert(components_per_node == 1, ExcInternalError());
-    return entries->trilinos_matrix();
-  }
-
-  Epetra_MultiVector
-  CouplingMatrix::by_component(const double *by_displacement) const
-  {
-    const auto         n = static_cast<int>(components_per_node);
-    Epetra_MultiVector result(scalar().DomainMap(), n);
-    for (int i = 0; i < result.MyLength(); ++i)
-      for (int c = 0; c < n; ++c)
-        result[c][i] = by_displacement[n * i + c];
-    return result;
+    std::vector<double> flags(scalar().owned_unknowns().n_elements());
+    for (const unsigned int i : given)
+      flags[i] = 1.;
+    const std::vector<double> of_columns = scalar().on_columns(flags.data());
+    constrained.clear();
+    for (unsigned int k = 0; k < of_columns.size(); ++k)
+      if (of_columns[k] != 0.)
+        constrained.push_back(k);
   }
 
   void
-  CouplingMatrix::clear_constrained(Epetra_MultiVector &by_component) const
+  CouplingMatrix::clear_constrained(std::vector<double> &of_columns) const
   {
     for (const unsigned int k : constrained)
-      by_component[k % components_per_node][k / components_per_node] = 0.;
+      of_columns[k] = 0.;
   }
 
-  Epetra_MultiVector
-  CouplingMatrix::on_columns(const double           *by_displacement,
-                             const Epetra_CrsMatrix &matrix) const
+  std::vector<double>
+  CouplingMatrix::on_columns(const Vector &by_displacement) const
   {
-    Epetra_MultiVector owned = by_component(by_displacement);
-    clear_constrained(owned);
-    if (matrix.Importer() == nullptr)
-      return owned;
-    Epetra_MultiVector result(matrix.ColMap(), owned.NumVectors());
-    result.Import(owned, *matrix.Importer(), Insert);
+    std::vector<double> result = scalar().on_columns(by_displacement.begin());
+    clear_constrained(result);
     return result;
   }
 
   void
-  CouplingMatrix::multiply(Vector &dst, const Epetra_MultiVector &u) const
+  CouplingMatrix::multiply(Vector                    &dst,
+                           const std::vector<double> &of_columns) const
   {
-    Epetra_MultiVector to(scalar().RowMap(), dim);
-    scalar().Multiply(false, u, to);
-    Epetra_Vector rows(scalar().RowMap());
-    for (int i = 0; i < rows.MyLength(); ++i)
-      rows[i] = to[components[i]][representatives[i]];
+    std::vector<double> to(dim * scalar().n_rows()), rows(scalar().n_rows());
+    scalar().multiply(to.data(), of_columns.data());
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      rows[i] = to[dim * representatives[i] + components[i]];
     if (has_frames())
-      {
-        Epetra_Vector target(View, row_map(), dst.begin());
-        frames().Multiply(false, rows, target);
-      }
+      frames().vmult(dst.begin(), rows.data());
     else
-      std::copy_n(rows.Values(), rows.MyLength(), dst.begin());
+      std::copy(rows.begin(), rows.end(), dst.begin());
   }
 
-  Epetra_MultiVector
+  std::vector<double>
   CouplingMatrix::forces(const Vector &lambda) const
   {
-    Epetra_Vector rows(scalar().RowMap());
+    std::vector<double> rows(scalar().n_rows()), from(dim * rows.size());
     if (has_frames())
-      frames().Multiply(true,
-                        Epetra_Vector(View,
-                                      row_map(),
-                                      const_cast<double *>(lambda.begin())),
-                        rows);
+      frames().Tvmult_add(rows.data(), lambda.begin());
     else
-      std::copy_n(lambda.begin(), rows.MyLength(), rows.Values());
-    Epetra_MultiVector from(scalar().RowMap(), dim),
-      to(scalar().DomainMap(), dim);
-    for (int i = 0; i < rows.MyLength(); ++i)
-      from[components[i]][representatives[i]] = rows[i];
-    scalar().Multiply(true, from, to);
-    return to;
-  }
-
-  void
-  CouplingMatrix::add(const Epetra_MultiVector &by_component, double *dst)
-  {
-    for (int i = 0; i < by_component.MyLength(); ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        dst[dim * i + c] += by_component[c][i];
+      std::copy_n(lambda.begin(), rows.size(), rows.begin());
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      from[dim * representatives[i] + components[i]] = rows[i];
+    std::vector<double> result(dim * scalar().n_columns());
+    scalar().multiply_transposed_add(result.data(), from.data());
+    return result;
   }
 
   void
   CouplingMatrix::vmult(Vector &dst, const Vector &u) const
   {
-    if (components_per_node == 1)
-      return entries->vmult(dst, u);
-    Epetra_MultiVector from = by_component(u.begin());
-    clear_constrained(from);
-    multiply(dst, from);
+    multiply(dst, on_columns(u));
   }
 
   void
-  CouplingMatrix::vmult_free(Vector &dst, const double *u) const
+  CouplingMatrix::vmult_free(Vector &dst, const Vector &u) const
   {
-    multiply(dst, by_component(u));
+    multiply(dst, scalar().on_columns(u.begin()));
   }
 
   void
   CouplingMatrix::Tvmult_add(Vector &dst, const Vector &lambda) const
   {
-    if (components_per_node == 1)
-      return entries->Tvmult_add(dst, lambda);
-    Epetra_MultiVector to = forces(lambda);
-    clear_constrained(to);
-    add(to, dst.begin());
+    std::vector<double> of_columns = forces(lambda);
+    clear_constrained(of_columns);
+    scalar().add_to_owned(dst.begin(), of_columns);
   }
 
   void
-  CouplingMatrix::Tvmult_add_free(double *dst, const Vector &lambda) const
+  CouplingMatrix::Tvmult_add_free(Vector &dst, const Vector &lambda) const
   {
-    add(forces(lambda), dst);
+    scalar().add_to_owned(dst.begin(), forces(lambda));
   }
 
-  Epetra_CrsMatrix
+  SparseMatrix
   CouplingMatrix::expanded() const
   {
-    if (components_per_node == 1)
-      return Epetra_CrsMatrix(by_displacement());
-    const Epetra_CrsMatrix   &A = scalar();
-    const int                 n = dim * A.DomainMap().NumMyElements();
-    const Epetra_Map          displacements(-1, n, 0, A.Comm());
-    const std::vector<double> ones(n, 1.);
-    const Epetra_MultiVector  is_free = on_columns(ones.data());
-    Epetra_CrsMatrix          result(Copy, A.RowMap(), 0);
-    std::vector<int>          columns;
-    std::vector<double>       values;
-    for (int i = 0; i < A.NumMyRows(); ++i)
+    const SparseMatrix of_rows =
+      has_frames() ? frames().transposed() : SparseMatrix();
+    std::vector<bool> is_free(dim * scalar().n_columns(), true);
+    for (const unsigned int k : constrained)
+      is_free[k] = false;
+    std::vector<SparseMatrix::Entry> result;
+    for (unsigned int i = 0; i < scalar().n_rows(); ++i)
       {
-        int     length = 0, *nodes = nullptr;
-        double *from = nullptr;
-        A.ExtractMyRowView(representatives[i], length, from, nodes);
-        columns.clear();
-        values.clear();
-        for (int k = 0; k < length; ++k)
-          if (is_free[components[i]][nodes[k]] != 0.)
-            {
-              columns.push_back(static_cast<int>(dim) * A.GCID(nodes[k]) +
-                                static_cast<int>(components[i]));
-              values.push_back(from[k]);
-            }
-        result.InsertGlobalValues(A.GRID(i),
-                                  static_cast<int>(columns.size()),
-                                  values.data(),
-                                  columns.data());
+        const auto row = scalar().row(representatives[i]);
+        const auto add = [&](const auto multiplier, const double factor) {
+          for (unsigned int k = 0; k < row.length; ++k)
+            if (const unsigned int at = dim * row.columns[k] + components[i];
+                is_free[at])
+              result.push_back(
+                {multiplier,
+                 dim * scalar().global_column(row.columns[k]) + components[i],
+                 factor * row.values[k]});
+        };
+        if (has_frames())
+          {
+            const auto frame = of_rows.row(i);
+            for (unsigned int k = 0; k < frame.length; ++k)
+              add(of_rows.global_column(frame.columns[k]), frame.values[k]);
+          }
+        else
+          add(scalar().global_row(i), 1.);
       }
-    result.FillComplete(displacements, A.RowMap());
-    if (!has_frames())
-      return result;
-    Epetra_CrsMatrix B(Copy, row_map(), 0);
-    EpetraExt::MatrixMatrix::Multiply(frames(), false, result, false, B);
-    return B;
+    return SparseMatrix((has_frames() ? frames() : scalar()).rows(),
+                        scalar().owned_unknowns(),
+                        scalar().communicator(),
+                        result);
   }
 
-  Epetra_Vector
-  CouplingMatrix::diagonal_of_square(const Epetra_Vector &T) const
+  Vector
+  CouplingMatrix::diagonal_of_square(const Vector &T) const
   {
-    const auto squares = [](const Epetra_CrsMatrix   &A,
-                            const Epetra_MultiVector &weights,
-                            const auto               &row_of,
-                            const auto               &component_of) {
-      Epetra_Vector result(A.RowMap());
-      for (int i = 0; i < A.NumMyRows(); ++i)
-        {
-          int     length = 0, *columns = nullptr;
-          double *values = nullptr;
-          A.ExtractMyRowView(row_of(i), length, values, columns);
-          const double *of_columns = weights[component_of(i)];
-          for (int k = 0; k < length; ++k)
-            result[i] += values[k] * values[k] * of_columns[columns[k]];
-        }
-      return result;
-    };
-    if (!has_frames())
-      return squares(
-        scalar(),
-        on_columns(T.Values()),
-        [this](const int i) { return representative(i); },
-        [this](const int i) { return component(i); });
-    const Epetra_CrsMatrix B = expanded();
-    Epetra_Vector          weights(B.ColMap());
-    if (B.Importer() != nullptr)
-      weights.Import(T, *B.Importer(), Insert);
-    else
-      std::copy_n(T.Values(), T.MyLength(), weights.Values());
-    return squares(
-      B, weights, [](const int i) { return i; }, [](const int) { return 0; });
+    const SparseMatrix &rows = (has_frames() ? frames() : scalar());
+    Vector              result(rows.rows(), scalar().communicator());
+    if (has_frames())
+      {
+        const SparseMatrix        B       = expanded();
+        const std::vector<double> weights = B.on_columns(T.begin());
+        for (unsigned int i = 0; i < B.n_rows(); ++i)
+          {
+            const auto row = B.row(i);
+            for (unsigned int k = 0; k < row.length; ++k)
+              result.local_element(i) +=
+                row.values[k] * row.values[k] * weights[row.columns[k]];
+          }
+        return result;
+      }
+    const std::vector<double> weights = on_columns(T);
+    for (unsigned int i = 0; i < scalar().n_rows(); ++i)
+      {
+        const auto row = scalar().row(representatives[i]);
+        for (unsigned int k = 0; k < row.length; ++k)
+          result.local_element(i) +=
+            row.values[k] * row.values[k] *
+            weights[dim * row.columns[k] + components[i]];
+      }
+    return result;
   }
 } // namespace mortise

@@ -219,6 +219,7 @@ namespace mortise
     relevant.compress();
     Vector ghosted(multiplier.locally_owned_elements(), relevant, comm);
     ghosted = multiplier;
+    ghosted.update_ghost_values();
     for (unsigned int s = 0; s < values.size(); ++s)
       {
         const auto &rows = coupling.multipliers->rows()[s];
@@ -294,15 +295,17 @@ namespace mortise
         const unsigned int n      = rows.n_nodes();
         const auto         values = along_directions(rows, coefficients[s]);
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-          if (rows.begin[r + 1] == rows.begin[r] + 1)
-            multiplier[rows.index[rows.begin[r]]] =
+          if (rows.begin[r + 1] == rows.begin[r] + 1 &&
+              multiplier.in_local_range(rows.index[rows.begin[r]]))
+            multiplier(rows.index[rows.begin[r]]) =
               values[r] / rows.weight[rows.begin[r]];
         for (const auto &coefficient : rows.coefficients)
-          multiplier[coefficient.index] =
-            std::inner_product(coefficient.of_values.begin(),
-                               coefficient.of_values.end(),
-                               values.begin() + coefficient.direction * n,
-                               0.);
+          if (multiplier.in_local_range(coefficient.index))
+            multiplier(coefficient.index) =
+              std::inner_product(coefficient.of_values.begin(),
+                                 coefficient.of_values.end(),
+                                 values.begin() + coefficient.direction * n,
+                                 0.);
       }
   }
 
@@ -311,7 +314,13 @@ namespace mortise
              const std::function<double(const Point<dim> &)> &offset,
              Vector                                          &rhs)
   {
-    const BodySurface &slave = coupling.interface->slave();
+    const BodySurface &slave    = coupling.interface->slave();
+    IndexSet           relevant = rhs.locally_owned_elements();
+    for (const auto &rows : coupling.multipliers->rows())
+      relevant.add_indices(rows.index.begin(), rows.index.end());
+    Vector sum(rhs.locally_owned_elements(),
+               relevant,
+               rhs.get_mpi_communicator());
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       if (const LocalCoupling &local = coupling.local[s];
           !local.partners.empty())
@@ -336,9 +345,11 @@ namespace mortise
                     along += nodal(i, k) * (values[k] * direction);
                 });
               for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                rhs[rows.index[e]] += rows.weight[e] * along;
+                sum(rows.index[e]) += rows.weight[e] * along;
             }
         }
+    sum.compress(VectorOperation::add);
+    rhs += sum;
   }
 
   Resultants

@@ -25,8 +25,10 @@ namespace mortise
     relevant.compress();
     free.reinit(owned, relevant, comm);
     free = displacement.free;
+    free.update_ghost_values();
     prescribed.reinit(owned, relevant, comm);
     prescribed = displacement.prescribed;
+    prescribed.update_ghost_values();
     for (const FaceTrace &trace : interface.master_traces())
       masters.push_back(coefficients(trace));
   }

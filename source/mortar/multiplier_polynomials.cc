@@ -162,7 +162,7 @@ namespace mortise
       Multipliers                   lambda, moments, x;
       for (auto *v : {&lambda, &moments, &x})
         matrix.initialize(*v);
-      std::copy(multiplier.begin(), multiplier.end(), lambda.begin());
+      lambda.copy_locally_owned_data_from(multiplier);
       matrix.moments(moments, lambda);
       SolverControl control(1000, accuracy * moments.l2_norm(), false, false);
       DiagonalMatrix<Multipliers> preconditioner;
@@ -176,9 +176,7 @@ namespace mortise
         }
       catch (const SolverControl::NoConvergence &)
         {} // rounding: what was reached is as good
-      Vector result(multiplier);
-      std::copy(x.begin(), x.end(), result.begin());
-      return result;
+      return x;
     }
   } // namespace
 

@@ -1,9 +1,6 @@
 // See row_assembler.h.
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_CrsGraph.h>
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Map.h>
 #include <mortise/mortar/row_assembler.h>
 
 #include <algorithm>
@@ -70,7 +67,7 @@ namespace mortise
     for (unsigned int e = column.begin[column.offset];
          e < column.begin[column.offset + n_columns];
          ++e)
-      sets.back().push_back(key(column.index[e]));
+      sets.back().push_back(column.index[e]);
     make_unique(sets.back());
     const unsigned int set = sets.size() - 1;
     for (unsigned int e = row.begin[row.offset];
@@ -115,14 +112,13 @@ namespace mortise
                     const double              factor,
                     const bool                transposed)
   {
-    const unsigned int  n_rows    = transposed ? block.n() : block.m();
-    const unsigned int  n_columns = transposed ? block.m() : block.n();
-    const unsigned int *at        = &column.begin[column.offset];
-    const unsigned int  first     = at[0];
-    std::vector<Index>  keys;
-    for (unsigned int e = first; e < at[n_columns]; ++e)
-      keys.push_back(key(column.index[e]));
-    std::vector<double>              sums(keys.size());
+    const unsigned int       n_rows    = transposed ? block.n() : block.m();
+    const unsigned int       n_columns = transposed ? block.m() : block.n();
+    const unsigned int      *at        = &column.begin[column.offset];
+    const unsigned int       first     = at[0];
+    const std::vector<Index> wanted(column.index.begin() + first,
+                                    column.index.begin() + at[n_columns]);
+    std::vector<double>      sums(wanted.size());
     const std::vector<unsigned int> *places     = nullptr;
     unsigned int                     n_patterns = 0;
     int                              pattern    = -1; // that the places are in
@@ -140,7 +136,7 @@ namespace mortise
             if (static_cast<int>(pattern_of[r]) != pattern)
               {
                 pattern = static_cast<int>(pattern_of[r]);
-                places  = &find_places(keys, patterns[pattern], n_patterns++);
+                places  = &find_places(wanted, patterns[pattern], n_patterns++);
               }
             const double scale = factor * row.weight[e];
             double      *to    = values.data() + begin[r];
@@ -151,18 +147,19 @@ namespace mortise
   }
 
   const std::vector<unsigned int> &
-  RowAssembler::find_places(const std::vector<Index> &keys,
+  RowAssembler::find_places(const std::vector<Index> &wanted,
                             const std::vector<Index> &pattern,
                             const unsigned int        guess)
   {
     if (guess == guesses.size())
       guesses.emplace_back();
     auto &places = guesses[guess];
-    places.resize(keys.size());
-    for (unsigned int k = 0; k < keys.size(); ++k)
-      if (places[k] >= pattern.size() || pattern[places[k]] != keys[k])
-        places[k] = std::lower_bound(pattern.begin(), pattern.end(), keys[k]) -
-                    pattern.begin();
+    places.resize(wanted.size());
+    for (unsigned int k = 0; k < wanted.size(); ++k)
+      if (places[k] >= pattern.size() || pattern[places[k]] != wanted[k])
+        places[k] =
+          std::lower_bound(pattern.begin(), pattern.end(), wanted[k]) -
+          pattern.begin();
     return places;
   }
 
@@ -181,8 +178,7 @@ namespace mortise
         const auto &list = patterns[pattern_of[r]];
         indices.push_back(row);
         indices.push_back(list.size());
-        for (const Index place : list)
-          indices.push_back(column_of(place));
+        indices.insert(indices.end(), list.begin(), list.end());
         entries.insert(entries.end(),
                        values.begin() + begin[r],
                        values.begin() + begin[r] + list.size());
@@ -205,7 +201,7 @@ namespace mortise
                   to.emplace_back(list[k], values[begin[r] + k]);
               }
             for (Index k = 0; k < n; ++k)
-              to.emplace_back(key(*index++), *value++);
+              to.emplace_back(*index++, *value++);
           }
       }
     for (auto &[row, entries] : shared)
@@ -231,94 +227,38 @@ namespace mortise
     pattern_of[r] = patterns.size();
     begin[r]      = values.size();
     patterns.emplace_back();
-    for (const auto &[key, value] : entries)
-      if (!patterns.back().empty() && patterns.back().back() == key)
+    for (const auto &[column, value] : entries)
+      if (!patterns.back().empty() && patterns.back().back() == column)
         values.back() += value;
       else
         {
-          patterns.back().push_back(key);
+          patterns.back().push_back(column);
           values.push_back(value);
         }
   }
 
-  std::vector<RowAssembler::Index>
-  RowAssembler::used_keys() const
-  {
-    std::vector<char>  is_seen(patterns.size());
-    std::vector<bool>  is_used(columns.n_elements());
-    std::vector<Index> keys, others;
-    for (const int r : number_of_owned)
-      if (r >= 0 && !is_seen[pattern_of[r]])
-        {
-          is_seen[pattern_of[r]] = true;
-          for (const Index key : patterns[pattern_of[r]])
-            if (key < columns.size())
-              is_used[columns.index_within_set(key)] = true;
-            else
-              others.push_back(key);
-        }
-    make_unique(others);
-    // a rank alone needs no import where it has all
-    const bool all = columns.n_elements() == columns.size();
-    for (const Index column : columns)
-      if (all || is_used[columns.index_within_set(column)])
-        keys.push_back(column);
-    keys.insert(keys.end(), others.begin(), others.end());
-    return keys;
-  }
-
-  void
-  RowAssembler::create(SparseMatrix &matrix, const MPI_Comm comm)
+  SparseMatrix
+  RowAssembler::create(const MPI_Comm comm, const unsigned int n_components)
   {
     add_from_others(comm);
-    const std::vector<Index> keys = used_keys();
-    std::vector<int>         used, place_of_owned(columns.n_elements());
-    for (const Index key : keys)
+    SparseMatrix::CompressedRows result;
+    for (const int r : number_of_owned)
       {
-        if (key < columns.size())
-          place_of_owned[columns.index_within_set(key)] =
-            static_cast<int>(used.size());
-        used.push_back(static_cast<int>(column_of(key)));
+        if (r >= 0)
+          {
+            const auto &pattern = patterns[pattern_of[r]];
+            const auto  first   = values.begin() + begin[r];
+            result.columns.insert(result.columns.end(),
+                                  pattern.begin(),
+                                  pattern.end());
+            result.values.insert(result.values.end(),
+                                 first,
+                                 first + pattern.size());
+          }
+        result.begin.push_back(result.columns.size());
       }
-    const Epetra_Map row_map(rows.make_trilinos_map(comm, false)),
-      domain_map(columns.make_trilinos_map(comm, false)),
-      column_map(
-        -1, static_cast<int>(used.size()), used.data(), 0, row_map.Comm());
-
-    const int        n_owned = static_cast<int>(number_of_owned.size());
-    std::vector<int> lengths(n_owned);
-    for (int i = 0; i < n_owned; ++i)
-      if (const int r = number_of_owned[i]; r >= 0)
-        lengths[i] = static_cast<int>(patterns[pattern_of[r]].size());
-    Epetra_CrsGraph  graph(Copy, row_map, column_map, lengths.data(), true);
-    std::vector<int> places; // of the columns of a row
-    int              pattern = -1;
-    for (int i = 0; i < n_owned; ++i)
-      if (const int r = number_of_owned[i]; r >= 0 && lengths[i] > 0)
-        {
-          if (static_cast<int>(pattern_of[r]) != pattern)
-            {
-              pattern = static_cast<int>(pattern_of[r]);
-              places.clear();
-              for (const Index key : patterns[pattern])
-                places.push_back(
-                  key < columns.size() ?
-                    place_of_owned[columns.index_within_set(key)] :
-                    std::lower_bound(keys.begin(), keys.end(), key) -
-                      keys.begin());
-            }
-          graph.InsertMyIndices(i, lengths[i], places.data());
-        }
-    graph.FillComplete(domain_map, row_map);
-    matrix.reinit(Epetra_CrsMatrix(View, graph), false);
-    for (int i = 0; i < n_owned; ++i)
-      if (const int r = number_of_owned[i]; r >= 0)
-        {
-          int     n       = 0;
-          int    *indices = nullptr;
-          double *to      = nullptr;
-          matrix.trilinos_matrix().ExtractMyRowView(i, n, to, indices);
-          std::copy_n(values.begin() + begin[r], n, to);
-        }
+    patterns = {};
+    values   = {};
+    return {rows, columns, comm, std::move(result), n_components};
   }
 } // namespace mortise

@@ -172,10 +172,9 @@ namespace mortise
             coupling.law.stiffness(face_point(slave.faces[s], xi)));
   }
 
-  void
+  SparseMatrix
   assemble_compliance(const std::vector<Coupling> &couplings,
-                      const CouplingPartition     &partition,
-                      SparseMatrix                &compliance)
+                      const CouplingPartition     &partition)
   {
     RowAssembler assembler(partition.owned_multiplier,
                            partition.owned_multiplier);
@@ -197,6 +196,6 @@ namespace mortise
                        const FullMatrix<double> &block) {
       assembler.add(row(), column(), block, 1., false);
     });
-    assembler.create(compliance, partition.comm);
+    return assembler.create(partition.comm);
   }
 } // namespace mortise

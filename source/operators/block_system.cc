@@ -4,6 +4,20 @@
 
 namespace mortise
 {
+  SystemVector &
+  SystemVector::operator=(const SystemVector &other)
+  {
+    // a vector that is empty on this rank would not take the layout of others
+    for (const auto part : {&SystemVector::displacement,
+                            &SystemVector::pressure,
+                            &SystemVector::multiplier})
+      {
+        (this->*part).reinit(other.*part, true);
+        this->*part = other.*part;
+      }
+    return *this;
+  }
+
   void
   scale(SystemVector &x, const double factor)
   {
@@ -44,7 +58,7 @@ namespace mortise
       {
         Vector opening(x.multiplier);
         spring_compliance.vmult(opening, x.multiplier);
-        clear_inactive(opening.begin());
+        clear_inactive(opening);
         result += opening * x.multiplier;
       }
     return result;
@@ -73,27 +87,26 @@ namespace mortise
   }
 
   void
-  BlockSystem::clear_inactive(double *entries) const
+  BlockSystem::clear_inactive(Vector &multiplier) const
   {
     for (unsigned int i = 0; active && i < active->size(); ++i)
       if (!(*active)[i])
-        entries[i] = 0.;
+        multiplier.local_element(i) = 0.;
   }
 
   void
-  BlockSystem::apply_to_constrained(const LevelVector<double> &u,
-                                    SystemVector              &rhs) const
+  BlockSystem::apply_to_constrained(const Vector &u, SystemVector &rhs) const
   {
     nodal->apply_to_constrained(u, rhs);
     if (owned_multiplier.size() > 0)
-      coupling.vmult_free(rhs.multiplier, u.begin());
+      coupling.vmult_free(rhs.multiplier, u);
   }
 
   void
   BlockSystem::apply_constraint(Vector &dst, const Vector &u) const
   {
     coupling.vmult(dst, u);
-    clear_inactive(dst.begin());
+    clear_inactive(dst);
   }
 
   void
@@ -103,7 +116,7 @@ namespace mortise
       return;
     Vector opening(dst);
     spring_compliance.vmult(opening, lambda);
-    clear_inactive(opening.begin());
+    clear_inactive(opening);
     dst -= opening;
   }
 

@@ -20,7 +20,7 @@ namespace mortise
     public:
       FunctionalByNode(const NodalSpace                  &space,
                        const Utilities::MPI::Partitioner &layout,
-                       LevelVector<double>               &sum)
+                       Vector                            &sum)
         : space(space)
         , layout(layout)
         , sum(sum)
@@ -72,18 +72,18 @@ namespace mortise
 
       const NodalSpace                  &space;
       const Utilities::MPI::Partitioner &layout;
-      LevelVector<double>               &sum;
+      Vector                            &sum;
       std::vector<NodalSpace::Index>     nodes;
       std::map<std::pair<unsigned int, unsigned int>, CellOrder>
         orders; ///< by body and element
     };
   } // namespace
 
-  LevelVector<double>
+  Vector
   NodalSystem::external_forces(const std::vector<Loads> &loads) const
   {
-    const NodalLevel   &level = all_levels.front();
-    LevelVector<double> sum;
+    const NodalLevel &level = all_levels.front();
+    Vector            sum;
     stiffness->initialize(sum);
     FunctionalByNode by_node(*level.space, *level.layout, sum);
     for (const Body *body : level.space->bodies())
@@ -96,12 +96,12 @@ namespace mortise
     return sum;
   }
 
-  LevelVector<double>
+  Vector
   NodalSystem::by_node(const Body            &body,
                        const CellFunctionals &functionals) const
   {
-    const NodalLevel   &level = all_levels.front();
-    LevelVector<double> sum;
+    const NodalLevel &level = all_levels.front();
+    Vector            sum;
     stiffness->initialize(sum);
     FunctionalByNode nodes(*level.space, *level.layout, sum);
     for (const CellFunctional &on_cell : functionals)
@@ -113,11 +113,10 @@ namespace mortise
   void
   NodalSystem::add_loads(const std::vector<Loads> &loads, SceneLoad &load) const
   {
-    load.external           = external_forces(loads);
-    LevelVector<double> sum = load.external;
+    load.external = external_forces(loads);
+    Vector sum    = load.external;
     stiffness->clear_constrained(sum);
-    for (unsigned int i = 0; i < sum.locally_owned_size(); ++i)
-      load.rhs.displacement.begin()[i] += sum.local_element(i);
+    load.rhs.displacement += sum;
     if (pressures)
       add_expansion(loads, load.rhs.pressure);
   }
@@ -126,7 +125,7 @@ namespace mortise
   NodalSystem::add_expansion(const std::vector<Loads> &loads,
                              Vector                   &pressure_load) const
   {
-    LevelVector<double> sum;
+    Vector sum;
     pressures->initialize(sum);
     const auto       nodes = pressures->nodes();
     FunctionalByNode by_node(nodes.space, nodes.layout, sum);
@@ -138,8 +137,7 @@ namespace mortise
                                   by_node.add_pressure(*body, cell, local);
                                 });
     pressures->gather(sum);
-    for (unsigned int i = 0; i < sum.locally_owned_size(); ++i)
-      pressure_load.begin()[i] += sum.local_element(i);
+    pressure_load += sum;
   }
 
   void
@@ -147,22 +145,18 @@ namespace mortise
                                    const CellFunctionals &functionals,
                                    SystemVector          &rhs) const
   {
-    LevelVector<double> sum = by_node(body, functionals);
-    stiffness->clear_constrained(sum);
-    std::copy_n(sum.begin(),
-                sum.locally_owned_size(),
-                rhs.displacement.begin());
+    rhs.displacement = by_node(body, functionals);
+    stiffness->clear_constrained(rhs.displacement);
     if (!pressures)
       return;
-    pressures->initialize(sum);
+    rhs.pressure                    = 0.;
     const auto       pressure_nodes = pressures->nodes();
     FunctionalByNode by_pressure_node(pressure_nodes.space,
                                       pressure_nodes.layout,
-                                      sum);
+                                      rhs.pressure);
     for (const CellFunctional &on_cell : functionals)
       if (on_cell.pressure.size() > 0)
         by_pressure_node.add_pressure(body, on_cell.cell, on_cell.pressure);
-    pressures->gather(sum);
-    std::copy_n(sum.begin(), sum.locally_owned_size(), rhs.pressure.begin());
+    pressures->gather(rhs.pressure);
   }
 } // namespace mortise

@@ -51,7 +51,7 @@ namespace mortise
   NodalSystem::set_pressure(const Coefficients &coefficient,
                             Vector             &pressure) const
   {
-    p_in             = 0.;
+    pressure         = 0.;
     const auto nodes = pressures->nodes();
     transform_pressures(
       nodes.space,
@@ -62,9 +62,8 @@ namespace mortise
       [&](const Body &, const auto, const auto node, const double value) {
         if (nodes.layout.in_local_range(node) &&
             !nodes.space.hanging_nodes().is_constrained(node))
-          p_in.local_element(nodes.layout.global_to_local(node)) = value;
+          pressure.local_element(nodes.layout.global_to_local(node)) = value;
       });
-    std::copy_n(p_in.begin(), p_in.locally_owned_size(), pressure.begin());
   }
 
   void
@@ -74,18 +73,17 @@ namespace mortise
       void(unsigned int body, types::global_dof_index dof, double value)> &set)
     const
   {
-    std::copy_n(pressure.begin(), p_in.locally_owned_size(), p_in.begin());
-    pressures->complete(p_in);
+    pressures->complete(pressure);
     const auto nodes = pressures->nodes();
     transform_pressures(
       nodes.space,
       &CellOrder::transform_to_modes,
       [&](const Body &, const auto, const auto node) {
-        return p_in.local_element(nodes.layout.global_to_local(node));
+        return pressure.local_element(nodes.layout.global_to_local(node));
       },
       [&](const Body &body, const auto dof, const auto, const double value) {
         set(body.index, dof, value);
       });
-    pressures->release(p_in);
+    pressures->release(pressure);
   }
 } // namespace mortise

@@ -1,5 +1,3 @@
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/spaces/thickness_coarsening.h>
 #include <mortise/operators/block_system.h>
@@ -41,18 +39,6 @@ namespace mortise
           visit(body, orders[body.index][cell->active_fe_index()], dofs, nodes);
         });
     }
-
-    void
-    copy(LevelVector<double> &to, const Vector &from)
-    {
-      std::copy_n(from.begin(), to.locally_owned_size(), to.begin());
-    }
-
-    void
-    copy(Vector &to, const LevelVector<double> &from)
-    {
-      std::copy_n(from.begin(), from.locally_owned_size(), to.begin());
-    }
   } // namespace
 
   NodalSystem::NodalSystem(const NodalSpaces                &spaces,
@@ -74,13 +60,10 @@ namespace mortise
     stiffness = std::make_unique<LevelOperator<double>>(all_levels.front(),
                                                         false,
                                                         nodes.get());
-    stiffness->initialize(in);
-    stiffness->initialize(out);
     stiffness->diagonal(stiffness_diagonal);
     if (!pressures)
       return;
-    for (auto *vector : {&p_in, &p_out, &norm_diagonal})
-      pressures->initialize(*vector);
+    pressures->initialize(norm_diagonal);
     clamped_cell_pressures =
       ClampedCellPressures(all_levels.front(), stiffness->elasticity());
     stiffness->elasticity().add_pressure_norm_diagonal(norm_diagonal.begin());
@@ -116,27 +99,25 @@ namespace mortise
   }
 
   void
-  NodalSystem::apply_stiffness(Vector &dst, const Vector &src) const
+  NodalSystem::apply_free(Vector       &dst_u,
+                          Vector       &dst_p,
+                          const Vector &u,
+                          const Vector &p) const
   {
-    copy(in, src);
-    stiffness->clear_constrained(in);
-    stiffness->vmult(out, in);
-    copy(dst, out);
-  }
-
-  void
-  NodalSystem::apply_mixed_free() const
-  {
-    stiffness->complete(in);
-    pressures->complete(p_in);
-    out   = 0.;
-    p_out = 0.;
-    stiffness->elasticity().add_mixed_product({in.begin(), p_in.begin()},
-                                              {out.begin(), p_out.begin()});
-    stiffness->release(in);
-    pressures->release(p_in);
-    stiffness->gather(out);
-    pressures->gather(p_out);
+    if (!pressures)
+      return stiffness->vmult_free(dst_u, u);
+    stiffness->complete(u);
+    pressures->complete(p);
+    dst_u = 0.;
+    dst_p = 0.;
+    // the first are only read
+    stiffness->elasticity().add_mixed_product({const_cast<double *>(u.begin()),
+                                               const_cast<double *>(p.begin())},
+                                              {dst_u.begin(), dst_p.begin()});
+    stiffness->release(u);
+    pressures->release(p);
+    stiffness->gather(dst_u);
+    pressures->gather(dst_p);
   }
 
   void
@@ -145,32 +126,22 @@ namespace mortise
                            const Vector &u,
                            const Vector &p) const
   {
-    copy(in, u);
-    stiffness->clear_constrained(in);
-    copy(p_in, p);
-    apply_mixed_free();
-    stiffness->clear_constrained(out);
-    copy(dst_u, out);
-    copy(dst_p, p_out);
+    apply_free(dst_u, dst_p, u, p);
+    stiffness->clear_constrained(dst_u);
   }
 
   void
   NodalSystem::add_pressure_force(Vector &dst, const Vector &p) const
   {
-    copy(p_in, p);
-    pressures->complete(p_in);
-    out = 0.;
-    stiffness->elasticity().add_pressure_force(p_in.begin(), out.begin());
-    pressures->release(p_in);
-    stiffness->gather(out);
-    stiffness->clear_constrained(out);
-    for (unsigned int i = 0; i < out.locally_owned_size(); ++i)
-      dst.begin()[i] += out.local_element(i);
+    pressures->complete(p);
+    stiffness->elasticity().add_pressure_force(p.begin(), dst.begin());
+    pressures->release(p);
+    stiffness->gather(dst);
+    stiffness->clear_constrained(dst);
   }
 
   void
-  NodalSystem::apply_pressure_norm(LevelVector<double>       &dst,
-                                   const LevelVector<double> &p) const
+  NodalSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
   {
     pressures->complete(p);
     dst = 0.;
@@ -181,23 +152,13 @@ namespace mortise
   }
 
   void
-  NodalSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
-  {
-    copy(p_in, p);
-    apply_pressure_norm(p_out, p_in);
-    copy(dst, p_out);
-  }
-
-  void
   NodalSystem::apply_pressure_mass(Vector &dst, const Vector &p) const
   {
-    copy(p_in, p);
-    pressures->complete(p_in);
-    p_out = 0.;
-    stiffness->elasticity().add_pressure_norm(p_in.begin(), p_out.begin());
-    pressures->release(p_in);
-    pressures->gather(p_out);
-    copy(dst, p_out);
+    pressures->complete(p);
+    dst = 0.;
+    stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
+    pressures->release(p);
+    pressures->gather(dst);
   }
 
   void
@@ -210,15 +171,15 @@ namespace mortise
           for (const auto node : nodes)
             if (pressure_nodes.layout.in_local_range(node) &&
                 !pressure_nodes.space.hanging_nodes().is_constrained(node))
-              p.begin()[pressure_nodes.layout.global_to_local(node)] = 1.;
+              p.local_element(pressure_nodes.layout.global_to_local(node)) = 1.;
       });
   }
 
-  void
-  NodalSystem::interpolate(const Coefficients &coefficient) const
+  Vector
+  NodalSystem::values_at_nodes(const Coefficients &coefficient) const
   {
     const NodalLevel &level = all_levels.front();
-    in                      = 0.;
+    Vector            values(level.layout);
     // What it is at a node follows from the entity that has the node, so all
     // cells agree.
     for_each_ordered_cell(
@@ -242,59 +203,36 @@ namespace mortise
             for (unsigned int i = 0; i < order.values.size(); ++i)
               if (const auto index = dim * nodes[order.scalar[i]] + c;
                   level.layout->in_local_range(index))
-                in.local_element(level.layout->global_to_local(index)) =
+                values.local_element(level.layout->global_to_local(index)) =
                   order.values[i];
           }
       });
+    return values;
   }
 
-  LevelVector<double>
-  NodalSystem::values_at_nodes(const Coefficients &coefficient) const
+  Vector
+  NodalSystem::internal_forces(const Vector &u, const Vector &p) const
   {
-    interpolate(coefficient);
-    return in;
-  }
-
-  void
-  NodalSystem::apply_free(const LevelVector<double> &u) const
-  {
-    in = u;
-    if (pressures)
-      apply_mixed_free();
-    else
-      stiffness->vmult_free(out, in);
-  }
-
-  LevelVector<double>
-  NodalSystem::internal_forces(const LevelVector<double> &u,
-                               const Vector              &p) const
-  {
-    if (pressures)
-      copy(p_in, p);
-    apply_free(u);
-    return out;
+    const Vector values(u); // those of hanging nodes are not kept
+    Vector       forces(u), unused(p);
+    apply_free(forces, unused, values, p);
+    return forces;
   }
 
   void
-  NodalSystem::apply_to_constrained(const LevelVector<double> &u,
-                                    SystemVector              &rhs) const
+  NodalSystem::apply_to_constrained(const Vector &u, SystemVector &rhs) const
   {
-    if (pressures)
-      p_in = 0.;
-    apply_free(u);
-    if (pressures)
-      copy(rhs.pressure, p_out);
-    stiffness->clear_constrained(out);
-    copy(rhs.displacement, out);
+    const Vector values(u), zero(rhs.pressure);
+    apply_free(rhs.displacement, rhs.pressure, values, zero);
+    stiffness->clear_constrained(rhs.displacement);
   }
 
   void
   NodalSystem::set_displacement(const Coefficients &coefficient,
                                 Vector             &displacement) const
   {
-    interpolate(coefficient);
-    stiffness->clear_constrained(in);
-    copy(displacement, in);
+    displacement = values_at_nodes(coefficient);
+    stiffness->clear_constrained(displacement);
   }
 
   void
@@ -305,8 +243,7 @@ namespace mortise
                              double                          value)> &set) const
   {
     const NodalLevel &level = all_levels.front();
-    copy(in, displacement);
-    stiffness->complete(in);
+    stiffness->complete(displacement);
     for_each_ordered_cell(
       *level.space,
       [&](const Body &body,
@@ -316,13 +253,14 @@ namespace mortise
         for (unsigned int c = 0; c < dim; ++c)
           {
             for (unsigned int i = 0; i < order.values.size(); ++i)
-              order.values[i] = in.local_element(level.layout->global_to_local(
-                dim * nodes[order.scalar[i]] + c));
+              order.values[i] =
+                displacement.local_element(level.layout->global_to_local(
+                  dim * nodes[order.scalar[i]] + c));
             order.transform_to_modes();
             for (unsigned int i = 0; i < order.values.size(); ++i)
               set(body.index, dofs[order.modes[c][i]], order.values[i]);
           }
       });
-    stiffness->release(in);
+    stiffness->release(displacement);
   }
 } // namespace mortise

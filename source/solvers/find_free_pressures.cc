@@ -2,7 +2,6 @@
 
 #include <deal.II/lac/solver_cg.h>
 
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/find_free_pressures.h>
 #include <mortise/solvers/pseudo_random.h>
 #include <mortise/solvers/scaled_residual.h>
@@ -21,7 +20,8 @@ namespace mortise
       void
       vmult(Vector &dst, const Vector &src) const
       {
-        Vector force(system.owned_displacement, system.communicator);
+        Vector force;
+        system.nodal->initialize(force);
         system.add_multiplier_force(force, src);
         scale(force);
         system.apply_constraint(dst, force);
@@ -30,9 +30,7 @@ namespace mortise
       void
       scale(Vector &u) const
       {
-        const auto &inverse = residual.inverse_diagonal_u();
-        for (int i = 0; i < inverse.MyLength(); ++i)
-          u.begin()[i] *= inverse[i];
+        u.scale(residual.inverse_diagonal_u());
       }
 
       const BlockSystem    &system;
@@ -45,9 +43,8 @@ namespace mortise
       void
       vmult(Vector &dst, const Vector &src) const
       {
-        const auto &inverse = residual.inverse_diagonal_lambda();
-        for (int i = 0; i < inverse.MyLength(); ++i)
-          dst.begin()[i] = inverse[i] * src.begin()[i];
+        dst = src;
+        dst.scale(residual.inverse_diagonal_lambda());
       }
 
       const ScaledResidual &residual;
@@ -101,13 +98,13 @@ namespace mortise
     Enclosure            result;
     result.state          = system.zero_vector();
     result.state.pressure = one;
-    Vector force(system.owned_displacement, system.communicator);
+    Vector force(result.state.displacement);
     system.add_pressure_force(force, one);
     // what a pressure on a free boundary would bring is h / L of this norm
     double norm = 0.;
     for (unsigned int i = 0; i < one.locally_owned_size(); ++i)
-      norm +=
-        one.begin()[i] * one.begin()[i] / residual.inverse_diagonal_p()[i];
+      norm += one.local_element(i) * one.local_element(i) /
+              residual.inverse_diagonal_p().local_element(i);
     norm                   = Utilities::MPI::sum(norm, system.communicator);
     double       left      = square(force, normal);
     const double rounding  = 1e-16 * norm,

@@ -114,7 +114,7 @@ namespace mortise
     const double factor = unit_scale(rhs);
     SystemVector scaled = rhs;
     scale(scaled, factor);
-    system.clear_inactive(scaled.multiplier.begin());
+    system.clear_inactive(scaled.multiplier);
     scale(x, factor);
     // nothing is left of it, beside which any start is infinitely wrong
     const bool nothing = largest_entry(scaled) == 0.;

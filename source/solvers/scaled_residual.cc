@@ -1,7 +1,6 @@
 // See scaled_residual.h.
 #include <deal.II/base/mpi.h>
 
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/scaled_residual.h>
 
 #include <algorithm>
@@ -19,48 +18,45 @@ namespace mortise
       return d > 0. ? 1. / d : 1.;
     }
 
-    double
-    weighted_product(const Vector        &a,
-                     const Vector        &b,
-                     const Epetra_Vector &weight)
+    void
+    invert(Vector &diagonal)
     {
-      double        sum  = 0.;
-      const double *of_a = a.trilinos_vector()[0],
-                   *of_b = b.trilinos_vector()[0];
-      for (int i = 0; i < weight.MyLength(); ++i)
-        sum += of_a[i] * of_b[i] * weight[i];
+      for (unsigned int i = 0; i < diagonal.locally_owned_size(); ++i)
+        diagonal.local_element(i) = inverse(diagonal.local_element(i));
+    }
+
+    /// Of the owned values.
+    double
+    weighted_product(const Vector &a, const Vector &b, const Vector &weight)
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < weight.locally_owned_size(); ++i)
+        sum +=
+          a.local_element(i) * b.local_element(i) * weight.local_element(i);
       return sum;
     }
   } // namespace
 
   ScaledResidual::ScaledResidual(const BlockSystem &system)
     : system(system)
+    , weight(system.zero_vector())
     , interface_present(system.owned_multiplier.size() > 0)
   {
-    const SystemVector zero = system.zero_vector();
-    weight_u =
-      std::make_unique<Epetra_Vector>(zero.displacement.trilinos_partitioner());
-    for (int i = 0; i < weight_u->MyLength(); ++i)
-      (*weight_u)[i] = inverse(system.nodal->diagonal().local_element(i));
+    weight.displacement = system.nodal->diagonal();
     if (system.mixed())
+      weight.pressure = system.nodal->pressure_norm_diagonal();
+    invert(weight.displacement);
+    invert(weight.pressure);
+    if (!interface_present)
+      return;
+    weight.multiplier = system.coupling.diagonal_of_square(weight.displacement);
+    if (system.has_springs())
       {
-        weight_p =
-          std::make_unique<Epetra_Vector>(zero.pressure.trilinos_partitioner());
-        const auto &diagonal = system.nodal->pressure_norm_diagonal();
-        for (int i = 0; i < weight_p->MyLength(); ++i)
-          (*weight_p)[i] = inverse(diagonal.local_element(i));
+        const auto opening = system.spring_compliance.diagonal();
+        for (unsigned int i = 0; i < opening.size(); ++i)
+          weight.multiplier.local_element(i) += opening[i];
       }
-    if (interface_present)
-      {
-        weight_lambda = std::make_unique<Epetra_Vector>(
-          system.coupling.diagonal_of_square(*weight_u));
-        Epetra_Vector opening(weight_lambda->Map());
-        if (system.has_springs())
-          system.spring_compliance.trilinos_matrix().ExtractDiagonalCopy(
-            opening);
-        for (int i = 0; i < weight_lambda->MyLength(); ++i)
-          (*weight_lambda)[i] = inverse((*weight_lambda)[i] + opening[i]);
-      }
+    invert(weight.multiplier);
   }
 
   void
@@ -97,11 +93,11 @@ namespace mortise
   double
   ScaledResidual::product(const SystemVector &a, const SystemVector &b) const
   {
-    double sum = weighted_product(a.displacement, b.displacement, *weight_u);
-    if (system.mixed())
-      sum += weighted_product(a.pressure, b.pressure, *weight_p);
-    if (interface_present)
-      sum += weighted_product(a.multiplier, b.multiplier, *weight_lambda);
+    double sum = 0.;
+    for (const auto part : {&SystemVector::displacement,
+                            &SystemVector::pressure,
+                            &SystemVector::multiplier})
+      sum += weighted_product(a.*part, b.*part, weight.*part);
     return Utilities::MPI::sum(sum, system.communicator);
   }
 
@@ -112,24 +108,19 @@ namespace mortise
     SystemVector sizes = system.zero_vector();
     const auto   abs   = [](Vector &to, const Vector &from) {
       for (unsigned int i = 0; i < to.locally_owned_size(); ++i)
-        to.begin()[i] = std::fabs(from.begin()[i]);
+        to.local_element(i) = std::fabs(from.local_element(i));
     };
     if (interface_present)
       {
-        Epetra_CrsMatrix B = system.coupling.expanded();
-        for (int i = 0; i < B.NumMyRows(); ++i)
-          {
-            const EpetraRow row(B, i);
-            for (int k = 0; k < row.length; ++k)
-              row.values[k] = std::fabs(row.values[k]);
-          }
+        SparseMatrix B = system.coupling.expanded();
+        B.for_each_entry([](const auto, const auto, double &value) {
+          value = std::fabs(value);
+        });
         Vector u(x.displacement), lambda(x.multiplier);
         abs(u, x.displacement);
         abs(lambda, x.multiplier);
-        Epetra_Vector to_u      = epetra_view(sizes.displacement),
-                      to_lambda = epetra_view(sizes.multiplier);
-        B.Multiply(true, epetra_view(lambda), to_u);
-        B.Multiply(false, epetra_view(u), to_lambda);
+        B.Tvmult_add(sizes.displacement.begin(), lambda.begin());
+        B.vmult(sizes.multiplier, u);
         if (system.has_springs())
           {
             Vector opening(lambda); // entries of one sign are most of it
@@ -139,9 +130,10 @@ namespace mortise
           }
       }
     for (unsigned int i = 0; i < x.displacement.locally_owned_size(); ++i)
-      sizes.displacement.begin()[i] +=
-        std::fabs(rhs.displacement.begin()[i]) +
-        std::fabs(x.displacement.begin()[i]) / (*weight_u)[i];
+      sizes.displacement.local_element(i) +=
+        std::fabs(rhs.displacement.local_element(i)) +
+        std::fabs(x.displacement.local_element(i)) /
+          weight.displacement.local_element(i);
     return norm(sizes);
   }
 

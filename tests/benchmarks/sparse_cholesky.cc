@@ -13,7 +13,6 @@
 //     layers    of cells in each body
 //     held      sides of the boxes where both are clamped, by commas
 //     runs      factorisations of each, in turn; solves: per run
-#include <Epetra_MpiComm.h>
 #include <malloc.h>
 #include <mortise/operators/levels/nodal_block_matrix.h>
 #include <mortise/operators/levels/vertex_matrix.h>
@@ -21,7 +20,7 @@
 #include <mortise/solvers/factorisation/distributed_nodal_matrix.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
-#include <mortise/solvers/interface/weighted_square.h>
+#include <mortise/solvers/multipliers/weighted_square.h>
 
 #include <ctime>
 #include <iostream>
@@ -85,12 +84,12 @@ namespace
     return (info.uordblks + info.hblkhd) / 1048576.;
   }
 
-  /// The rows with, by node, the entries of vectors on @p map.
+  /// The rows with, by node, the entries of vectors like zero.
   struct Problem
   {
     NodalMatrix                             rows;
-    std::unique_ptr<Epetra_Map>             map;
-    std::unique_ptr<Epetra_CrsMatrix>       matrix; ///< of nodes and components
+    mortise::Vector                         zero;
+    mortise::SparseMatrix                   matrix; ///< of nodes and components
     std::unique_ptr<DistributedNodalMatrix> product;
   };
 
@@ -149,10 +148,10 @@ namespace
     Problem problem;
     if (options.text("matrix", "multipliers") == "vertices")
       {
-        const auto matrix =
-          as_epetra(assemble_vertex_matrix(system.levels().back()).blocks);
-        problem.rows = rows_as_nodes(*matrix);
-        problem.map  = std::make_unique<Epetra_Map>(matrix->RowMap());
+        const mortise::SparseMatrix matrix = as_sparse_matrix(
+          assemble_vertex_matrix(system.levels().back()).blocks);
+        problem.rows = rows_as_nodes(matrix);
+        problem.zero.reinit(matrix.rows(), scene.comm);
       }
     else
       {
@@ -168,23 +167,23 @@ namespace
         for (const auto &leading : system.leading_displacements())
           weights.local_element(leading.index) = 0.;
         problem.rows = weighted_square(CouplingRows(B), weights);
-        problem.map  = std::make_unique<Epetra_Map>(B.row_map());
+        problem.zero.reinit(scene.owned_multiplier, scene.comm);
       }
-    problem.matrix = as_matrix(problem.rows, Epetra_MpiComm(scene.comm));
+    problem.matrix = as_matrix(problem.rows, scene.comm);
     problem.product =
-      std::make_unique<DistributedNodalMatrix>(problem.rows, *problem.map);
+      std::make_unique<DistributedNodalMatrix>(problem.rows, scene.comm);
     return problem;
   }
 
   /// One way to factorise.
   struct Solver
   {
-    std::string                                                   name;
-    std::function<bool()>                                         factorise;
-    std::function<void(Epetra_Vector &x, const Epetra_Vector &b)> solve;
-    std::function<void()>                                         clear;
-    std::vector<double> factor_times, solve_times;
-    double              memory = 0., error = 0.;
+    std::string                                     name;
+    std::function<bool()>                           factorise;
+    std::function<void(double *x, const double *b)> solve;
+    std::function<void()>                           clear;
+    std::vector<double>                             factor_times, solve_times;
+    double                                          memory = 0., error = 0.;
   };
 
   template <typename Number, typename Work>
@@ -199,9 +198,7 @@ namespace
       *inverse = std::make_unique<SparseCholesky<Number, Work>>();
       return (*inverse)->initialize(problem.rows, MPI_COMM_WORLD);
     };
-    solver.solve = [=](Epetra_Vector &x, const Epetra_Vector &b) {
-      (*inverse)->solve(x, b);
-    };
+    solver.solve = [=](double *x, const double *b) { (*inverse)->solve(x, b); };
     solver.clear = [=] { inverse->reset(); };
     return solver;
   }
@@ -212,26 +209,26 @@ namespace
     struct State
     {
       std::unique_ptr<MumpsFactorisation> inverse;
-      std::unique_ptr<Epetra_Vector>      x, b;
+      std::vector<double>                 x, b;
     };
     const auto state = std::make_shared<State>();
-    state->x = std::make_unique<Epetra_Vector>(problem.matrix->RowMap());
-    state->b = std::make_unique<Epetra_Vector>(problem.matrix->RowMap());
+    state->x.resize(problem.matrix.n_rows());
+    state->b.resize(problem.matrix.n_rows());
     Solver solver;
     solver.name      = "mumps";
     solver.factorise = [=, &problem] {
       state->inverse = std::make_unique<MumpsFactorisation>();
-      return state->inverse->initialize(*problem.matrix,
+      return state->inverse->initialize(problem.matrix,
                                         MatrixKind::positive_definite);
     };
-    solver.solve = [=, &problem](Epetra_Vector &x, const Epetra_Vector &b) {
+    solver.solve = [=, &problem](double *x, const double *b) {
       const auto &entries = problem.rows.entries;
       for (unsigned int i = 0; i < entries.size(); ++i)
-        (*state->b)[i] = entries[i] < 0 ? 0. : b[entries[i]];
-      state->inverse->solve(*state->x, *state->b);
+        state->b[i] = entries[i] < 0 ? 0. : b[entries[i]];
+      state->inverse->solve(state->x.data(), state->b.data());
       for (unsigned int i = 0; i < entries.size(); ++i)
         if (entries[i] >= 0)
-          x[entries[i]] = (*state->x)[i];
+          x[entries[i]] = state->x[i];
     };
     solver.clear = [=] { state->inverse.reset(); };
     return solver;
@@ -302,7 +299,7 @@ namespace
     }
 
     void
-    solve(Epetra_Vector &x, const Epetra_Vector &rhs)
+    solve(double *x, const double *rhs)
     {
       const unsigned int C = rows.n_components, n = rows.size();
       const auto         place = [&](const unsigned int e) {
@@ -342,10 +339,8 @@ namespace
     Solver     solver;
     solver.name      = name;
     solver.factorise = [=] { return state->factorise(); };
-    solver.solve     = [=](Epetra_Vector &x, const Epetra_Vector &b) {
-      state->solve(x, b);
-    };
-    solver.clear = [=] { state->clear(); };
+    solver.solve     = [=](double *x, const double *b) { state->solve(x, b); };
+    solver.clear     = [=] { state->clear(); };
     return solver;
   }
 #endif
@@ -361,17 +356,14 @@ namespace
 
   /// |b - A x| / |b|.
   double
-  residual(const Problem       &problem,
-           const Epetra_Vector &x,
-           const Epetra_Vector &b)
+  residual(const Problem         &problem,
+           const mortise::Vector &x,
+           const mortise::Vector &b)
   {
-    Epetra_Vector r(*problem.map);
+    mortise::Vector r(problem.zero);
     problem.product->vmult(r, x);
-    r.Update(1., b, -1.);
-    double norm = 0., size = 0.;
-    r.Norm2(&norm);
-    b.Norm2(&size);
-    return norm / size;
+    r -= b;
+    return r.l2_norm() / b.l2_norm();
   }
 
   void
@@ -380,9 +372,9 @@ namespace
           const unsigned int   runs,
           const unsigned int   n_solves)
   {
-    Epetra_Vector x(*problem.map), b(*problem.map);
-    for (int i = 0; i < b.MyLength(); ++i)
-      b[i] = std::sin(1. + 3.7 * problem.map->GID(i));
+    mortise::Vector x(problem.zero), b(x);
+    for (const auto i : b.locally_owned_elements())
+      b(i) = std::sin(1. + 3.7 * i);
     for (unsigned int run = 0; run < runs + 1;
          ++run) // the first is not counted
       for (Solver &solver : solvers)
@@ -392,7 +384,7 @@ namespace
             throw std::runtime_error(solver.name + " failed");
           const double middle = seconds();
           for (unsigned int i = 0; i < n_solves; ++i)
-            solver.solve(x, b);
+            solver.solve(x.begin(), b.begin());
           const double end = seconds();
           solver.memory    = allocated() - before;
           solver.error     = residual(problem, x, b);
@@ -427,13 +419,16 @@ main(int argc, char **argv)
           options.number("runs", 5),
           options.number("solves", 20));
 
+  std::size_t n_entries = 0;
+  for (unsigned int i = 0; i < problem.matrix.n_rows(); ++i)
+    n_entries += problem.matrix.row(i).length;
   const auto alike =
     std::count(problem.rows.variants.begin(), problem.rows.variants.end(), 1u);
-  std::cout << "{\"rows\": " << problem.map->NumGlobalElements()
+  std::cout << "{\"rows\": " << problem.zero.size()
             << ", \"nodes\": " << problem.rows.size()
             << ", \"components\": " << problem.rows.n_components
             << ", \"alike\": " << double(alike) / problem.rows.size()
-            << ", \"entries\": " << problem.matrix->NumGlobalNonzeros();
+            << ", \"entries\": " << n_entries;
   for (const Solver &solver : solvers)
     std::cout << ", \"" << solver.name
               << "\": {\"factor\": " << median(solver.factor_times)

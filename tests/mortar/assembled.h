@@ -31,7 +31,6 @@ namespace mortise::testing
     mortise::Vector u(owned, comm);
     for (const auto i : owned)
       u(i) = std::sin(12.9898 * (i + 1.)) * std::cos(3.7 * i);
-    u.compress(VectorOperation::insert);
     return u;
   }
 
@@ -42,9 +41,8 @@ namespace mortise::testing
               const TiedBody &master,
               const MPI_Comm  comm = MPI_COMM_WORLD)
       : scene(slave, master, comm)
-    {
-      scene.assemble(B);
-    }
+      , B(scene.constraint())
+    {}
 
     mortise::Vector
     constraint(const mortise::Vector &u) const
@@ -89,7 +87,8 @@ namespace mortise::testing
     for (const FaceTrace &trace : surface.traces)
       relevant.add_indices(trace.column.begin(), trace.column.end());
     mortise::Vector all(u.locally_owned_elements(), relevant, scene.comm);
-    all        = u;
+    all = u;
+    all.update_ghost_values();
     double sum = 0.;
     for (unsigned int s = 0; s < surface.faces.size(); ++s)
       {

@@ -24,7 +24,6 @@ namespace mortise::testing
     set_multiplier(scene.coupling(),
                    values_at_nodes(scene.coupling().interface->slave(), q),
                    result);
-    result.compress(VectorOperation::insert);
     return result;
   }
 
@@ -227,7 +226,9 @@ namespace mortise::testing
                                                 scene.field.constraints},
                              scene.comm);
 
-    mortise::Vector at_nodes = random(owned, scene.comm);
+    mortise::Vector at_nodes;
+    system.initialize(at_nodes);
+    at_nodes = random(owned, scene.comm);
     for (const unsigned int place : system.levels().front().constrained)
       at_nodes.begin()[place] = 0.;
     mortise::Vector u = modal.scene.displacement();
@@ -238,7 +239,6 @@ namespace mortise::testing
             !modal.scene.field.constraints.is_constrained(i))
           u(i) = value;
       });
-    u.compress(VectorOperation::insert);
     const mortise::Vector expected = modal.constraint(u);
     for (const bool with_frames : {false, true})
       {
@@ -254,8 +254,8 @@ namespace mortise::testing
                   (with_frames ? ", with frames 1e-12" : " 1e-12"),
                 jump.linfty_norm() / expected.linfty_norm(),
                 1e-12);
-        mortise::Vector force = random(owned, scene.comm);
-        force                 = 0.;
+        mortise::Vector force(at_nodes);
+        force = 0.;
         B.Tvmult_add(force, expected);
         const double work = force * at_nodes, of_jump = expected * expected;
         verdict(what + ": the forces do the multipliers' work" +
@@ -310,7 +310,12 @@ namespace mortise::testing
     mortise::Vector residual =
       tied.constraint(tied.interpolate(identity, identity));
     const Coupling &coupling = tied.scene.coupling();
-    mortise::Vector gap      = tied.scene.multiplier();
+    IndexSet        relevant = residual.locally_owned_elements();
+    for (const auto &rows : coupling.multipliers->rows())
+      relevant.add_indices(rows.index.begin(), rows.index.end());
+    mortise::Vector gap(residual.locally_owned_elements(),
+                        relevant,
+                        tied.scene.comm);
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       {
         const auto        &rows = coupling.multipliers->rows()[s];

@@ -102,7 +102,6 @@ namespace mortise::testing
     const BodySurface &slave  = scene.coupling().interface->slave();
     mortise::Vector    lambda = scene.multiplier();
     set_multiplier(scene.coupling(), values_at_nodes(slave, function), lambda);
-    lambda.compress(VectorOperation::insert);
     const auto polynomials =
       multiplier_on_faces(scene.coupling(), lambda, scene.comm);
     double error = 0.;

@@ -157,31 +157,37 @@ main(int argc, char *argv[])
                     factor,
                     block.transposed);
     }
-  mortise::SparseMatrix matrix;
-  assembler.create(matrix, MPI_COMM_WORLD);
+  const mortise::SparseMatrix matrix = assembler.create(MPI_COMM_WORLD);
 
   const Expected  expected;
   mortise::Vector u(columns, MPI_COMM_WORLD), product(rows, MPI_COMM_WORLD);
   for (const Index j : columns)
     u(j) = std::cos(double(j));
   matrix.vmult(product, u);
-  double entry_error = 0., product_error = 0.;
-  for (const Index i : rows)
+  double       entry_error = 0., product_error = 0.;
+  unsigned int n_entries = 0;
+  for (unsigned int local = 0; local < matrix.n_rows(); ++local)
     {
-      double sum = 0.;
+      const Index         i   = matrix.global_row(local);
+      double              sum = 0.;
+      std::vector<double> got(n_columns);
+      const auto          row = matrix.row(local);
+      for (unsigned int k = 0; k < row.length; ++k)
+        got[matrix.global_column(row.columns[k])] = row.values[k];
+      n_entries += row.length;
       for (Index j = 0; j < n_columns; ++j)
         {
           sum += expected.matrix(i, j) * std::cos(double(j));
           entry_error =
-            std::max(entry_error,
-                     std::abs(matrix.el(i, j) - expected.matrix(i, j)));
+            std::max(entry_error, std::abs(got[j] - expected.matrix(i, j)));
         }
       product_error = std::max(product_error, std::abs(product(i) - sum));
     }
   entry_error   = Utilities::MPI::max(entry_error, MPI_COMM_WORLD);
   product_error = Utilities::MPI::max(product_error, MPI_COMM_WORLD);
   const double n_others =
-    double(matrix.n_nonzero_elements()) - double(expected.places.size());
+    Utilities::MPI::sum<double>(n_entries, MPI_COMM_WORLD) -
+    double(expected.places.size());
   if (rank == 0)
     {
       verdict("entries", entry_error, 1e-13);

@@ -40,7 +40,6 @@ namespace mortise::testing
     mortise::Vector multiplier = scene.multiplier();
     for (const auto i : scene.owned_multiplier)
       multiplier(i) = i % 3 == 0 ? 0.1 * (i % 11) : 0.;
-    multiplier.compress(VectorOperation::insert);
     const auto values =
       multiplier_coefficients(scene.coupling(), multiplier, scene.comm);
     double least = 0.;
@@ -82,7 +81,6 @@ namespace mortise::testing
                       });
     mortise::Vector multiplier = scene.multiplier();
     set_multiplier(scene.coupling(), given, multiplier);
-    multiplier.compress(VectorOperation::insert);
     const auto values =
       multiplier_coefficients(scene.coupling(), multiplier, scene.comm);
     double error = 0.;

@@ -15,6 +15,8 @@
 
 #include <functional>
 
+#include "hierarchical_constraint.h"
+
 namespace mortise::testing
 {
   using Field =
@@ -156,10 +158,10 @@ namespace mortise::testing
     }
 
     /// B in the numbering's columns.
-    void
-    assemble(SparseMatrix &matrix) const
+    SparseMatrix
+    constraint() const
     {
-      assemble_constraint(couplings, partition(), matrix);
+      return hierarchical_constraint(couplings, partition());
     }
 
     /// Coefficients of @p function on the tied surface of body @p b, zero
@@ -198,7 +200,6 @@ namespace mortise::testing
                   u(i) = sum;
                 }
         }
-      u.compress(dealii::VectorOperation::insert);
     }
 
     mortise::Vector

@@ -97,13 +97,13 @@ namespace mortise::testing
                       MPI_COMM_WORLD);
     for (const auto i : scene.fields.displacement.numbering.owned())
       u(i) = random_number(seed, i);
-    u.compress(VectorOperation::insert);
     const SceneField &field = scene.fields.displacement;
     field.constraints.distribute(u);
     mortise::Vector all(field.numbering.owned(),
                         field.constraints.get_local_lines(),
                         MPI_COMM_WORLD);
     all = u;
+    all.update_ghost_values();
     std::vector<BodyVector> result;
     for (const auto &body : scene.bodies)
       {
@@ -221,11 +221,9 @@ namespace mortise::testing
             std::fabs(product<float>(level, w_nodes, u_nodes) - exact) / size,
             1e-5);
 
-    mortise::Vector nodal(level.layout->locally_owned_range(), MPI_COMM_WORLD);
-    std::copy_n(u_nodes.begin(), u_nodes.locally_owned_size(), nodal.begin());
     double worst = 0.;
     scene.system->for_each_coefficient(
-      nodal,
+      u_nodes,
       [&](const unsigned int            body,
           const types::global_dof_index dof,
           const double                  value) {

@@ -95,18 +95,15 @@ namespace mortise::testing
   }
 
   /// Random where nothing hangs, zero elsewhere.
-  mortise::Vector
-  random_vector(const IndexSet    &owned,
-                const NodalSpace  &space,
-                const unsigned int n_components,
-                const unsigned int seed)
+  void
+  set_random(mortise::Vector   &v,
+             const NodalSpace  &space,
+             const unsigned int n_components,
+             const unsigned int seed)
   {
-    mortise::Vector v(owned, MPI_COMM_WORLD);
-    for (const auto i : owned)
+    for (const auto i : v.locally_owned_elements())
       if (!space.hanging_nodes().is_constrained(i / n_components))
-        v[i] = random_number(seed, i);
-    v.compress(VectorOperation::insert);
-    return v;
+        v(i) = random_number(seed, i);
   }
 
   /// Values that a rank needs, of index i.
@@ -117,6 +114,7 @@ namespace mortise::testing
   {
     mortise::Vector result(owned, relevant, MPI_COMM_WORLD);
     result = v;
+    result.update_ghost_values();
     return result;
   }
 
@@ -292,9 +290,12 @@ namespace mortise::testing
   Fields
   random_fields(const Scene &scene, const unsigned int seed)
   {
-    return {random_vector(
-              scene.u_nodes, *scene.system->levels().front().space, dim, seed),
-            random_vector(scene.p_nodes, *scene.pressure_space, 1, seed + 1)};
+    Fields fields;
+    scene.system->initialize(fields.u);
+    scene.system->initialize_pressure(fields.p);
+    set_random(fields.u, *scene.system->levels().front().space, dim, seed);
+    set_random(fields.p, *scene.pressure_space, 1, seed + 1);
+    return fields;
   }
 
   double
@@ -348,14 +349,11 @@ namespace mortise::testing
     a.u = 0.;
     scene.system->add_pressure_force(a.u, right.p);
     Fields constant = right;
-    scene.system->apply_mixed(b.u,
-                              b.p,
-                              left.u,
-                              mortise::Vector(scene.p_nodes, MPI_COMM_WORLD));
+    constant.p      = 0.;
+    scene.system->apply_mixed(b.u, b.p, left.u, constant.p);
     verdict(name + ": force of a pressure",
             relative(a.u * left.u, b.p * right.p),
             1e-10);
-    constant.p = 0.;
     scene.system->set_constant_pressure(*scene.bodies.front(), constant.p);
     scene.system->apply_pressure_mass(b.p, constant.p);
     // an eighth of a shell

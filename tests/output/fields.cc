@@ -339,7 +339,6 @@ namespace mortise::testing
                    values_at_nodes(scene.coupling().interface->slave(),
                                    Polynomial{p}),
                    lambda);
-    lambda.compress(VectorOperation::insert);
     write_interface_fields(*scene.bodies[0],
                            scene.coupling(),
                            multiplier_on_faces(scene.coupling(), lambda, comm),
@@ -401,7 +400,6 @@ namespace mortise::testing
                    values_at_nodes(scene.coupling().interface->slave(),
                                    Polynomial{1}),
                    lambda);
-    lambda.compress(VectorOperation::insert);
     write_interface_fields(*scene.bodies[0],
                            scene.coupling(),
                            multiplier_on_faces(scene.coupling(), lambda, comm),

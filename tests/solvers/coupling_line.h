@@ -2,13 +2,12 @@
 // in a line. It never needs more than a few milliseconds.
 #pragma once
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Map.h>
-#include <Epetra_MpiComm.h>
 #include <mortise/mortar/coupling_matrix.h>
 
 #include <cmath>
 #include <set>
+#include <utility>
+#include <vector>
 
 /// Rows of @p n_entities entities in a line, up to three for each component;
 /// those of an entity move the nodes beside it. At both ends one component
@@ -78,35 +77,60 @@ struct CouplingLine
     return columns.size();
   }
 
-  /// Entities are dealt out in their order.
-  Epetra_CrsMatrix
+  /// Entities and nodes are dealt out in their order: those from the first on
+  /// in front of the second.
+  static std::pair<int, int>
+  part(const int n)
+  {
+    using namespace dealii::Utilities::MPI;
+    const int rank = this_mpi_process(MPI_COMM_WORLD),
+              size = n_mpi_processes(MPI_COMM_WORLD);
+    return {n * rank / size, n * (rank + 1) / size};
+  }
+
+  dealii::IndexSet
+  owned_rows() const
+  {
+    int n = 0;
+    for (auto [e, end] = part(n_entities); e < end; ++e)
+      n += n_rows(e);
+    return mortise::owned_range(n, MPI_COMM_WORLD);
+  }
+
+  dealii::IndexSet
+  owned_nodes(const int n_components) const
+  {
+    const auto [first, end] = part(n_nodes());
+    return mortise::owned_range(n_components * (end - first), MPI_COMM_WORLD);
+  }
+
+  /// visit(row, entity, number of the row in it for its component, component)
+  template <typename Visit>
+  void
+  for_each_row(const Visit &visit) const
+  {
+    const dealii::IndexSet rows = owned_rows();
+    unsigned int           next = 0;
+    for (auto [e, end] = part(n_entities); e < end; ++e)
+      for (int c = 0; c < 3; ++c)
+        for (int i = 0; i < 3; ++i)
+          if (is_row(e, i, c))
+            visit(rows.nth_index_in_set(next++), e, i, c);
+  }
+
+  mortise::SparseMatrix
   matrix() const
   {
-    const Epetra_MpiComm comm(MPI_COMM_WORLD);
-    const Epetra_Map     entities(n_entities, 0, comm);
-    int                  n = 0;
-    for (int e = 0; e < entities.NumMyElements(); ++e)
-      n += n_rows(entities.GID(e));
-    const Epetra_Map rows(-1, n, 0, comm), nodes(n_nodes(), 0, comm),
-      columns(-1, 3 * nodes.NumMyElements(), 0, comm);
-    Epetra_CrsMatrix result(Copy, rows, 0);
-    int              row = rows.MinMyGID();
-    for (int k = 0; k < entities.NumMyElements(); ++k)
-      for (int c = 0; c < 3; ++c)
-        for (int e = entities.GID(k), i = 0; i < 3; ++i)
-          if (is_row(e, i, c))
-            {
-              for (int node = 3 * e; node < 3 * e + 8; ++node)
-                if (is_column(e, node, c))
-                  {
-                    const double entry  = value(e, i, node, c);
-                    const int    column = 3 * node + c;
-                    result.InsertGlobalValues(row, 1, &entry, &column);
-                  }
-              ++row;
-            }
-    result.FillComplete(columns, rows);
-    return result;
+    std::vector<mortise::SparseMatrix::Entry> entries;
+    for_each_row([&](const auto row, const int e, const int i, const int c) {
+      for (unsigned int node = 3 * e; node < 3U * e + 8; ++node)
+        if (is_column(e, node, c))
+          entries.push_back({row, 3 * node + c, value(e, i, node, c)});
+    });
+    return mortise::SparseMatrix(owned_rows(),
+                                 owned_nodes(3),
+                                 MPI_COMM_WORLD,
+                                 entries);
   }
 
   bool
@@ -130,42 +154,41 @@ struct CouplingLine
     return true;
   }
 
-  /// The same by node.
+  /// The same by node, its rows combined by @p frames if there are some.
   mortise::CouplingMatrix
-  by_node() const
+  by_node(mortise::SparseMatrix frames = {}) const
   {
-    using mortise::CouplingMatrix;
-    const Epetra_CrsMatrix           B = matrix();
-    const Epetra_Map                 nodes(n_nodes(), 0, B.Comm());
-    Epetra_CrsMatrix                 scalar(Copy, B.RowMap(), 0);
+    using namespace mortise;
+    SparseMatrix::CompressedRows     scalar;
     std::vector<CouplingMatrix::Row> rows;
-    const Epetra_Map                 entities(n_entities, 0, B.Comm());
-    int                              row = B.RowMap().MinMyGID();
-    for (int k = 0; k < entities.NumMyElements(); ++k)
-      for (int c = 0, e = entities.GID(k), first = row; c < 3; ++c)
-        for (int i = 0; i < 3; ++i)
-          if (is_row(e, i, c))
-            {
-              const bool shared = is_shared(e, i, c);
-              rows.push_back({static_cast<unsigned>(shared ? first + i : row),
-                              static_cast<unsigned>(c)});
-              for (int node = 3 * e; node < 3 * e + 8 && !shared; ++node)
-                if (is_column(e, node, c) || !is_free(node, c))
-                  {
-                    const double entry = value(e, i, node, c);
-                    scalar.InsertGlobalValues(row, 1, &entry, &node);
-                  }
-              ++row;
-            }
-    scalar.FillComplete(nodes, B.RowMap());
-    mortise::SparseMatrix entries, frames;
-    entries.reinit(scalar);
-    CouplingMatrix result(std::move(entries), rows, std::move(frames));
+    unsigned int                     first = 0; // row of the entity
+    for_each_row([&](const auto row, const int e, const int i, const int c) {
+      if (c == 0 && i == 0)
+        first = row;
+      const bool shared = is_shared(e, i, c);
+      rows.push_back({shared ? first + i : static_cast<unsigned int>(row),
+                      static_cast<unsigned int>(c)});
+      for (unsigned int node = 3 * e; node < 3U * e + 8 && !shared; ++node)
+        if (is_column(e, node, c) || !is_free(node, c))
+          {
+            scalar.columns.push_back(node);
+            scalar.values.push_back(value(e, i, node, c));
+          }
+      scalar.begin.push_back(scalar.columns.size());
+    });
+    CouplingMatrix            result(SparseMatrix(owned_rows(),
+                                       owned_nodes(1),
+                                       MPI_COMM_WORLD,
+                                       std::move(scalar),
+                                       3),
+                          rows,
+                          SparseMatrix());
     std::vector<unsigned int> constrained;
-    for (int k = 0; k < nodes.NumMyElements(); ++k)
+    const auto [begin, end] = part(n_nodes());
+    for (int node = begin; node < end; ++node)
       for (int c = 0; c < 3; ++c)
-        if (!is_free(nodes.GID(k), c))
-          constrained.push_back(3 * k + c);
+        if (!is_free(node, c))
+          constrained.push_back(3 * (node - begin) + c);
     result.constrain(constrained);
     return result;
   }

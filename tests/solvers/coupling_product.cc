@@ -2,8 +2,7 @@
 // have the same entries, where they have others and where some lack them, and
 // touch the displacements that multipliers move alone, on every number of
 // ranks.
-#include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/interface/coupling_product.h>
+#include <mortise/solvers/multipliers/coupling_product.h>
 #include <verdict.h>
 
 #include <cmath>
@@ -13,16 +12,17 @@
 
 using namespace mortise;
 using namespace dealii;
+using mortise::SparseMatrix;
 
 namespace
 {
   template <typename Number>
   void
-  check(const std::string      &name,
-        const BlockSystem      &system,
-        const Epetra_CrsMatrix &B,
-        const double            n_moved,
-        const double            allowed)
+  check(const std::string  &name,
+        const BlockSystem  &system,
+        const SparseMatrix &B,
+        const double        n_moved,
+        const double        allowed)
   {
     const auto say =
       [&](const std::string &what, const double got, const double limit) {
@@ -36,80 +36,74 @@ namespace
       Utilities::MPI::sum<double>(places.size(), MPI_COMM_WORLD);
     say("places beside those that are moved", std::abs(n_places - n_moved), 0);
 
-    Epetra_Vector       u(B.DomainMap()), jump(B.RowMap()), expected(jump);
+    mortise::Vector u(system.owned_displacement, MPI_COMM_WORLD),
+      jump(system.owned_multiplier, MPI_COMM_WORLD), expected(jump);
     LevelVector<Number> trace;
     product.initialize(trace);
-    for (int i = 0; i < u.MyLength(); ++i)
-      u[i] = std::sin(1. + u.Map().GID(i));
+    for (const auto i : system.owned_displacement)
+      u(i) = std::sin(1. + i);
     for (unsigned int k = 0; k < places.size(); ++k)
-      trace.local_element(k) = static_cast<Number>(u[places[k]]);
+      trace.local_element(k) = static_cast<Number>(u.local_element(places[k]));
     product.multiply(jump, trace);
-    B.Multiply(false, u, expected);
-    double norm = 0., error = 0.;
-    expected.NormInf(&norm);
-    jump.Update(-1., expected, 1.);
-    jump.NormInf(&error);
-    say("B u", error / norm, allowed);
+    B.vmult(expected, u);
+    jump -= expected;
+    say("B u", jump.linfty_norm() / expected.linfty_norm(), allowed);
 
     product.multiply_transposed(trace, expected);
-    B.Multiply(true, expected, u);
-    u.NormInf(&norm);
+    u = 0.;
+    B.Tvmult_add(u.begin(), expected.begin());
+    const double norm = u.linfty_norm();
     for (unsigned int k = 0; k < places.size(); ++k)
-      u[places[k]] -= trace.local_element(k);
-    u.NormInf(&error);
-    say("B^T y, zero elsewhere", error / norm, allowed);
+      u.local_element(places[k]) -= trace.local_element(k);
+    say("B^T y, zero elsewhere", u.linfty_norm() / norm, allowed);
   }
 
   /// @p B: the same entry by entry.
   void
-  check_all(const std::string      &name,
-            const BlockSystem      &system,
-            const Epetra_CrsMatrix &B,
-            const double            n_moved)
+  check_all(const std::string  &name,
+            const BlockSystem  &system,
+            const SparseMatrix &B,
+            const double        n_moved)
   {
-    if (system.coupling.n_components() == dim)
-      {
-        check<double>(name, system, B, n_moved, 1e-15);
-        check<float>(name + ", single", system, B, n_moved, 1e-6);
-      }
+    check<double>(name, system, B, n_moved, 1e-15);
+    check<float>(name + ", single", system, B, n_moved, 1e-6);
     mortise::Vector u(system.owned_displacement, MPI_COMM_WORLD),
       y(system.owned_multiplier, MPI_COMM_WORLD), expected(y), expected_u(u);
     for (const auto i : system.owned_displacement)
       u(i) = std::sin(1. + i);
-    u.compress(VectorOperation::insert);
     system.coupling.vmult(y, u);
-    Epetra_Vector in_u = epetra_view(u), in_y = epetra_view(expected),
-                  out = epetra_view(expected_u);
-    B.Multiply(false, in_u, in_y);
-    B.Multiply(true, in_y, out);
+    B.vmult(expected, u);
+    B.Tvmult_add(expected_u.begin(), expected.begin());
     y -= expected;
     const double error = y.linfty_norm() / expected.linfty_norm();
     u                  = 0.;
     system.coupling.Tvmult_add(u, expected);
     u -= expected_u;
-    const double     error_u = u.linfty_norm() / expected_u.linfty_norm();
-    Epetra_CrsMatrix same    = system.coupling.expanded();
-    in_u.PutScalar(2.);
-    const Epetra_Vector squares = system.coupling.diagonal_of_square(in_u);
-    double              largest = 0., of_squares = 0.;
-    for (int i = 0; i < B.NumMyRows(); ++i)
+    const double       error_u    = u.linfty_norm() / expected_u.linfty_norm();
+    const SparseMatrix same       = system.coupling.expanded();
+    u                             = 2.;
+    const mortise::Vector squares = system.coupling.diagonal_of_square(u);
+    double                largest = 0., of_squares = 0.;
+    for (unsigned int i = 0; i < B.n_rows(); ++i)
       {
-        std::map<int, double> row;
+        std::map<unsigned int, double> row;
+        double                         sum = 0.;
         for (const auto &[matrix, sign] :
-             std::initializer_list<std::pair<const Epetra_CrsMatrix *, double>>{
+             std::initializer_list<std::pair<const SparseMatrix *, double>>{
                {&B, 1.}, {&same, -1.}})
           {
-            const EpetraRow entries(*matrix, i);
-            for (int k = 0; k < entries.length; ++k)
-              row[matrix->GCID(entries.columns[k])] += sign * entries.values[k];
+            const auto entries = matrix->row(i);
+            for (unsigned int k = 0; k < entries.length; ++k)
+              {
+                row[matrix->global_column(entries.columns[k])] +=
+                  sign * entries.values[k];
+                sum += entries.values[k] * entries.values[k];
+              }
           }
         for (const auto &[column, difference] : row)
           largest = std::max(largest, std::abs(difference));
-        const EpetraRow entries(B, i);
-        double          sum = 0.;
-        for (int k = 0; k < entries.length; ++k)
-          sum += 2. * entries.values[k] * entries.values[k];
-        of_squares = std::max(of_squares, std::abs(sum - squares[i]) / sum);
+        of_squares =
+          std::max(of_squares, std::abs(sum - squares.local_element(i)) / sum);
       }
     largest    = Utilities::MPI::max(largest, MPI_COMM_WORLD);
     of_squares = Utilities::MPI::max(of_squares, MPI_COMM_WORLD);
@@ -126,25 +120,17 @@ namespace
   void
   check_line(const int n_entities)
   {
-    const CouplingLine     line{n_entities};
-    const Epetra_CrsMatrix B = line.matrix();
-    BlockSystem            system;
-    system.communicator = MPI_COMM_WORLD;
-    const auto owned    = [](const Epetra_Map &map) {
-      IndexSet set(static_cast<unsigned int>(map.NumGlobalElements()));
-      if (map.NumMyElements() > 0)
-        set.add_range(map.MinMyGID(), map.MaxMyGID() + 1);
-      return set;
-    };
-    system.owned_displacement  = owned(B.DomainMap());
-    system.owned_multiplier    = owned(B.RowMap());
-    const std::string     name = std::to_string(n_entities) + " entities";
-    mortise::SparseMatrix by_displacement;
-    by_displacement.reinit(B);
-    system.coupling = CouplingMatrix(std::move(by_displacement));
-    check_all(name + ", one by one", system, B, line.n_moved());
-    system.coupling = line.by_node();
-    check_all(name, system, B, line.n_moved());
+    const CouplingLine line{n_entities};
+    const SparseMatrix B = line.matrix();
+    BlockSystem        system;
+    system.communicator       = MPI_COMM_WORLD;
+    system.owned_displacement = line.owned_nodes(dim);
+    system.owned_multiplier   = line.owned_rows();
+    system.coupling           = line.by_node();
+    check_all(std::to_string(n_entities) + " entities",
+              system,
+              B,
+              line.n_moved());
   }
 } // namespace
 

@@ -1,10 +1,11 @@
 // Proves that multipliers which depend on others are found, exactly as many as
 // there are: none among independent constraints, and one for each that is
 // added once more, scaled or as the sum of two others.
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-
-#include <mortise/solvers/interface/dependent_multipliers.h>
+#include <mortise/solvers/multipliers/dependent_multipliers.h>
 #include <verdict.h>
+
+#include <utility>
+#include <vector>
 
 #include "coupling_line.h"
 
@@ -23,42 +24,29 @@ namespace
   unsigned int
   count(const std::vector<Row> &replaced)
   {
-    const Epetra_CrsMatrix B = CouplingLine{12}.matrix();
-    SparseMatrix           given;
-    given.reinit(B);
-    dealii::DynamicSparsityPattern pattern(given.m(), given.n());
-    const auto                     for_each = [&](const auto &visit) {
-      for (unsigned int k = 0; k < given.m(); ++k)
-        {
-          std::vector<std::pair<unsigned int, double>> sum = {{k, 1.}};
-          for (const Row &row : replaced)
-            if (row.k == k)
-              sum = row.sum;
-          for (const auto &[source, factor] : sum)
-            for (auto entry = given.begin(source); entry != given.end(source);
-                 ++entry)
-              visit(k, entry->column(), factor * entry->value());
-        }
-    };
-    for_each([&](const unsigned int k, const auto column, const double) {
-      pattern.add(k, column);
-    });
-    SparseMatrix coupling;
-    coupling.reinit(dealii::complete_index_set(given.m()),
-                    dealii::complete_index_set(given.n()),
-                    pattern,
-                    MPI_COMM_WORLD);
-    for_each([&](const unsigned int k, const auto column, const double value) {
-      coupling.add(k, column, value);
-    });
-    coupling.compress(dealii::VectorOperation::add);
-    const CouplingMatrix all(std::move(coupling));
-    Epetra_Vector        inverse_diagonal(B.DomainMap());
-    for (int i = 0; i < inverse_diagonal.MyLength(); ++i)
-      inverse_diagonal[i] = 1. / (1. + i % 7);
-    Epetra_Vector scale = all.diagonal_of_square(inverse_diagonal);
-    scale.Reciprocal(scale);
-    return find_dependent_multipliers(all,
+    const CouplingLine               line{12};
+    std::vector<SparseMatrix::Entry> frames;
+    const auto                       multipliers = line.owned_rows();
+    for (const unsigned int k : multipliers)
+      {
+        std::vector<std::pair<unsigned int, double>> sum = {{k, 1.}};
+        for (const Row &row : replaced)
+          if (row.k == k)
+            sum = row.sum;
+        for (const auto &[source, factor] : sum)
+          frames.push_back({k, source, factor});
+      }
+    const CouplingMatrix coupling = line.by_node(
+      replaced.empty() ?
+        SparseMatrix() :
+        SparseMatrix(multipliers, multipliers, MPI_COMM_WORLD, frames));
+    mortise::Vector inverse_diagonal(line.owned_nodes(dim), MPI_COMM_WORLD);
+    for (const auto i : line.owned_nodes(dim))
+      inverse_diagonal(i) = 1. / (1. + i % 7);
+    mortise::Vector scale = coupling.diagonal_of_square(inverse_diagonal);
+    for (double &value : scale)
+      value = 1. / value;
+    return find_dependent_multipliers(coupling,
                                       inverse_diagonal,
                                       scale,
                                       SparseMatrix())

@@ -5,13 +5,13 @@
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/lapack_full_matrix.h>
+#include <deal.II/lac/sparse_matrix.h>
 
 #include <Teuchos_LAPACK.hpp>
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/elements/legendre_elements.h>
 #include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/scene_system.h>
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 
 #include <algorithm>
@@ -74,36 +74,47 @@ namespace mortise::testing
     return result;
   }
 
+  /// The same matrix. One rank.
+  inline SparseMatrix
+  copy_of(const dealii::SparseMatrix<double> &A)
+  {
+    std::vector<SparseMatrix::Entry> entries;
+    for (const auto &entry : A)
+      entries.push_back({entry.row(), entry.column(), entry.value()});
+    return SparseMatrix(dealii::complete_index_set(A.m()),
+                        dealii::complete_index_set(A.n()),
+                        MPI_COMM_WORLD,
+                        entries);
+  }
+
+  /// visit(column, value) in @p row of @p A, where the column has a place.
+  template <typename Visit>
+  void
+  for_entries(const SparseMatrix &A,
+              const unsigned int  row,
+              const Places       &columns,
+              const Visit        &visit)
+  {
+    const auto entries = A.row(row);
+    for (unsigned int k = 0; k < entries.length; ++k)
+      if (const int j = columns[A.global_column(entries.columns[k])]; j >= 0)
+        visit(j, entries.values[k]);
+  }
+
   /// @p rows and @p columns of @p A. One rank.
   inline SparseMatrix
   submatrix(const SparseMatrix &A, const Indices &rows, const Indices &columns)
   {
-    const Places place = places(A.n(), columns);
-    const auto   visit = [&](const auto &entry) {
-      for (unsigned int i = 0; i < rows.size(); ++i)
-        {
-          const EpetraRow row(A.trilinos_matrix(), rows[i]);
-          for (int k = 0; k < row.length; ++k)
-            if (const int j = place[A.trilinos_matrix().GCID(row.columns[k])];
-                j >= 0)
-              entry(i, j, row.values[k]);
-        }
-    };
-    dealii::DynamicSparsityPattern sparsity(rows.size(), columns.size());
-    visit([&](const unsigned int i, const unsigned int j, const double) {
-      sparsity.add(i, j);
-    });
-    SparseMatrix result;
-    result.reinit(dealii::complete_index_set(rows.size()),
-                  dealii::complete_index_set(columns.size()),
-                  sparsity,
-                  MPI_COMM_WORLD,
-                  true);
-    visit([&](const unsigned int i, const unsigned int j, const double value) {
-      result.set(i, j, value);
-    });
-    result.compress(dealii::VectorOperation::insert);
-    return result;
+    const Places                     place = places(A.n(), columns);
+    std::vector<SparseMatrix::Entry> entries;
+    for (unsigned int i = 0; i < rows.size(); ++i)
+      for_entries(A, rows[i], place, [&](const unsigned int j, const double v) {
+        entries.push_back({i, j, v});
+      });
+    return SparseMatrix(dealii::complete_index_set(rows.size()),
+                        dealii::complete_index_set(columns.size()),
+                        MPI_COMM_WORLD,
+                        entries);
   }
 
   /// B A^{-1} B^T with @p rows of B and those of its columns that have a place
@@ -114,32 +125,30 @@ namespace mortise::testing
                    const Indices      &rows,
                    const Places       &columns)
   {
-    const auto &a = A.trilinos_matrix(), &b = B.trilinos_matrix();
     DenseMatrix S(rows.size(), rows.size());
-    if (a.NumGlobalRows() == 0) // nothing is free
+    if (A.m() == 0) // nothing is free
       return S;
     MumpsFactorisation factors;
-    if (!factors.initialize(a, MatrixKind::positive_definite))
+    if (!factors.initialize(A, MatrixKind::positive_definite))
       throw std::runtime_error("the inner product is not positive definite");
-    Epetra_Vector x(a.RowMap()), y(a.RowMap());
-    const auto    for_entries = [&](const unsigned int row, const auto &visit) {
-      const EpetraRow view(b, rows[row]);
-      for (int k = 0; k < view.length; ++k)
-        if (const int j = columns[b.GCID(view.columns[k])]; j >= 0)
-          visit(j, view.values[k]);
-    };
+    std::vector<double> x(A.m()), y(A.m());
     for (unsigned int i = 0; i < rows.size(); ++i)
       {
-        y.PutScalar(0.);
-        for_entries(i, [&](const int j, const double value) { y[j] += value; });
-        if (!factors.solve(x, y))
+        std::fill(y.begin(), y.end(), 0.);
+        for_entries(B, rows[i], columns, [&](const int j, const double value) {
+          y[j] += value;
+        });
+        if (!factors.solve(x.data(), y.data()))
           throw std::runtime_error("the solve failed");
         for (unsigned int k = 0; k <= i; ++k)
           {
             double sum = 0.;
-            for_entries(k, [&](const int j, const double value) {
-              sum += value * x[j];
-            });
+            for_entries(B,
+                        rows[k],
+                        columns,
+                        [&](const int j, const double value) {
+                          sum += value * x[j];
+                        });
             S(i, k) = S(k, i) = sum;
           }
       }
@@ -150,15 +159,11 @@ namespace mortise::testing
   inline void
   add_dense(const SparseMatrix &matrix, const Indices &rows, DenseMatrix &dense)
   {
-    const auto  &sparse = matrix.trilinos_matrix();
-    const Places place  = places(matrix.m(), rows);
+    const Places place = places(matrix.m(), rows);
     for (unsigned int i = 0; i < rows.size(); ++i)
-      {
-        const EpetraRow view(sparse, rows[i]);
-        for (int k = 0; k < view.length; ++k)
-          if (const int j = place[sparse.GCID(view.columns[k])]; j >= 0)
-            dense(i, j) += view.values[k];
-      }
+      for_entries(matrix, rows[i], place, [&](const int j, const double value) {
+        dense(i, j) += value;
+      });
   }
 
   /// One body, homogeneous conditions.
@@ -262,8 +267,9 @@ namespace mortise::testing
         indices(cell);
         constraints.add_entries_local_to_global(dofs, all, false);
       }
-    SparseMatrix mixed;
-    mixed.reinit(all);
+    dealii::SparsityPattern sparsity;
+    sparsity.copy_from(all);
+    dealii::SparseMatrix<double> assembled(sparsity);
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       {
         CellKernel     stiffness(body, cell->get_fe());
@@ -285,17 +291,15 @@ namespace mortise::testing
             for (unsigned int l = n; l < dofs.size(); ++l)
               local(k, l) = pressure.mass()(k - n, l - n);
           }
-        constraints.distribute_local_to_global(local, dofs, mixed);
+        constraints.distribute_local_to_global(local, dofs, assembled);
       }
-    mixed.compress(dealii::VectorOperation::add);
-    Indices rows_u(n_u), rows_p(n_p);
+    const SparseMatrix mixed = copy_of(assembled);
+    Indices            rows_u(n_u), rows_p(n_p);
     std::iota(rows_u.begin(), rows_u.end(), 0);
     std::iota(rows_p.begin(), rows_p.end(), n_u);
-    MixedMatrices result;
-    result.stiffness.copy_from(submatrix(mixed, rows_u, rows_u));
-    result.divergence.copy_from(submatrix(mixed, rows_p, rows_u));
-    result.mass.copy_from(submatrix(mixed, rows_p, rows_p));
-    return result;
+    return {submatrix(mixed, rows_u, rows_u),
+            submatrix(mixed, rows_p, rows_u),
+            submatrix(mixed, rows_p, rows_p)};
   }
 
   /// What the eigenvalues of (G K^{-1} G^T, M) say.

@@ -9,6 +9,7 @@
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/mortar/coupling.h>
 
+#include "../mortar/hierarchical_constraint.h"
 #include "inf_sup.h"
 
 namespace mortise::testing
@@ -102,18 +103,14 @@ namespace mortise::testing
     for_each_cell([&](const auto &) {
       constraints.add_entries_local_to_global(dofs, sparsity, false);
     });
-    SparseMatrix A;
-    A.reinit(complete_index_set(n),
-             complete_index_set(n),
-             sparsity,
-             MPI_COMM_WORLD,
-             true);
-    ScalarKernel kernel(body);
+    SparsityPattern pattern;
+    pattern.copy_from(sparsity);
+    dealii::SparseMatrix<double> A(pattern);
+    ScalarKernel                 kernel(body);
     for_each_cell([&](const auto &cell) {
       constraints.distribute_local_to_global(kernel.compute(cell), dofs, A);
     });
-    A.compress(VectorOperation::add);
-    return A;
+    return copy_of(A);
   }
 
   /// Two bodies tied at zmax of the slave and zmin of the master.
@@ -167,10 +164,11 @@ namespace mortise::testing
     DenseMatrix
     schur(const unsigned int b, const unsigned int c) const
     {
-      const SparseMatrix A = h1_product(*bodies[b], open[b], c);
-      Indices            taken;
+      const SparseMatrix        A        = h1_product(*bodies[b], open[b], c);
+      const std::vector<double> diagonal = A.diagonal();
+      Indices                   taken;
       for (unsigned int i = 0; i < A.m(); ++i)
-        if (!open[b].is_constrained(i) && A.diag_element(i) > 0.)
+        if (!open[b].is_constrained(i) && diagonal[i] > 0.)
           taken.push_back(i);
       Places columns(constraint.n(), -1);
       for (unsigned int i = 0; i < taken.size(); ++i)
@@ -213,9 +211,9 @@ namespace mortise::testing
       coupling.multipliers->number(coupling.interface->slave(), 0);
       const auto rows =
         dealii::complete_index_set(coupling.multipliers->n_owned());
-      assemble_constraint(couplings,
-                          {numbering.owned(), rows, MPI_COMM_WORLD},
-                          constraint);
+      constraint =
+        hierarchical_constraint(couplings,
+                                {numbering.owned(), rows, MPI_COMM_WORLD});
     }
 
     Bodies                                         bodies;

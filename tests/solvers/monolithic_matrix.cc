@@ -23,7 +23,6 @@ namespace
     const auto   set = [](mortise::Vector &v, const double shift) {
       for (const auto i : v.locally_owned_elements())
         v(i) = std::sin(12.9898 * i + shift);
-      v.compress(dealii::VectorOperation::insert);
     };
     set(x.displacement, 1.);
     const NodalLevel &level = system.nodal->levels().front();
@@ -40,7 +39,7 @@ namespace
     if (x.multiplier.size() > 0)
       {
         set(x.multiplier, 3.);
-        system.clear_inactive(x.multiplier.begin());
+        system.clear_inactive(x.multiplier);
       }
     return x;
   }
@@ -63,20 +62,19 @@ namespace
         equations.discretisation.select(active);
       }
     const ScaledResidual residual(system);
-    const auto           matrix =
+    const SparseMatrix   matrix =
       monolithic_matrix(system, residual, MonolithicNumbering(system));
     const SystemVector x = unknowns(system);
     SystemVector       r = system.zero_vector();
     residual.compute(system.zero_vector(), x, r);
 
-    Epetra_Vector v(matrix->RowMap()), product(v);
-    int           next = 0;
+    std::vector<double> v, product(matrix.n_rows());
     for (const auto *part : {&x.displacement, &x.pressure, &x.multiplier})
       for (unsigned int i = 0; i < part->locally_owned_size(); ++i)
-        v[next++] = part->begin()[i];
-    matrix->Multiply(false, v, product);
-    double error = 0., largest = 0.;
-    next = 0;
+        v.push_back(part->local_element(i));
+    matrix.vmult(product.data(), v.data());
+    double       error = 0., largest = 0.;
+    unsigned int next = 0;
     for (const auto *part : {&r.displacement, &r.pressure, &r.multiplier})
       for (unsigned int i = 0; i < part->locally_owned_size(); ++i, ++next)
         {

@@ -4,7 +4,6 @@
 // definite.
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_MpiComm.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
 #include <verdict.h>
 
@@ -46,31 +45,36 @@ namespace
       return std::pow(10., decades * ((row * 37) % 101) / 100.);
     }
 
-    Epetra_CrsMatrix
+    SparseMatrix
     matrix() const
     {
-      const Epetra_MpiComm comm(MPI_COMM_WORLD);
-      const Epetra_Map     map(size(), 0, comm);
-      Epetra_CrsMatrix     result(Copy, map, 0);
-      for (int local = 0; local < map.NumMyElements(); ++local)
+      using namespace dealii::Utilities::MPI;
+      const int n_ranks = n_mpi_processes(MPI_COMM_WORLD),
+                rank    = this_mpi_process(MPI_COMM_WORLD),
+                first   = size() * rank / n_ranks,
+                end     = size() * (rank + 1) / n_ranks;
+      const auto owned  = owned_range(end - first, MPI_COMM_WORLD);
+      std::vector<SparseMatrix::Entry> entries;
+      for (int row = first; row < end; ++row)
         {
-          const int row = map.GID(local), point = row / block,
-                    part = point / (n * n), x = point % n, y = point / n % n;
+          const int point = row / block, part = point / (n * n), x = point % n,
+                    y = point / n % n;
           for (int i = std::max(x - 1, 0); i <= std::min(x + 1, n - 1); ++i)
             for (int j = std::max(y - 1, 0); j <= std::min(y + 1, n - 1); ++j)
               for (int c = 0; c < block; ++c)
                 {
-                  int column = (part * n * n + j * n + i) * block + c;
+                  const int column = (part * n * n + j * n + i) * block + c;
                   // what couples a row with another is symmetric in both
                   const int    key   = row + column;
                   const double value = (row == column ? 9. * block + shift :
                                                         -1. + (key % 7) / 10.) *
                                        scale(row) * scale(column);
-                  result.InsertGlobalValues(row, 1, &value, &column);
+                  entries.push_back({static_cast<unsigned int>(row),
+                                     static_cast<unsigned int>(column),
+                                     value});
                 }
         }
-      result.FillComplete();
-      return result;
+      return SparseMatrix(owned, owned, MPI_COMM_WORLD, entries);
     }
   };
 
@@ -78,21 +82,23 @@ namespace
   void
   check(const std::string &name, const Grids &grids, const double accuracy)
   {
-    const Epetra_CrsMatrix matrix = grids.matrix();
+    const SparseMatrix     matrix = grids.matrix();
     SparseCholesky<Number> inverse;
     say(name + ": positive definite",
         inverse.initialize(rows_as_nodes(matrix), MPI_COMM_WORLD) ? 0 : 1,
         0);
-    Epetra_Vector x(matrix.RowMap()), b(x), y(x);
-    for (int i = 0; i < x.MyLength(); ++i)
-      x[i] = std::sin(1. + matrix.GRID(i)) / grids.scale(matrix.GRID(i));
-    matrix.Multiply(false, x, b);
+    std::vector<double> x, b(matrix.n_rows()), y(b);
+    for (unsigned int i = 0; i < b.size(); ++i)
+      x.push_back(std::sin(1. + matrix.global_row(i)) /
+                  grids.scale(matrix.global_row(i)));
+    matrix.vmult(b.data(), x.data());
     for (unsigned int twice = 0; twice < 2; ++twice)
-      inverse.solve(y, b);
+      inverse.solve(y.data(), b.data());
     double error = 0.;
-    for (int i = 0; i < x.MyLength(); ++i)
+    for (unsigned int i = 0; i < x.size(); ++i)
       error =
-        std::max(error, std::fabs(y[i] - x[i]) * grids.scale(matrix.GRID(i)));
+        std::max(error,
+                 std::fabs(y[i] - x[i]) * grids.scale(matrix.global_row(i)));
     say(name, dealii::Utilities::MPI::max(error, MPI_COMM_WORLD), accuracy);
   }
 } // namespace

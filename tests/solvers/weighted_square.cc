@@ -4,10 +4,9 @@
 // invert it, on every number of ranks.
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_MpiComm.h>
 #include <mortise/solvers/factorisation/schwarz_inverse.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
-#include <mortise/solvers/interface/weighted_square.h>
+#include <mortise/solvers/multipliers/weighted_square.h>
 #include <verdict.h>
 
 #include <cmath>
@@ -22,23 +21,17 @@ namespace
   void
   check(const int n_entities)
   {
-    const Epetra_CrsMatrix B       = CouplingLine{n_entities}.matrix();
-    const auto             largest = [](const Epetra_Vector &x) {
-      double norm = 0.;
-      x.NormInf(&norm);
-      return norm;
-    };
-    const auto say =
+    const CouplingLine          line{n_entities};
+    const mortise::SparseMatrix B = line.matrix();
+    const auto                  say =
       [&](const std::string &what, const double got, const double allowed) {
         if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
           verdict(std::to_string(n_entities) + " entities: " + what,
                   got,
                   allowed);
       };
-    IndexSet owned(B.DomainMap().NumGlobalElements());
-    if (B.DomainMap().NumMyElements() > 0)
-      owned.add_range(B.DomainMap().MinMyGID(), B.DomainMap().MaxMyGID() + 1);
-    LevelVector<double> weights(owned, MPI_COMM_WORLD);
+    const IndexSet  owned = line.owned_nodes(dim);
+    mortise::Vector weights(owned, MPI_COMM_WORLD);
     for (const auto i : owned)
       weights(i) = 1. + i / 3 % 5;
 
@@ -52,52 +45,51 @@ namespace
     say("nodes whose components differ", n_nodes - n_alike, 35);
     say("without such", n_nodes - n_alike > 0 ? 0 : 1, 0);
 
-    Epetra_Vector y(B.RowMap()), expected(y), got(y), u(B.DomainMap());
-    for (int i = 0; i < y.MyLength(); ++i)
-      y[i] = std::sin(1. + B.GRID(i));
-    B.Multiply(true, y, u);
-    for (int i = 0; i < u.MyLength(); ++i)
-      u[i] *= weights.local_element(i);
-    B.Multiply(false, u, expected);
-    const auto    matrix = as_matrix(C, B.Comm());
-    Epetra_Vector at_nodes(matrix->RowMap()), product(at_nodes);
+    mortise::Vector y(B.rows(), MPI_COMM_WORLD), expected(y), got(y),
+      u(weights);
+    for (const auto i : B.rows())
+      y(i) = std::sin(1. + i);
+    const auto multiply = [&](mortise::Vector       &to,
+                              const mortise::Vector &from) {
+      u = 0.;
+      B.Tvmult_add(u.begin(), from.begin());
+      u.scale(weights);
+      B.vmult(to, u);
+    };
+    multiply(expected, y);
+    const mortise::SparseMatrix matrix = as_matrix(C, MPI_COMM_WORLD);
+    std::vector<double> at_nodes(matrix.n_rows()), product(matrix.n_rows());
     for (unsigned int i = 0; i < C.entries.size(); ++i)
       if (C.entries[i] >= 0)
-        at_nodes[i] = y[C.entries[i]];
-    matrix->Multiply(false, at_nodes, product);
+        at_nodes[i] = y.local_element(C.entries[i]);
+    matrix.vmult(product.data(), at_nodes.data());
     for (unsigned int i = 0; i < C.entries.size(); ++i)
       if (C.entries[i] >= 0)
-        got[C.entries[i]] = product[i];
-    got.Update(-1., expected, 1.);
-    say("products", largest(got) / largest(expected), 1e-14);
+        got.local_element(C.entries[i]) = product[i];
+    got -= expected;
+    say("products", got.linfty_norm() / expected.linfty_norm(), 1e-14);
 
     SparseCholesky<double> inverse;
     say("positive definite", inverse.initialize(C, MPI_COMM_WORLD) ? 0 : 1, 0);
-    inverse.solve(got, expected);
-    got.Update(-1., y, 1.);
-    say("inverse", largest(got), 1e-12);
+    inverse.solve(got.begin(), expected.begin());
+    got -= y;
+    say("inverse", got.linfty_norm(), 1e-12);
 
     SchwarzInverse by_parts;
-    const auto multiply = [&](Epetra_Vector &to, const Epetra_Vector &from) {
-      B.Multiply(true, from, u);
-      for (int i = 0; i < u.MyLength(); ++i)
-        u[i] *= weights.local_element(i);
-      B.Multiply(false, u, to);
-    };
-    const auto nodes = std::make_shared<DistributedNodalMatrix>(C, B.RowMap());
+    const auto     nodes =
+      std::make_shared<DistributedNodalMatrix>(C, MPI_COMM_WORLD);
     nodes->vmult(got, y);
-    got.Update(-1., expected, 1.);
-    say("products by nodes", largest(got) / largest(expected), 1e-14);
-    say("by parts", by_parts.initialize(nodes, multiply) ? 0 : 1, 0);
+    got -= expected;
+    say("products by nodes", got.linfty_norm() / expected.linfty_norm(), 1e-14);
+    say("by parts", by_parts.initialize(nodes, multiply, got) ? 0 : 1, 0);
     say("by parts, corrections", by_parts.n_corrections(), 12);
     by_parts.solve(got, expected);
-    got.Update(-1., y, 1.);
-    double        error = 0., norm = 0.;
-    Epetra_Vector C_error(got);
+    got -= y;
+    mortise::Vector C_error(got);
     multiply(C_error, got);
-    got.Dot(C_error, &error);
-    y.Dot(expected, &norm);
-    say("by parts, energy of the error", std::sqrt(error / norm), 4e-6);
+    say("by parts, energy of the error",
+        std::sqrt((got * C_error) / (y * expected)),
+        4e-6);
   }
 } // namespace
 

@@ -6,10 +6,7 @@
 
 #include <deal.II/distributed/tria.h>
 
-#include <deal.II/lac/trilinos_precondition.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
-#include <deal.II/lac/trilinos_vector.h>
+#include <deal.II/lac/la_parallel_vector.h>
 
 namespace mortise
 {
@@ -20,8 +17,7 @@ namespace mortise
   constexpr unsigned int min_degree = 1;
   constexpr unsigned int max_degree = 8;
 
-  using SparseMatrix = dealii::TrilinosWrappers::SparseMatrix;
-  using Vector       = dealii::TrilinosWrappers::MPI::Vector;
+  using Vector = dealii::LinearAlgebra::distributed::Vector<double>;
 
   /// Triangulation of one hexahedral body, distributed by p4est.
   using HexTriangulation = dealii::parallel::distributed::Triangulation<dim>;

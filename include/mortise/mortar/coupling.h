@@ -44,15 +44,8 @@ namespace mortise
 
   /// The constraint B u = 0 of all interfaces: B = [D, -M], where bodies slide
   /// its component along the normal of each slave node; multipliers x
-  /// displacements that are free. Collective.
-  void
-  assemble_constraint(const std::vector<Coupling> &couplings,
-                      const CouplingPartition     &partition,
-                      SparseMatrix                &coupling);
-
-  /// The same, displacements being values at nodes, which the partition
-  /// numbers: the traces have
-  /// them. @p with_frames: bodies slide or hang on springs. Collective.
+  /// displacements that are free. Displacements are values at nodes, which the
+  /// partition numbers: the traces have them. @p with_frames: bodies slide or hang on springs. Collective.
   CouplingMatrix
   assemble_by_node(const std::vector<Coupling> &couplings,
                    const CouplingPartition     &partition,
@@ -66,10 +59,9 @@ namespace mortise
   /// C with B u - C lambda = g: int psi K^{-1} psi of springs, K their
   /// stiffness; lumped where multipliers are dual, which is as good as these
   /// are. Rows of ties are zero. Collective.
-  void
+  SparseMatrix
   assemble_compliance(const std::vector<Coupling> &couplings,
-                      const CouplingPartition     &partition,
-                      SparseMatrix                &compliance);
+                      const CouplingPartition     &partition);
 
   /// Set which multipliers take part, for what preconditioners see of it. @p active: by owned
   /// multiplier. Collective.
@@ -151,14 +143,14 @@ namespace mortise
 
   /// Add int psi . n offset to the right hand side of B u = g: the gap that is
   /// left between the bodies, on top of that between their meshes. @p offset: at
-  /// points of the slave, a length. The caller compresses (add).
+  /// points of the slave, a length. Collective.
   void
   add_offset(
     const Coupling                                                  &coupling,
     const std::function<double(const dealii::Point<dim> &position)> &offset,
     Vector                                                          &rhs);
 
-  /// What undoes multiplier_coefficients(). The caller compresses (insert).
+  /// What undoes multiplier_coefficients(), for the owned multipliers.
   void
   set_multiplier(const Coupling                         &coupling,
                  const std::vector<std::vector<double>> &coefficients,

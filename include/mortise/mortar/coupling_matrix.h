@@ -2,10 +2,7 @@
 // and a node of displacements, whatever the components.
 #pragma once
 
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_MultiVector.h>
-#include <Epetra_Vector.h>
-#include <mortise/base/types.h>
+#include <mortise/base/sparse_matrix.h>
 
 #include <memory>
 #include <vector>
@@ -28,73 +25,52 @@ namespace mortise
 
     CouplingMatrix() = default;
 
-    /// B itself: its rows move displacements one by one.
-    explicit CouplingMatrix(SparseMatrix &&by_displacement);
-
-    /// @p entries: rows x nodes, columns owned rank by rank; those rows that no other refers to
-    /// are empty. @p rows: by owned row, those of an entity of the mesh one after
-    /// the other, in it by component. @p frames: multipliers x rows, of size 0 for the identity.
+    /// @p entries: rows x nodes for dim components; those rows that no other refers to are empty.
+    /// @p rows: by owned row, those of an entity of the mesh one after the
+    /// other, in it by component. @p frames: multipliers x rows, of size 0 for the identity.
     CouplingMatrix(SparseMatrix          &&entries,
                    const std::vector<Row> &rows,
                    SparseMatrix          &&frames);
 
-    /// Drop the columns of owned displacements @p constrained.
+    /// Drop the columns of owned displacements @p constrained. Collective.
     void
-    constrain(std::vector<unsigned int> constrained);
-
-    /// Displacements of a node: dim, or 1 where each is moved by itself.
-    unsigned int
-    n_components() const
-    {
-      return components_per_node;
-    }
-
-    /// Of multipliers.
-    const Epetra_Map &
-    row_map() const
-    {
-      return (has_frames() ? frames() : scalar()).RowMap();
-    }
+    constrain(const std::vector<unsigned int> &constrained);
 
     /// Rows of B_c x nodes; those of representative() are filled.
-    const Epetra_CrsMatrix &
+    const SparseMatrix &
     scalar() const
     {
-      return entries->trilinos_matrix();
+      return entries;
     }
 
     /// The owned row of scalar() with the values of owned row @p i of B_c.
-    int
-    representative(const int i) const
+    unsigned int
+    representative(const unsigned int i) const
     {
-      return representatives.empty() ? i : representatives[i];
+      return representatives[i];
     }
 
     unsigned int
-    component(const int i) const
+    component(const unsigned int i) const
     {
-      return components.empty() ? 0 : components[i];
+      return components[i];
     }
 
     bool
     has_frames() const
     {
-      return static_cast<bool>(frames_of_rows);
+      return frames_of_rows.m() > 0;
     }
 
     /// R, where it is not the identity.
-    const Epetra_CrsMatrix &
+    const SparseMatrix &
     frames() const
     {
-      return frames_of_rows->trilinos_matrix();
+      return frames_of_rows;
     }
 
-    /// B, where displacements are moved one by one.
-    const Epetra_CrsMatrix &
-    by_displacement() const;
-
-    /// B, whatever it is made of. Collective.
-    Epetra_CrsMatrix
+    /// B, multipliers x displacements. Collective.
+    SparseMatrix
     expanded() const;
 
     /// dst = B u. Collective.
@@ -105,49 +81,35 @@ namespace mortise
     void
     Tvmult_add(Vector &dst, const Vector &lambda) const;
 
-    /// dst = B u, without regard to what is constrained. @p u: by owned displacement. Collective.
+    /// dst = B u, without regard to what is constrained. Collective.
     void
-    vmult_free(Vector &dst, const double *u) const;
+    vmult_free(Vector &dst, const Vector &u) const;
 
-    /// dst += B^T lambda, likewise. @p dst: by owned displacement. Collective.
+    /// dst += B^T lambda, likewise. Collective.
     void
-    Tvmult_add_free(double *dst, const Vector &lambda) const;
+    Tvmult_add_free(Vector &dst, const Vector &lambda) const;
 
-    /// diag(B T B^T), T diagonal, by owned displacement. Collective.
-    Epetra_Vector
-    diagonal_of_square(const Epetra_Vector &T) const;
+    /// diag(B T B^T) by owned multiplier, T diagonal, by owned displacement.
+    /// Collective.
+    Vector
+    diagonal_of_square(const Vector &T) const;
 
-    /// One value by owned displacement, on the columns of scalar(), a vector by
-    /// component; zero where constrained. Collective.
-    Epetra_MultiVector
-    on_columns(const double *by_displacement) const
-    {
-      return on_columns(by_displacement, scalar());
-    }
-
-    /// Likewise on those of @p matrix, which has rows of scalar().
-    Epetra_MultiVector
-    on_columns(const double           *by_displacement,
-               const Epetra_CrsMatrix &matrix) const;
+    /// By column of scalar() and component; zero where constrained. Collective.
+    std::vector<double>
+    on_columns(const Vector &by_displacement) const;
 
   private:
-    Epetra_MultiVector
-    by_component(const double *by_displacement) const;
     void
-    clear_constrained(Epetra_MultiVector &by_component) const;
+    clear_constrained(std::vector<double> &of_columns) const;
     /// dst = B u, with all of B.
     void
-    multiply(Vector &dst, const Epetra_MultiVector &u) const;
-    /// B^T lambda, with all of B, by component.
-    Epetra_MultiVector
+    multiply(Vector &dst, const std::vector<double> &of_columns) const;
+    /// B^T lambda on the columns, with all of B.
+    std::vector<double>
     forces(const Vector &lambda) const;
-    static void
-    add(const Epetra_MultiVector &by_component, double *dst);
 
-    unsigned int                  components_per_node = 1;
-    std::unique_ptr<SparseMatrix> entries, frames_of_rows;
-    std::vector<int>              representatives;
-    std::vector<unsigned int>     components;
-    std::vector<unsigned int>     constrained;
+    SparseMatrix              entries, frames_of_rows;
+    std::vector<unsigned int> representatives, components; ///< by owned row
+    std::vector<unsigned int> constrained; ///< by column and component
   };
 } // namespace mortise

@@ -6,7 +6,7 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <mortise/base/types.h>
+#include <mortise/base/sparse_matrix.h>
 
 #include <map>
 #include <utility>
@@ -83,34 +83,22 @@ namespace mortise
         double                            factor,
         bool                              transposed);
 
-    /// Collective.
-    void
-    create(SparseMatrix &matrix, MPI_Comm comm);
+    /// The sum; @p n_components as in SparseMatrix. Nothing is left here. Collective.
+    SparseMatrix
+    create(MPI_Comm comm, unsigned int n_components = 1);
 
   private:
     using Index   = dealii::types::global_dof_index;
-    using Entries = std::vector<std::pair<Index, double>>; ///< by key
+    using Entries = std::vector<std::pair<Index, double>>; ///< by column
 
-    /// Where a column stands among others: owned ones in front, as in the
-    /// matrix.
-    Index
-    key(const Index column) const
-    {
-      return columns.is_element(column) ? column : column + columns.size();
-    }
-    Index
-    column_of(const Index key) const
-    {
-      return key % columns.size();
-    }
     int
     find(Index row) const;
     unsigned int
     find_or_insert(Index row);
-    /// Where @p keys stand in @p pattern: mostly where those of another
+    /// Where @p wanted stand in @p pattern: mostly where those of another
     /// component of the same block did, in an earlier call with this @p guess.
     const std::vector<unsigned int> &
-    find_places(const std::vector<Index> &keys,
+    find_places(const std::vector<Index> &wanted,
                 const std::vector<Index> &pattern,
                 unsigned int              guess);
     /// To owned rows, what other ranks have for them. Collective.
@@ -118,18 +106,14 @@ namespace mortise
     add_from_others(MPI_Comm comm);
     /// An owned row becomes the sum of @p entries.
     void
-    replace(Index row, Entries &entries);
-    /// The columns that the matrix has on this rank.
-    std::vector<Index>
-    used_keys() const;
-
+                            replace(Index row, Entries &entries);
     const dealii::IndexSet &rows, &columns;
     std::vector<int>        number_of_owned; ///< by owned row; -1: not recorded
     std::map<Index, unsigned int>   number_of_other;
-    std::vector<std::vector<Index>> sets; ///< keys of one record()
+    std::vector<std::vector<Index>> sets; ///< columns of one record()
     /// By recorded row: its sets, until allocate().
     std::vector<std::vector<unsigned int>> sets_of;
-    std::vector<std::vector<Index>>        patterns;   ///< keys, ascending
+    std::vector<std::vector<Index>>        patterns;   ///< columns, ascending
     std::vector<unsigned int>              pattern_of; ///< by recorded row
     std::vector<std::size_t>               begin;      ///< of values, likewise
     std::vector<double>                    values;

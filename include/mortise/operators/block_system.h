@@ -28,6 +28,11 @@ namespace mortise
   struct SystemVector
   {
     Vector displacement, pressure, multiplier;
+
+    SystemVector()                     = default;
+    SystemVector(const SystemVector &) = default;
+    SystemVector &
+    operator=(const SystemVector &other);
   };
 
   /// x *= factor.
@@ -100,7 +105,7 @@ namespace mortise
     /// Set @p rhs to what the system is times @p u at nodes, which may be other than zero where components are
     /// constrained. Collective.
     void
-    apply_to_constrained(const LevelVector<double> &u, SystemVector &rhs) const;
+    apply_to_constrained(const Vector &u, SystemVector &rhs) const;
 
     /// dst += G^T p. Collective.
     void
@@ -118,9 +123,9 @@ namespace mortise
     void
     subtract_spring_opening(Vector &dst, const Vector &lambda) const;
 
-    /// Zero those of owned multipliers, @p entries, that are not active.
+    /// Zero those of @p multiplier that are not active.
     void
-    clear_inactive(double *entries) const;
+    clear_inactive(Vector &multiplier) const;
 
     bool
     has_springs() const
@@ -132,13 +137,18 @@ namespace mortise
     void
     apply_pressure_norm(Vector &dst, const Vector &p) const;
 
-    /// Zero, on the owned ranges. Collective.
+    /// Zero; displacements and pressures on the layouts of the finest level.
+    /// Collective.
     SystemVector
     zero_vector() const
     {
-      return {Vector(owned_displacement, communicator),
-              Vector(owned_pressure, communicator),
-              Vector(owned_multiplier, communicator)};
+      SystemVector zero;
+      nodal->initialize(zero.displacement);
+      if (mixed())
+        nodal->initialize_pressure(zero.pressure);
+      if (owned_multiplier.size() > 0)
+        zero.multiplier.reinit(owned_multiplier, communicator);
+      return zero;
     }
   };
 } // namespace mortise

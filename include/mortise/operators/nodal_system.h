@@ -5,7 +5,6 @@
 
 #include <deal.II/lac/affine_constraints.h>
 
-#include <Epetra_Vector.h>
 #include <mortise/operators/cell_functional.h>
 #include <mortise/operators/levels/clamped_cell_pressures.h>
 #include <mortise/operators/levels/leading_displacements.h>
@@ -55,9 +54,26 @@ namespace mortise
       return all_levels;
     }
 
-    /// dst = K src; zero where src is constrained. Collective.
+    /// Vectors of displacements and of pressures on the layouts of the finest
+    /// level: zero where components are constrained, or nodes hang, but where
+    /// something else is said.
     void
-    apply_stiffness(Vector &dst, const Vector &src) const;
+    initialize(Vector &displacement) const
+    {
+      stiffness->initialize(displacement);
+    }
+    void
+    initialize_pressure(Vector &pressure) const
+    {
+      pressures->initialize(pressure);
+    }
+
+    /// dst = K src. Collective.
+    void
+    apply_stiffness(Vector &dst, const Vector &src) const
+    {
+      stiffness->vmult(dst, src);
+    }
 
     /// dst_u = K u + G^T p, dst_p = G u - C p, see BlockSystem. Collective.
     void
@@ -70,11 +86,7 @@ namespace mortise
     void
     add_pressure_force(Vector &dst, const Vector &p) const;
 
-    /// dst = P p, see BlockSystem; zero where nodes hang. Collective.
-    void
-    apply_pressure_norm(LevelVector<double>       &dst,
-                        const LevelVector<double> &p) const;
-
+    /// dst = P p, see BlockSystem. Collective.
     void
     apply_pressure_norm(Vector &dst, const Vector &p) const;
 
@@ -87,14 +99,14 @@ namespace mortise
     set_constant_pressure(const Body &body, Vector &p) const;
 
     /// diag(P), 1 where nodes hang.
-    const LevelVector<double> &
+    const Vector &
     pressure_norm_diagonal() const
     {
       return norm_diagonal;
     }
 
     /// diag(K), 1 where constrained.
-    const LevelVector<double> &
+    const Vector &
     diagonal() const
     {
       return stiffness_diagonal;
@@ -102,10 +114,10 @@ namespace mortise
 
     /// The same, its mean over the components of a node that are not
     /// constrained.
-    LevelVector<double>
+    Vector
     node_diagonal() const
     {
-      LevelVector<double> mean(stiffness_diagonal);
+      Vector mean(stiffness_diagonal);
       stiffness->average_components(mean);
       return mean;
     }
@@ -136,29 +148,29 @@ namespace mortise
 
     /// The values at nodes of the function with these coefficients, also where
     /// it is prescribed. Collective.
-    LevelVector<double>
+    Vector
     values_at_nodes(const Coefficients &coefficient) const;
 
     /// K u + G^T p by node, what stresses resist with, also where components
     /// are
     /// constrained; @p p is not read without bodies in mixed form. Collective.
-    LevelVector<double>
-    internal_forces(const LevelVector<double> &u, const Vector &p) const;
+    Vector
+    internal_forces(const Vector &u, const Vector &p) const;
 
     /// Set displacements and pressures of @p rhs to K u, zero where components are constrained, and G u, where @p u may
     /// be other than zero at such. Collective.
     void
-    apply_to_constrained(const LevelVector<double> &u, SystemVector &rhs) const;
+    apply_to_constrained(const Vector &u, SystemVector &rhs) const;
 
     /// int b.v + int t.v - int sigma_0 : grad v by node (see
     /// for_each_loaded_cell()), also where components are
     /// constrained. @p loads: by body. Collective.
-    LevelVector<double>
+    Vector
     external_forces(const std::vector<Loads> &loads) const;
 
     /// What @p functionals on cells of @p body have for displacements, by node, also where
     /// components are constrained. Collective.
-    LevelVector<double>
+    Vector
     by_node(const Body &body, const CellFunctionals &functionals) const;
 
     /// Set external forces of @p load, and add them to its right hand side, but where components are constrained, and
@@ -208,27 +220,21 @@ namespace mortise
                                double value)> &set) const;
 
   private:
-    /// in = the function whose coefficients @p coefficient(body, dof) gives.
+    /// [K G^T; G -C] (u, p), without regard to what is constrained; @p dst_p and @p p are not used
+    /// without bodies in mixed form.
     void
-    interpolate(const Coefficients &coefficient) const;
-
-    /// (out, p_out) = [K G^T; G -C] (in, p_in), without regard to what is
-    /// constrained.
-    void
-    apply_mixed_free() const;
-
-    /// The same of @p u and p_in; out = K u without bodies in mixed form.
-    void
-    apply_free(const LevelVector<double> &u) const;
+    apply_free(Vector       &dst_u,
+               Vector       &dst_p,
+               const Vector &u,
+               const Vector &p) const;
 
     const bool                             preconditioned;
     std::vector<NodalLevel>                all_levels;
     std::unique_ptr<LevelOperator<double>> stiffness;
-    LevelVector<double>                    stiffness_diagonal;
+    Vector                                 stiffness_diagonal;
     std::vector<LeadingDisplacement>       leading;
     std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
     ClampedCellPressures                   clamped_cell_pressures;
-    LevelVector<double>                    norm_diagonal;
-    mutable LevelVector<double>            in, out, p_in, p_out;
+    Vector                                 norm_diagonal;
   };
 } // namespace mortise

@@ -1,12 +1,10 @@
 // The measure of error that all solvers report. It never preconditions.
 #pragma once
 
-#include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
 #include <mortise/solvers/solve_report.h>
 
 #include <functional>
-#include <memory>
 
 namespace mortise
 {
@@ -67,24 +65,24 @@ namespace mortise
     }
 
     /// 1 / D_u, on the owned displacements.
-    const Epetra_Vector &
+    const Vector &
     inverse_diagonal_u() const
     {
-      return *weight_u;
+      return weight.displacement;
     }
 
     /// 1 / D_p, on the owned pressures; only with mixed bodies.
-    const Epetra_Vector &
+    const Vector &
     inverse_diagonal_p() const
     {
-      return *weight_p;
+      return weight.pressure;
     }
 
     /// 1 / D_lambda, on the owned multipliers; only with an interface.
-    const Epetra_Vector &
+    const Vector &
     inverse_diagonal_lambda() const
     {
-      return *weight_lambda;
+      return weight.multiplier;
     }
 
   private:
@@ -93,8 +91,8 @@ namespace mortise
     double
     magnitude(const SystemVector &rhs, const SystemVector &x) const;
 
-    const BlockSystem             &system;
-    std::unique_ptr<Epetra_Vector> weight_u, weight_p, weight_lambda;
-    bool                           interface_present = false;
+    const BlockSystem &system;
+    SystemVector       weight; ///< inverse diagonals
+    bool               interface_present = false;
   };
 } // namespace mortise

@@ -1,8 +1,6 @@
 // See nodal_block_matrix.h.
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_Map.h>
-#include <Epetra_MpiComm.h>
 #include <mortise/body/spaces/nodal_space.h>
 #include <mortise/operators/levels/nodal_block_matrix.h>
 
@@ -59,57 +57,46 @@ namespace mortise
     return constrained;
   }
 
-  std::unique_ptr<Epetra_CrsMatrix>
-  as_epetra(const NodalBlockMatrix &blocks)
+  SparseMatrix
+  as_sparse_matrix(const NodalBlockMatrix &blocks)
   {
-    const auto          &layout = *blocks.layout;
-    const Epetra_MpiComm comm(layout.get_mpi_communicator());
-    const int            n = static_cast<int>(dim * blocks.size());
-    const Epetra_Map     map(-1, n, 0, comm);
-    std::vector<int>     relevant;
-    for (unsigned int k = 0; k < n + layout.n_ghost_indices(); ++k)
-      relevant.push_back(static_cast<int>(layout.local_to_global(k)));
-    const Epetra_Map column_map(
-      -1, static_cast<int>(relevant.size()), relevant.data(), 0, comm);
-    double mean = 0.; // of the diagonal
+    const auto &layout = *blocks.layout;
+    double      mean   = 0.; // of the diagonal
     for_each_diagonal(blocks, [&](const unsigned int, const double value) {
       mean += value / layout.size();
     });
     mean = Utilities::MPI::sum(mean, layout.get_mpi_communicator());
     if (mean == 0.) // all are constrained
       mean = 1.;
-    std::vector<int>    lengths, columns;
-    std::vector<double> values;
+    SparseMatrix::CompressedRows rows;
+    // nodes by their global numbers, and blocks
+    std::vector<std::pair<SparseMatrix::Index, std::size_t>> order;
     for (unsigned int i = 0; i < blocks.size(); ++i)
-      lengths.insert(lengths.end(),
-                     dim,
-                     static_cast<int>(dim *
-                                      (blocks.begin[i + 1] - blocks.begin[i])));
-    auto matrix = std::make_unique<Epetra_CrsMatrix>(
-      Copy, map, column_map, lengths.data(), true);
-    for (unsigned int i = 0; i < blocks.size(); ++i)
-      for (unsigned int r = 0; r < dim; ++r)
-        {
-          columns.clear();
-          values.clear();
-          for (std::size_t k = blocks.begin[i]; k < blocks.begin[i + 1]; ++k)
-            for (unsigned int c = 0; c < dim; ++c)
-              {
-                const bool diagonal = blocks.columns[k] == i && c == r;
-                double     value = blocks.values[block_size * k + dim * c + r];
-                if (diagonal && value == 0.)
-                  value = mean;
-                columns.push_back(
-                  static_cast<int>(dim * blocks.columns[k] + c));
-                values.push_back(value);
-              }
-          matrix->InsertMyValues(static_cast<int>(dim * i + r),
-                                 static_cast<int>(values.size()),
-                                 values.data(),
-                                 columns.data());
-        }
-    matrix->FillComplete();
-    return matrix;
+      {
+        order.clear();
+        for (std::size_t k = blocks.begin[i]; k < blocks.begin[i + 1]; ++k)
+          order.emplace_back(layout.local_to_global(dim * blocks.columns[k]),
+                             k);
+        std::sort(order.begin(), order.end());
+        for (unsigned int r = 0; r < dim; ++r)
+          {
+            for (const auto &[first, k] : order)
+              for (unsigned int c = 0; c < dim; ++c)
+                {
+                  const double value =
+                    blocks.values[block_size * k + dim * c + r];
+                  const bool is_constrained =
+                    blocks.columns[k] == i && c == r && value == 0.;
+                  rows.columns.push_back(first + c);
+                  rows.values.push_back(is_constrained ? mean : value);
+                }
+            rows.begin.push_back(rows.columns.size());
+          }
+      }
+    return {layout.locally_owned_range(),
+            layout.locally_owned_range(),
+            layout.get_mpi_communicator(),
+            std::move(rows)};
   }
 
   NodalBlockMatrixBuilder::NodalBlockMatrixBuilder(const IndexSet &owned,

@@ -1,14 +1,10 @@
 // See weak_jumps.h.
-#include <deal.II/base/exceptions.h>
-
-#include <Epetra_Import.h>
 #include <mortise/operators/levels/weak_jumps.h>
 
 #include <algorithm>
 #include <limits>
 #include <map>
-#include <memory>
-#include <set>
+#include <utility>
 
 namespace mortise
 {
@@ -19,190 +15,125 @@ namespace mortise
     /// f of the header.
     constexpr double strength = 300.;
 
-    /// The rows of the scalar matrix that the owned multipliers of @p B move; with frames some may
-    /// be of other ranks.
-    struct ScalarRows
+    /// The sum of b^2 over displacements that are free, b the entries of B, and
+    /// the least of their D^{-1}: of a row of B_c, or of a multiplier.
+    struct Reach
     {
-      /// Of row @p i of B_c: a global row of the scalar matrix, and a component.
-      struct Row
-      {
-        int          scalar;
-        unsigned int component;
-      };
+      double square = 0., least = std::numeric_limits<double>::max();
 
-      explicit ScalarRows(const CouplingMatrix &B);
-
-      const Epetra_CrsMatrix &
-      matrix() const
+      void
+      add(const Reach &other, const double factor)
       {
-        return imported ? *imported : own;
+        square += factor * factor * other.square;
+        if (factor != 0.)
+          least = std::min(least, other.least);
       }
-
-      /// By column of the frames, or row of B_c without.
-      std::vector<Row> rows;
-
-    private:
-      const Epetra_CrsMatrix           &own;
-      std::unique_ptr<Epetra_CrsMatrix> imported;
     };
 
-    ScalarRows::ScalarRows(const CouplingMatrix &B)
-      : own(B.scalar())
+    std::vector<Reach>
+    reach_of_rows(const CouplingMatrix &B, const Vector &diagonal)
     {
-      const Epetra_Map  &map = own.RowMap();
-      Epetra_MultiVector all(map, 2); // integers, which doubles hold
-      for (int i = 0; i < map.NumMyElements(); ++i)
+      Vector inverse(diagonal);
+      for (unsigned int i = 0; i < inverse.locally_owned_size(); ++i)
+        inverse.local_element(i) = 1. / inverse.local_element(i);
+      const std::vector<double> flexibility = B.on_columns(inverse);
+      std::vector<Reach>        result(B.scalar().n_rows());
+      for (unsigned int i = 0; i < result.size(); ++i)
         {
-          all[0][i] = map.GID(B.representative(i));
-          all[1][i] = B.component(i);
+          const auto row = B.scalar().row(B.representative(i));
+          for (unsigned int k = 0; k < row.length; ++k)
+            if (const double of_node =
+                  flexibility[dim * row.columns[k] + B.component(i)];
+                of_node > 0.)
+              result[i].add({1., of_node}, row.values[k]);
         }
-      const auto take = [this](const Epetra_MultiVector &from) {
-        for (int i = 0; i < from.MyLength(); ++i)
-          rows.push_back({static_cast<int>(from[0][i]),
-                          static_cast<unsigned int>(from[1][i])});
-      };
-      if (!B.has_frames() || B.frames().Importer() == nullptr)
-        {
-          take(all);
-          return;
-        }
-      Epetra_MultiVector on_frames(B.frames().ColMap(), 2);
-      on_frames.Import(all, *B.frames().Importer(), Insert);
-      take(on_frames);
-      std::set<int> needed;
-      for (const Row &row : rows)
-        needed.insert(row.scalar);
-      const std::vector<int> numbers(needed.begin(), needed.end());
-      const Epetra_Map       target(
-        -1, static_cast<int>(numbers.size()), numbers.data(), 0, map.Comm());
-      imported = std::make_unique<Epetra_CrsMatrix>(Copy, target, 0);
-      imported->Import(own, Epetra_Import(target, map), Insert);
-      imported->FillComplete(own.DomainMap(), map);
+      return result;
     }
 
-    class JumpFinder
+    /// By owned multiplier.
+    std::vector<Reach>
+    reach_of_multipliers(const CouplingMatrix     &B,
+                         const std::vector<Reach> &of_rows)
     {
-    public:
-      JumpFinder(const CouplingMatrix                   &B,
-                 const LevelVector<double>              &diagonal,
-                 const Epetra_Vector                    *compliance,
-                 const std::optional<std::vector<bool>> &active)
-        : B(B)
-        , compliance(compliance)
-        , active(active)
-        , scalar(B)
-        , flexibility(on_columns(diagonal))
-      {}
+      if (!B.has_frames())
+        return of_rows;
+      std::vector<double> squares, least;
+      for (const Reach &reach : of_rows)
+        {
+          squares.push_back(reach.square);
+          least.push_back(reach.least);
+        }
+      squares = B.frames().on_columns(squares.data());
+      least   = B.frames().on_columns(least.data());
+      std::vector<Reach> result(B.frames().n_rows());
+      for (unsigned int m = 0; m < result.size(); ++m)
+        {
+          const auto row = B.frames().row(m);
+          for (unsigned int k = 0; k < row.length; ++k)
+            result[m].add({squares[row.columns[k]], least[row.columns[k]]},
+                          row.values[k]);
+        }
+      return result;
+    }
 
-      std::vector<WeakJump>
-      run()
-      {
-        const Epetra_CrsMatrix &rows = scalar.matrix();
-        if (B.has_frames())
-          for (int k = 0; k < B.frames().NumMyRows(); ++k)
-            add_in_frame(k);
-        else
-          for (int i = 0; i < rows.NumMyRows(); ++i)
-            {
-              Tensor<1, dim> direction;
-              direction[scalar.rows[i].component] = 1.;
-              add(i, {{rows.LRID(scalar.rows[i].scalar), direction}});
-            }
-        std::vector<WeakJump> jumps;
-        for (const auto &[row, stiffness] : stiffnesses)
-          {
-            jumps.push_back({{}, stiffness});
-            const View view = row_of(rows, row);
-            for (int k = 0; k < view.length; ++k)
-              jumps.back().entries.emplace_back(rows.GCID(view.columns[k]),
-                                                view.values[k]);
-          }
-        return jumps;
-      }
-
-    private:
-      struct View
-      {
-        int     length = 0, *columns = nullptr;
-        double *values = nullptr;
-      };
-
-      static View
-      row_of(const Epetra_CrsMatrix &A, const int i)
-      {
-        View view;
-        A.ExtractMyRowView(i, view.length, view.values, view.columns);
-        return view;
-      }
-
-      Epetra_MultiVector
-      on_columns(const LevelVector<double> &diagonal) const
-      {
-        std::vector<double> inverse;
-        for (unsigned int i = 0; i < diagonal.locally_owned_size(); ++i)
-          inverse.push_back(1. / diagonal.local_element(i));
-        return B.on_columns(inverse.data(), scalar.matrix());
-      }
-
-      /// A multiplier that moves along R_ki the row i of B_c.
-      void
-      add_in_frame(const int k)
-      {
-        std::map<int, Tensor<1, dim>> directions;
-        const View                    view = row_of(B.frames(), k);
-        for (int e = 0; e < view.length; ++e)
-          {
-            const auto &row = scalar.rows[view.columns[e]];
-            directions[scalar.matrix().LRID(row.scalar)][row.component] +=
-              view.values[e];
-          }
-        add(k, directions);
-      }
-
-      /// Multiplier @p k, by rows of the scalar matrix.
-      void
-      add(const int k, const std::map<int, Tensor<1, dim>> &directions)
-      {
-        if (active && !(*active)[k])
-          return;
-        double square = 0., least = std::numeric_limits<double>::max();
-        for (const auto &[row, direction] : directions)
-          {
-            const View view = row_of(scalar.matrix(), row);
-            for (int e = 0; e < view.length; ++e)
-              for (unsigned int c = 0; c < dim; ++c)
-                if (const double value = direction[c] * view.values[e],
-                    of_node            = flexibility[c][view.columns[e]];
-                    value != 0. && of_node > 0.)
-                  {
-                    square += value * value;
-                    least = std::min(least, of_node);
-                  }
-          }
-        if (!(square > 0.))
-          return;
-        const double given    = compliance == nullptr ? 0. : (*compliance)[k];
-        const double softness = square * least / strength + given;
-        for (const auto &[row, direction] : directions)
-          stiffnesses[row] += outer_product(direction, direction) / softness;
-      }
-
-      const CouplingMatrix                   &B;
-      const Epetra_Vector                    *compliance;
-      const std::optional<std::vector<bool>> &active;
-      const ScalarRows                        scalar;
-      const Epetra_MultiVector                flexibility;
-      std::map<int, Tensor<2, dim>>           stiffnesses; ///< by scalar row
-    };
+    /// By row of the scalar matrix, of the owned ones that multipliers with
+    /// @p stiffness move.
+    std::map<unsigned int, Tensor<2, dim>>
+    stiffness_of_rows(const CouplingMatrix      &B,
+                      const std::vector<double> &stiffness)
+    {
+      std::map<unsigned int, Tensor<2, dim>> result;
+      if (!B.has_frames())
+        {
+          for (unsigned int i = 0; i < stiffness.size(); ++i)
+            if (stiffness[i] > 0.)
+              result[B.representative(i)][B.component(i)][B.component(i)] +=
+                stiffness[i];
+          return result;
+        }
+      const SparseMatrix        frames = B.frames().transposed();
+      const std::vector<double> on_columns =
+        frames.on_columns(stiffness.data());
+      std::map<std::pair<unsigned int, unsigned int>, Tensor<1, dim>>
+        directions; // by row and multiplier
+      for (unsigned int i = 0; i < frames.n_rows(); ++i)
+        {
+          const auto row = frames.row(i);
+          for (unsigned int k = 0; k < row.length; ++k)
+            if (on_columns[row.columns[k]] > 0.)
+              directions[{B.representative(i), row.columns[k]}]
+                        [B.component(i)] += row.values[k];
+        }
+      for (const auto &[at, direction] : directions)
+        result[at.first] +=
+          on_columns[at.second] * outer_product(direction, direction);
+      return result;
+    }
   } // namespace
 
   std::vector<WeakJump>
   find_weak_jumps(const CouplingMatrix                   &coupling,
-                  const LevelVector<double>              &diagonal,
-                  const Epetra_Vector                    *compliance,
+                  const Vector                           &diagonal,
+                  const std::vector<double>              &compliance,
                   const std::optional<std::vector<bool>> &active)
   {
-    return JumpFinder(coupling, diagonal, compliance, active).run();
+    const std::vector<Reach> reach =
+      reach_of_multipliers(coupling, reach_of_rows(coupling, diagonal));
+    std::vector<double> stiffness(reach.size());
+    for (unsigned int m = 0; m < reach.size(); ++m)
+      if (reach[m].square > 0. && (!active || (*active)[m]))
+        stiffness[m] = 1. / (reach[m].square * reach[m].least / strength +
+                             (compliance.empty() ? 0. : compliance[m]));
+    std::vector<WeakJump> jumps;
+    for (const auto &[i, of_row] : stiffness_of_rows(coupling, stiffness))
+      {
+        jumps.push_back({{}, of_row});
+        const auto row = coupling.scalar().row(i);
+        for (unsigned int k = 0; k < row.length; ++k)
+          jumps.back().entries.emplace_back(
+            coupling.scalar().global_column(row.columns[k]), row.values[k]);
+      }
+    return jumps;
   }
 
   std::vector<types::global_dof_index>

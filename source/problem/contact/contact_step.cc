@@ -210,7 +210,7 @@ namespace mortise
       solver.update_active();
     const bool goes_on = x.displacement.size() > 0;
     if (goes_on)
-      discretisation.linear_system().clear_inactive(x.multiplier.begin());
+      discretisation.linear_system().clear_inactive(x.multiplier);
     const auto run_solver = [&](const unsigned int max_iterations) {
       solver.set_limits(tolerance,
                         is_last          ? SolverOptions().energy_share :

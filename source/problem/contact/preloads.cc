@@ -69,7 +69,6 @@ namespace mortise
           Vector &w = units.back().rhs.multiplier;
           add_offset(
             coupling, [](const Point<dim> &) { return 1.; }, w);
-          w.compress(VectorOperation::add);
         }
     forces.resize(indices.size());
   }
@@ -160,8 +159,7 @@ namespace mortise
       {
         Unit &unit = units[j];
         if (have_units)
-          discretisation.linear_system().clear_inactive(
-            unit.x.multiplier.begin());
+          discretisation.linear_system().clear_inactive(unit.x.multiplier);
         const SolveReport of_unit = have_units ?
                                       solver.solve_from(unit.rhs, unit.x) :
                                       solver.solve(unit.rhs, unit.x);

@@ -128,7 +128,7 @@ namespace mortise
       {
         borne += held.multiplier_forces(solved.solution.multiplier);
         discretisation.linear_system().coupling.Tvmult_add_free(
-          reactions.begin(), solved.solution.multiplier);
+          reactions, solved.solution.multiplier);
       }
     if (held.any_shared())
       for (const auto &body : discretisation.bodies())
@@ -276,8 +276,7 @@ namespace mortise
                 if (shares.local_element(k) > 0.)
                   shares.local_element(k) /= n_boundaries.local_element(k);
               Vector seen(multiplier);
-              discretisation.linear_system().coupling.vmult_free(
-                seen, shares.begin());
+              discretisation.linear_system().coupling.vmult_free(seen, shares);
               multiplier -= part_of(discretisation, seen, i);
             }
     }
@@ -308,9 +307,7 @@ namespace mortise
           if (weights.linfty_norm() == 0.)
             continue;
           SystemVector x = system.zero_vector();
-          std::copy_n(weights.begin(),
-                      weights.locally_owned_size(),
-                      x.displacement.begin());
+          x.displacement = weights;
           const auto on_body =
             discretisation.solutions({system.zero_vector(), {}}, x);
           add_scaled(rhs,
@@ -350,7 +347,7 @@ namespace mortise
     for (unsigned int i = 0; i < lift.locally_owned_size(); ++i)
       if (lift.local_element(i) > 0.)
         lift.local_element(i) = 1. / held.numbers().local_element(i);
-    std::copy_n(lift.begin(), lift.locally_owned_size(), result.lift.begin());
+    result.lift = lift;
     system.nodal->apply_to_constrained(lift, result.rhs);
     if (result.rhs.multiplier.size() > 0)
       held.constraint(lift, result.rhs.multiplier);

@@ -108,7 +108,7 @@ namespace mortise
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
     discretisation.linear_system().coupling.Tvmult_add_free(
-      result.begin(), part_of(discretisation, lambda, i));
+      result, part_of(discretisation, lambda, i));
     return result;
   }
 
@@ -116,8 +116,7 @@ namespace mortise
   HeldBoundaries::multiplier_forces(const Vector &lambda) const
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
-    discretisation.linear_system().coupling.Tvmult_add_free(result.begin(),
-                                                            lambda);
+    discretisation.linear_system().coupling.Tvmult_add_free(result, lambda);
     const auto &interfaces = discretisation.interfaces().sides();
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       for (const SideParameters &side : sides_of(interfaces[i]))
@@ -135,7 +134,7 @@ namespace mortise
                              Vector                    &multiplier) const
   {
     const CouplingMatrix &B = discretisation.linear_system().coupling;
-    B.vmult_free(multiplier, u.begin());
+    B.vmult_free(multiplier, u);
     const auto &interfaces = discretisation.interfaces().sides();
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       for (const SideParameters &side : sides_of(interfaces[i]))
@@ -143,7 +142,7 @@ namespace mortise
           {
             at_side->scale(u);
             Vector own(multiplier);
-            B.vmult_free(own, at_side->begin());
+            B.vmult_free(own, *at_side);
             multiplier -= part_of(discretisation, own, i);
           }
   }

@@ -2,7 +2,7 @@
 #include <mortise/operators/body_volume.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/support/rigid_motions.h>
-#include <mortise/solvers/interface/dependent_multipliers.h>
+#include <mortise/solvers/multipliers/dependent_multipliers.h>
 #include <mortise/solvers/scaled_residual.h>
 
 #include <algorithm>
@@ -73,7 +73,7 @@ namespace mortise
                            pairing->slide() || pairing->have_springs());
         system.coupling.constrain(system.nodal->levels().front().constrained);
         if (pairing->have_springs())
-          assemble_compliance(all, partition, system.spring_compliance);
+          system.spring_compliance = assemble_compliance(all, partition);
       }
     for (unsigned int i = 0; i < all.size(); ++i)
       interface_summaries.push_back(pairing->summary(i));
@@ -119,12 +119,13 @@ namespace mortise
                      bodies[b]->material.incompressible();
             }))
           continue;
-        Vector              all(system.owned_pressure, run.comm);
+        const Vector        zero = system.zero_vector().pressure;
+        Vector              all(zero);
         std::vector<Vector> ones;
         std::string         names;
         for (const unsigned int b : group)
           {
-            ones.emplace_back(system.owned_pressure, run.comm);
+            ones.emplace_back(zero);
             system.nodal->set_constant_pressure(*bodies[b], ones.back());
             all += ones.back();
             names += (names.empty() ? "" : ", ") + bodies[b]->name;
@@ -132,7 +133,7 @@ namespace mortise
         const Enclosure enclosure = test_enclosure(system, all);
         if (!enclosure.enclosed)
           continue;
-        Vector integrals(system.owned_pressure, run.comm);
+        Vector integrals(zero);
         for (unsigned int i = 0; i < group.size(); ++i)
           {
             Vector of_body(integrals);
@@ -172,7 +173,6 @@ namespace mortise
         {
           const Coupling &coupling = pairing->all()[i];
           add_offset(coupling, offset, load.rhs.multiplier);
-          load.rhs.multiplier.compress(VectorOperation::add);
         }
     for (const Coupling &coupling : pairing->all())
       if (coupling.law.has_mesh_gap)
@@ -226,7 +226,6 @@ namespace mortise
     for (const auto &[dof, value] : load.prescribed)
       if (owned.is_element(dof))
         result[dof] = value;
-    result.compress(VectorOperation::insert);
     return result;
   }
 
@@ -240,7 +239,6 @@ namespace mortise
     for (unsigned int b = 0; b < solutions.size(); ++b)
       for (const auto dof : solutions[b].displacement.locally_owned_elements())
         all[numbering(b, dof)] = solutions[b].displacement(dof);
-    all.compress(VectorOperation::insert);
     return {std::move(all), prescribed_vector(load)};
   }
 
@@ -261,8 +259,6 @@ namespace mortise
     SystemVector x = system_vector(values.solutions, load);
     for (unsigned int i = 0; i < pairing->all().size(); ++i)
       set_multiplier(pairing->all()[i], values.multipliers[i], x.multiplier);
-    if (x.multiplier.size() > 0)
-      x.multiplier.compress(VectorOperation::insert);
     return x;
   }
 

@@ -1,5 +1,4 @@
 // See cholesky_inverse.h.
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/cholesky_inverse.h>
 #include <mortise/solvers/pseudo_random.h>
 
@@ -20,23 +19,22 @@ namespace mortise
     /// matrix.
     template <typename Inverse, typename Product>
     double
-    relative_correction(const Inverse    &inverse,
-                        const Product    &product,
-                        const Epetra_Map &map)
+    relative_correction(const Inverse &inverse,
+                        const Product &product,
+                        const Vector  &zero)
     {
-      Epetra_Vector b(map), x(map), y(map);
-      for (int i = 0; i < y.MyLength(); ++i)
-        y[i] = pseudo_random(map.GID(i));
+      Vector b(zero), x(zero), y(zero);
+      for (const auto i : y.locally_owned_elements())
+        y(i) = pseudo_random(i);
       product(b, y);
-      inverse.solve(x, b);
+      inverse.solve(x.begin(), b.begin());
       product(y, x);
-      b.Update(-1., y, 1.);
-      inverse.solve(y, b);
-      double energy_x = 0., energy_y = 0.;
+      b -= y;
+      inverse.solve(y.begin(), b.begin());
       product(b, x);
-      b.Dot(x, &energy_x);
+      const double energy_x = b * x;
       product(b, y);
-      b.Dot(y, &energy_y);
+      const double energy_y = b * y;
       return energy_x == 0. ? 0. : std::sqrt(std::abs(energy_y) / energy_x);
     }
   } // namespace
@@ -45,15 +43,15 @@ namespace mortise
   bool
   CholeskyInverse<Work>::initialize(const NodalMatrix &rows,
                                     const Product     &product,
-                                    const Epetra_Map  &map,
+                                    const Vector      &zero,
                                     const bool         allow_single)
   {
-    const MPI_Comm comm = communicator(map);
+    const MPI_Comm comm = zero.get_mpi_communicator();
     if (allow_single)
       {
         single_precision = std::make_unique<SparseCholesky<float, Work>>();
         if (single_precision->initialize(rows, comm) &&
-            relative_correction(*single_precision, product, map) <
+            relative_correction(*single_precision, product, zero) <
               largest_correction)
           return true;
         single_precision.reset();
@@ -64,12 +62,12 @@ namespace mortise
 
   template <typename Work>
   void
-  CholeskyInverse<Work>::solve(Epetra_Vector &x, const Epetra_Vector &b) const
+  CholeskyInverse<Work>::solve(Vector &x, const Vector &b) const
   {
     if (single_precision)
-      single_precision->solve(x, b);
+      single_precision->solve(x.begin(), b.begin());
     else
-      double_precision->solve(x, b);
+      double_precision->solve(x.begin(), b.begin());
   }
 
   template class CholeskyInverse<float>;

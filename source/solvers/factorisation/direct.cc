@@ -1,5 +1,4 @@
 // See direct.h.
-#include <Epetra_Vector.h>
 #include <mortise/solvers/factorisation/direct.h>
 #include <mortise/solvers/factorisation/monolithic_matrix.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
@@ -17,32 +16,34 @@ namespace mortise
     /// Square roots of the inverse diagonals of the residual's norm, in the
     /// monolithic numbering: they make the matrix free of units, so that
     /// pivoting compares like with like.
-    void
-    set_scaling(Epetra_Vector        &scale,
-                const ScaledResidual &residual,
-                const BlockSystem    &system)
+    std::vector<double>
+    scaling(const ScaledResidual &residual)
     {
-      int        next = 0;
-      const auto add  = [&](const Epetra_Vector &square) {
-        for (int i = 0; i < square.MyLength(); ++i)
-          scale[next++] = std::sqrt(square[i]);
-      };
-      add(residual.inverse_diagonal_u());
-      if (system.mixed())
-        add(residual.inverse_diagonal_p());
-      if (system.owned_multiplier.size() > 0)
-        add(residual.inverse_diagonal_lambda());
+      std::vector<double> scale;
+      for (const Vector *square : {&residual.inverse_diagonal_u(),
+                                   &residual.inverse_diagonal_p(),
+                                   &residual.inverse_diagonal_lambda()})
+        for (unsigned int i = 0; i < square->locally_owned_size(); ++i)
+          scale.push_back(std::sqrt(square->local_element(i)));
+      return scale;
     }
 
     /// Calls visit(monolithic value, value) for all values of this rank.
     template <typename Solution, typename Visit>
     void
-    for_each_value(Epetra_Vector &v, Solution &x, const Visit &visit)
+    for_each_value(std::vector<double> &v, Solution &x, const Visit &visit)
     {
-      int next = 0;
+      unsigned int next = 0;
       for (auto *part : {&x.displacement, &x.pressure, &x.multiplier})
         for (unsigned int i = 0; i < part->locally_owned_size(); ++i)
-          visit(v[next++], part->begin()[i]);
+          visit(v[next++], part->local_element(i));
+    }
+
+    void
+    multiply(std::vector<double> &v, const std::vector<double> &factors)
+    {
+      for (unsigned int i = 0; i < v.size(); ++i)
+        v[i] *= factors[i];
     }
 
     /// What the system without pins leaves free, a constant pressure of mean
@@ -50,19 +51,18 @@ namespace mortise
     /// with a pin c at pressure k, (A + c e e^T) n = c e for A n = 0 and n_k
     /// = 1.
     std::vector<SystemVector>
-    free_constants(const BlockSystem        &system,
-                   const Epetra_CrsMatrix   &matrix,
-                   const Epetra_Vector      &scale,
-                   const MumpsFactorisation &factorisation)
+    free_constants(const BlockSystem         &system,
+                   const std::vector<double> &scale,
+                   const MumpsFactorisation  &factorisation)
     {
       std::vector<SystemVector> result;
       for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
         {
-          Epetra_Vector b(matrix.RowMap()), y(b);
+          std::vector<double> b(scale.size()), y(b);
           if (const int pinned = system.free_pressures.pinned(g); pinned >= 0)
             b[system.owned_displacement.n_elements() + pinned] = 1.;
-          factorisation.solve(y, b);
-          y.Multiply(1., scale, y, 0.);
+          factorisation.solve(y.data(), b.data());
+          multiply(y, scale);
           SystemVector constant = system.zero_vector();
           for_each_value(y, constant, [](const double from, double &to) {
             to = from;
@@ -82,17 +82,20 @@ namespace mortise
   {
     explicit Factors(const BlockSystem &system, const ScaledResidual &residual)
       : system(system)
-      , matrix(monolithic_matrix(system, residual, MonolithicNumbering(system)))
-      , scale(matrix->RowMap())
-      , b(scale)
-      , y(scale)
+      , scale(scaling(residual))
+      , b(scale.size())
+      , y(scale.size())
     {
-      set_scaling(scale, residual, system);
-      matrix->LeftScale(scale);
-      matrix->RightScale(scale);
-      valid = factorisation.initialize(*matrix, MatrixKind::general);
+      SparseMatrix matrix =
+        monolithic_matrix(system, residual, MonolithicNumbering(system));
+      const std::vector<double> of_columns = matrix.on_columns(scale.data());
+      matrix.for_each_entry(
+        [&](const unsigned int i, const unsigned int k, double &value) {
+          value *= scale[i] * of_columns[k];
+        });
+      valid = factorisation.initialize(matrix, MatrixKind::general);
       if (valid)
-        constants = free_constants(system, *matrix, scale, factorisation);
+        constants = free_constants(system, scale, factorisation);
     }
 
     /// @p x = A^{-1} r; false when the solve failed.
@@ -100,22 +103,22 @@ namespace mortise
     solve(const SystemVector &r, SystemVector &x)
     {
       for_each_value(b, r, [](double &to, const double from) { to = from; });
-      b.Multiply(1., scale, b, 0.);
-      if (!factorisation.solve(y, b))
+      multiply(b, scale);
+      if (!factorisation.solve(y.data(), b.data()))
         return false;
-      y.Multiply(1., scale, y, 0.);
+      multiply(y, scale);
       for_each_value(y, x, [](const double from, double &to) { to = from; });
       for (unsigned int g = 0; g < constants.size(); ++g)
         add_scaled(x, -system.free_pressures.mean(g, x.pressure), constants[g]);
       return true;
     }
 
-    const BlockSystem                &system;
-    std::unique_ptr<Epetra_CrsMatrix> matrix;
-    Epetra_Vector                     scale, b, y;
-    MumpsFactorisation                factorisation;
-    std::vector<SystemVector>         constants;
-    bool                              valid;
+    const BlockSystem        &system;
+    const std::vector<double> scale;
+    std::vector<double>       b, y;
+    MumpsFactorisation        factorisation;
+    std::vector<SystemVector> constants;
+    bool                      valid;
   };
 
   DirectSolver::DirectSolver(const BlockSystem   &system,

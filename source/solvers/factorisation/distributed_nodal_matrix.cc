@@ -1,7 +1,6 @@
 // See distributed_nodal_matrix.h.
 #include <deal.II/base/mpi.h>
 
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/distributed_nodal_matrix.h>
 
 #include <algorithm>
@@ -11,18 +10,17 @@ namespace mortise
 {
   using namespace dealii;
 
-  DistributedNodalMatrix::DistributedNodalMatrix(NodalMatrix       rows,
-                                                 const Epetra_Map &map)
+  DistributedNodalMatrix::DistributedNodalMatrix(NodalMatrix    rows,
+                                                 const MPI_Comm comm)
     : node_rows(std::move(rows))
-    , vector_map(map)
   {
     const auto counts =
-      Utilities::MPI::all_gather(communicator(map),
-                                 static_cast<int>(node_rows.size()));
+      Utilities::MPI::all_gather(comm, static_cast<int>(node_rows.size()));
     rank_starts.resize(counts.size() + 1);
     std::partial_sum(counts.begin(), counts.end(), rank_starts.begin() + 1);
-    first = rank_starts[map.Comm().MyPID()];
-    end   = rank_starts[map.Comm().MyPID() + 1];
+    const unsigned int rank = Utilities::MPI::this_mpi_process(comm);
+    first                   = rank_starts[rank];
+    end                     = rank_starts[rank + 1];
     find_ghosts();
     const unsigned int n = node_rows.n_components;
     IndexSet owned(rank_starts.back() * n), relevant(rank_starts.back() * n);
@@ -31,7 +29,7 @@ namespace mortise
       relevant.add_range(node * n, (node + 1) * n);
     owned.compress();
     relevant.compress();
-    nodal.reinit(owned, relevant, communicator(map));
+    nodal.reinit(owned, relevant, comm);
   }
 
   void
@@ -57,13 +55,14 @@ namespace mortise
     return end - first + static_cast<int>(ghost - ghost_nodes.begin());
   }
 
-  const DistributedNodalMatrix::NodeVector &
-  DistributedNodalMatrix::at_nodes(const Epetra_Vector &x) const
+  const Vector &
+  DistributedNodalMatrix::at_nodes(const Vector &x) const
   {
     const auto &entries = node_rows.entries;
     nodal.zero_out_ghost_values();
     for (unsigned int i = 0; i < entries.size(); ++i)
-      nodal.local_element(i) = entries[i] < 0 ? 0. : x[entries[i]];
+      nodal.local_element(i) =
+        entries[i] < 0 ? 0. : x.local_element(entries[i]);
     nodal.update_ghost_values();
     return nodal;
   }
@@ -78,7 +77,7 @@ namespace mortise
   }
 
   void
-  DistributedNodalMatrix::vmult(Epetra_Vector &y, const Epetra_Vector &x) const
+  DistributedNodalMatrix::vmult(Vector &y, const Vector &x) const
   {
     const unsigned int n      = node_rows.n_components;
     const double      *from   = at_nodes(x).begin();
@@ -99,7 +98,7 @@ namespace mortise
             for (unsigned int k = 0; k < length; ++k)
               sum += variant[k] * from[indices[k] + c];
             if (const int entry = node_rows.entries[i * n + c]; entry >= 0)
-              y[entry] = sum;
+              y.local_element(entry) = sum;
           }
         column += length;
         values += std::size_t(length) * variants;

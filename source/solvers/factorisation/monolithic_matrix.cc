@@ -2,9 +2,9 @@
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/lac/affine_constraints.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
 
-#include <mortise/solvers/epetra_tools.h>
+#include <mortise/mortar/row_assembler.h>
 #include <mortise/solvers/factorisation/monolithic_matrix.h>
 
 #include <algorithm>
@@ -147,68 +147,145 @@ namespace mortise
       std::vector<Index> cell_indices;
     };
 
-    /// Calls @p entry(row, column, value) for what is not K, G and C. @p B: expanded, or empty without
-    /// multipliers.
-    template <typename Entry>
-    void
-    for_each_constraint_entry(const BlockSystem    &system,
-                              const ScaledResidual &residual,
-                              const Numbering      &numbering,
-                              const std::unique_ptr<Epetra_CrsMatrix> &B,
-                              const Entry                             &entry)
+    /// Combinations of indices of the matrix.
+    class Combinations
     {
+    public:
+      void
+      clear()
+      {
+        begin = {0};
+        index.clear();
+        weight.clear();
+      }
+
+      /// One more, that stands for what @p constraints make of @p i.
+      void
+      add(const Index i, const AffineConstraints<double> &constraints)
+      {
+        if (const auto *entries = constraints.is_constrained(i) ?
+                                    constraints.get_constraint_entries(i) :
+                                    nullptr)
+          for (const auto &[master, factor] : *entries)
+            add_term(master, factor);
+        else
+          add_term(i, 1.);
+        begin.push_back(index.size());
+      }
+
+      void
+      add(const Index i)
+      {
+        add_term(i, 1.);
+        begin.push_back(index.size());
+      }
+
+      unsigned int
+      size() const
+      {
+        return begin.size() - 1;
+      }
+
+      Expansion
+      operator()() const
+      {
+        return {begin, index, weight, 0};
+      }
+
+    private:
+      void
+      add_term(const Index i, const double factor)
+      {
+        index.push_back(i);
+        weight.push_back(factor);
+      }
+
+      std::vector<unsigned int> begin{0};
+      std::vector<Index>        index;
+      std::vector<double>       weight;
+    };
+
+    /// Calls @p visit(i, columns, values, symmetric) for what is not K, G and C:
+    /// entries of the row i, and of the column if they are symmetric. @p B: expanded, without
+    /// rows where there are no multipliers.
+    template <typename Visit>
+    void
+    for_each_constraint_row(const BlockSystem    &system,
+                            const ScaledResidual &residual,
+                            const Numbering      &numbering,
+                            const SparseMatrix   &B,
+                            const Visit          &visit)
+    {
+      Combinations       columns;
+      FullMatrix<double> values;
+      const auto visit_diagonal = [&](const Index i, const double value) {
+        columns.clear();
+        columns.add(i);
+        values.reinit(1, 1);
+        values(0, 0) = value;
+        visit(i, columns, values, false);
+      };
+      const auto visit_row = [&](const Index         i,
+                                 const SparseMatrix &from,
+                                 const unsigned int  local,
+                                 const auto          field,
+                                 const double        factor) {
+        const auto row = from.row(local);
+        columns.clear();
+        values.reinit(1, row.length);
+        for (unsigned int k = 0; k < row.length; ++k)
+          {
+            columns.add(numbering(field, from.global_column(row.columns[k])));
+            values(0, k) = factor * row.values[k];
+          }
+        visit(i, columns, values, field == Numbering::displacement);
+      };
       for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
         if (const int pinned = system.free_pressures.pinned(g); pinned >= 0)
-          {
-            const Index k =
-              numbering(Numbering::pressure,
-                        system.owned_pressure.nth_index_in_set(pinned));
-            entry(k, k, -1. / residual.inverse_diagonal_p()[pinned]);
-          }
-      if (!B)
-        return;
-      int local = 0;
-      for (const auto i : system.owned_multiplier)
+          visit_diagonal(
+            numbering(Numbering::pressure,
+                      system.owned_pressure.nth_index_in_set(pinned)),
+            -1. / residual.inverse_diagonal_p().local_element(pinned));
+      for (unsigned int local = 0; local < B.n_rows(); ++local)
         {
-          const Index k = numbering(Numbering::multiplier, i);
-          if (system.active && !(*system.active)[local])
-            entry(k, k, -1. / residual.inverse_diagonal_lambda()[local]);
-          else
-            {
-              const EpetraRow row(*B, local);
-              for (int e = 0; e < row.length; ++e)
-                {
-                  const Index j =
-                    numbering(Numbering::displacement, B->GCID(row.columns[e]));
-                  entry(k, j, row.values[e]);
-                  entry(j, k, row.values[e]);
-                }
-              entry(k, k, 0.);
-              if (system.has_springs())
-                {
-                  const auto &S = system.spring_compliance.trilinos_matrix();
-                  const EpetraRow springs(S, local);
-                  for (int e = 0; e < springs.length; ++e)
-                    entry(k,
-                          numbering(Numbering::multiplier,
-                                    S.GCID(springs.columns[e])),
-                          -springs.values[e]);
-                }
-            }
-          ++local;
+          const Index k = numbering(Numbering::multiplier, B.global_row(local));
+          const bool  is_active = !system.active || (*system.active)[local];
+          visit_diagonal(
+            k,
+            is_active ?
+              0. :
+              -1. / residual.inverse_diagonal_lambda().local_element(local));
+          if (!is_active)
+            continue;
+          visit_row(k, B, local, Numbering::displacement, 1.);
+          if (system.has_springs())
+            visit_row(
+              k, system.spring_compliance, local, Numbering::multiplier, -1.);
         }
+    }
+
+    /// Calls @p visit(i) for owned numbers of what is prescribed or hangs.
+    template <typename Visit>
+    void
+    for_each_constrained(const Numbering                 &numbering,
+                         const AffineConstraints<double> &constraints,
+                         const Visit                     &visit)
+    {
+      for (const auto &line : constraints.get_lines())
+        if (numbering.owned().is_element(line.index))
+          visit(line.index);
     }
   } // namespace
 
-  std::unique_ptr<Epetra_CrsMatrix>
+  SparseMatrix
   monolithic_matrix(const BlockSystem         &system,
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering)
   {
-    const NodalSystem                &nodal = *system.nodal;
-    std::unique_ptr<Epetra_CrsMatrix> B;
+    const NodalSystem &nodal = *system.nodal;
+    SparseMatrix       B;
     if (system.owned_multiplier.size() > 0)
-      B = std::make_unique<Epetra_CrsMatrix>(system.coupling.expanded());
+      B = system.coupling.expanded();
     CellIndices        cells(nodal, numbering);
     std::vector<Index> touched = cells.displacements;
     touched.insert(touched.end(),
@@ -220,51 +297,59 @@ namespace mortise
     const AffineConstraints<double> constraints =
       monolithic_constraints(nodal, numbering, rows);
 
-    touched.clear();
-    for_each_constraint_entry(system,
+    RowAssembler assembler(numbering.owned(), numbering.owned());
+    Combinations of_cell, one;
+    const auto   set_cell = [&](const auto &cell) {
+      of_cell.clear();
+      for (const Index i : cells.of(cell))
+        of_cell.add(i, constraints);
+    };
+    const auto for_each_row = [&](const auto &visit) {
+      for_each_constraint_row(system,
                               residual,
                               numbering,
                               B,
-                              [&](const Index row, const Index, const double) {
-                                if (!rows.is_element(row))
-                                  touched.push_back(row);
+                              [&](const Index               i,
+                                  const Combinations       &columns,
+                                  const FullMatrix<double> &values,
+                                  const bool                symmetric) {
+                                one.clear();
+                                one.add(i);
+                                visit(one, columns, values, false);
+                                if (symmetric)
+                                  visit(columns, one, values, true);
                               });
-    std::sort(touched.begin(), touched.end());
-    rows.add_indices(touched.begin(), touched.end());
-    DynamicSparsityPattern sparsity(numbering.size(), numbering.size(), rows);
+      for_each_constrained(numbering, constraints, [&](const Index i) {
+        one.clear();
+        one.add(i);
+        FullMatrix<double> value(1, 1);
+        value(0, 0) = 1.; // as the norm of residuals has it
+        visit(one, one, value, false);
+      });
+    };
     nodal.elasticity().for_each_cell([&](const auto &cell) {
-      constraints.add_entries_local_to_global(cells.of(cell), sparsity, false);
+      set_cell(cell);
+      assembler.record(of_cell(), of_cell.size(), of_cell(), of_cell.size());
     });
-    for_each_constraint_entry(system,
-                              residual,
-                              numbering,
-                              B,
-                              [&](const Index row,
-                                  const Index column,
-                                  const double) { sparsity.add(row, column); });
-    SparseMatrix matrix;
-    matrix.reinit(numbering.owned(),
-                  numbering.owned(),
-                  sparsity,
-                  system.communicator,
-                  true);
+    for_each_row([&](const Combinations &row,
+                     const Combinations &column,
+                     const FullMatrix<double> &,
+                     const bool) {
+      assembler.record(row(), row.size(), column(), column.size());
+    });
+    assembler.allocate();
     nodal.elasticity().for_each_cell_matrix(
       [](const auto &) { return true; },
       [&](const auto &cell, const auto &local) {
-        constraints.distribute_local_to_global(local.mixed,
-                                               cells.of(cell),
-                                               matrix);
+        set_cell(cell);
+        assembler.add(of_cell(), of_cell(), local.mixed, 1., false);
       });
-    for_each_constraint_entry(system,
-                              residual,
-                              numbering,
-                              B,
-                              [&](const Index  row,
-                                  const Index  column,
-                                  const double value) {
-                                matrix.add(row, column, value);
-                              });
-    matrix.compress(VectorOperation::add);
-    return std::make_unique<Epetra_CrsMatrix>(matrix.trilinos_matrix());
+    for_each_row([&](const Combinations       &row,
+                     const Combinations       &column,
+                     const FullMatrix<double> &block,
+                     const bool                transposed) {
+      assembler.add(row(), column(), block, 1., transposed);
+    });
+    return assembler.create(system.communicator);
   }
 } // namespace mortise

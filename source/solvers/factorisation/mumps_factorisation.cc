@@ -1,7 +1,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <dmumps_c.h>
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 
 #include <new>
@@ -28,8 +27,8 @@ namespace mortise
 
   struct MumpsFactorisation::Implementation
   {
-    Implementation(const Epetra_CrsMatrix &matrix, const MatrixKind kind)
-      : comm(communicator(matrix.RowMap()))
+    Implementation(const SparseMatrix &matrix, const MatrixKind kind)
+      : comm(matrix.communicator())
       , symmetric(kind != MatrixKind::general)
     {
       mumps.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm));
@@ -55,7 +54,7 @@ namespace mortise
         }
 
       MPI_Comm_rank(comm, &rank);
-      int n_ranks = 0, mine = matrix.NumMyRows();
+      int n_ranks = 0, mine = static_cast<int>(matrix.n_rows());
       MPI_Comm_size(comm, &n_ranks);
       counts.resize(n_ranks);
       starts.resize(n_ranks);
@@ -65,18 +64,18 @@ namespace mortise
 
       for (int i = 0; i < mine; ++i)
         {
-          const EpetraRow row(matrix, i);
-          const int       number = matrix.GRID(i);
-          for (int k = 0; k < row.length; ++k)
-            if (const int column = matrix.GCID(row.columns[k]);
+          const auto row    = matrix.row(i);
+          const auto number = matrix.global_row(i);
+          for (unsigned int k = 0; k < row.length; ++k)
+            if (const auto column = matrix.global_column(row.columns[k]);
                 !symmetric || column <= number)
               {
-                rows.push_back(number + 1);
-                columns.push_back(column + 1);
+                rows.push_back(static_cast<int>(number) + 1);
+                columns.push_back(static_cast<int>(column) + 1);
                 values.push_back(row.values[k]);
               }
         }
-      mumps.n       = matrix.NumGlobalRows();
+      mumps.n       = static_cast<int>(matrix.m());
       mumps.nnz_loc = static_cast<MUMPS_INT8>(values.size());
       mumps.irn_loc = rows.data();
       mumps.jcn_loc = columns.data();
@@ -147,8 +146,8 @@ namespace mortise
   MumpsFactorisation::~MumpsFactorisation() = default;
 
   bool
-  MumpsFactorisation::initialize(const Epetra_CrsMatrix &matrix,
-                                 const MatrixKind        kind)
+  MumpsFactorisation::initialize(const SparseMatrix &matrix,
+                                 const MatrixKind    kind)
   {
     implementation = std::make_unique<Implementation>(matrix, kind);
     return implementation->factorise();
@@ -165,11 +164,12 @@ namespace mortise
   }
 
   bool
-  MumpsFactorisation::solve(Epetra_Vector &x, const Epetra_Vector &b) const
+  MumpsFactorisation::solve(double *x, const double *b) const
   {
     Implementation &data = *implementation;
-    MPI_Gatherv(b.Values(),
-                b.MyLength(),
+    const int       mine = data.counts[data.rank];
+    MPI_Gatherv(b,
+                mine,
                 MPI_DOUBLE,
                 data.on_first.data(),
                 data.counts.data(),
@@ -183,8 +183,8 @@ namespace mortise
                  data.counts.data(),
                  data.starts.data(),
                  MPI_DOUBLE,
-                 x.Values(),
-                 x.MyLength(),
+                 x,
+                 mine,
                  MPI_DOUBLE,
                  0,
                  data.comm);

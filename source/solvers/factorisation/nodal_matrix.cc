@@ -1,8 +1,6 @@
 // See nodal_matrix.h.
-#include <Epetra_Import.h>
-#include <Epetra_IntVector.h>
-#include <Epetra_Map.h>
-#include <mortise/solvers/epetra_tools.h>
+#include <deal.II/base/mpi.h>
+
 #include <mortise/solvers/factorisation/nodal_matrix.h>
 
 #include <algorithm>
@@ -13,20 +11,23 @@
 
 namespace mortise
 {
+  using namespace dealii;
+
   NodalMatrix
-  rows_as_nodes(const Epetra_CrsMatrix &matrix)
+  rows_as_nodes(const SparseMatrix &matrix)
   {
-    NodalMatrix nodes;
-    const int   n = matrix.NumMyRows();
+    NodalMatrix        nodes;
+    const unsigned int n = matrix.n_rows();
     nodes.entries.resize(n);
     std::iota(nodes.entries.begin(), nodes.entries.end(), 0);
     nodes.variants.assign(n, 1);
-    for (int i = 0; i < n; ++i)
+    for (unsigned int i = 0; i < n; ++i)
       {
-        const EpetraRow row(matrix, i);
+        const auto row = matrix.row(i);
         nodes.lengths.push_back(row.length);
-        for (int k = 0; k < row.length; ++k)
-          nodes.columns.push_back(matrix.GCID(row.columns[k]));
+        for (unsigned int k = 0; k < row.length; ++k)
+          nodes.columns.push_back(
+            static_cast<int>(matrix.global_column(row.columns[k])));
         nodes.values.insert(nodes.values.end(),
                             row.values,
                             row.values + row.length);
@@ -35,7 +36,7 @@ namespace mortise
   }
 
   void
-  add(NodalMatrix &matrix, const Epetra_CrsMatrix &other)
+  add(NodalMatrix &matrix, const SparseMatrix &other)
   {
     NodalMatrix sum;
     sum.entries           = matrix.entries;
@@ -47,9 +48,10 @@ namespace mortise
         std::map<int, double> row;
         for (unsigned int k = 0; k < matrix.lengths[i]; ++k)
           row[*columns++] += *values++;
-        const EpetraRow added(other, static_cast<int>(i));
-        for (int k = 0; k < added.length; ++k)
-          row[other.GCID(added.columns[k])] += added.values[k];
+        const auto added = other.row(i);
+        for (unsigned int k = 0; k < added.length; ++k)
+          row[static_cast<int>(other.global_column(added.columns[k]))] +=
+            added.values[k];
         sum.lengths.push_back(row.size());
         for (const auto &[column, value] : row)
           {
@@ -62,30 +64,33 @@ namespace mortise
 
   namespace
   {
-    Epetra_Map
-    nodes_of(const NodalMatrix &matrix, const Epetra_Comm &comm)
-    {
-      return Epetra_Map(-1, static_cast<int>(matrix.size()), 0, comm);
-    }
-
-    /// @p owned, a number for each owned node, by column of @p matrix. Collective.
+    /// @p owned, a number for each of @p nodes, by column of @p matrix. Collective.
     std::vector<int>
-    by_column(const NodalMatrix &matrix, const Epetra_IntVector &owned)
+    by_column(const NodalMatrix      &matrix,
+              const std::vector<int> &owned,
+              const IndexSet         &nodes,
+              const MPI_Comm          comm)
     {
       std::vector<int> unique(matrix.columns);
       std::sort(unique.begin(), unique.end());
       unique.erase(std::unique(unique.begin(), unique.end()), unique.end());
-      const Epetra_Map columns(-1,
-                               static_cast<int>(unique.size()),
-                               unique.data(),
-                               0,
-                               owned.Map().Comm());
-      Epetra_IntVector all(columns);
-      all.Import(owned, Epetra_Import(columns, owned.Map()), Insert);
+      IndexSet columns(nodes.size());
+      columns.add_indices(unique.begin(), unique.end());
+      LinearAlgebra::distributed::Vector<double> all(nodes, columns, comm);
+      std::copy(owned.begin(), owned.end(), all.begin());
+      all.update_ghost_values();
       std::vector<int> result;
       for (const int column : matrix.columns)
-        result.push_back(all[columns.LID(column)]);
+        result.push_back(static_cast<int>(all(column)));
       return result;
+    }
+
+    int
+    first_of(const IndexSet &nodes)
+    {
+      return nodes.n_elements() == 0 ?
+               0 :
+               static_cast<int>(nodes.nth_index_in_set(0));
     }
 
     /// Does owned node i, whose row begins with @p columns and @p values, couple
@@ -109,15 +114,15 @@ namespace mortise
   NodalMatrix
   select(const NodalMatrix       &matrix,
          const std::vector<bool> &active,
-         const Epetra_Comm       &comm)
+         const MPI_Comm           comm)
   {
     const unsigned int n     = matrix.n_components;
-    const Epetra_Map   nodes = nodes_of(matrix, comm);
-    Epetra_IntVector   owned(nodes); // bits of the components that are active
+    const IndexSet     nodes = owned_range(matrix.size(), comm);
+    std::vector<int>   owned(matrix.size()); // bits of active components
     for (unsigned int i = 0; i < matrix.entries.size(); ++i)
       if (matrix.entries[i] >= 0 && active[matrix.entries[i]])
-        owned[static_cast<int>(i / n)] |= 1 << i % n;
-    const std::vector<int> bits = by_column(matrix, owned);
+        owned[i / n] |= 1 << i % n;
+    const std::vector<int> bits = by_column(matrix, owned, nodes, comm);
     NodalMatrix            result;
     result.n_components  = n;
     result.entries       = matrix.entries;
@@ -126,7 +131,7 @@ namespace mortise
     for (unsigned int i = 0; i < matrix.size(); ++i)
       {
         const unsigned int length = matrix.lengths[i];
-        const int          self   = nodes.GID(static_cast<int>(i));
+        const int          self   = first_of(nodes) + static_cast<int>(i);
         int                own    = 0;
         for (unsigned int k = 0; k < length; ++k)
           if (matrix.columns[column + k] == self)
@@ -159,18 +164,18 @@ namespace mortise
 
   NodalMatrix
   take_coupled(const NodalMatrix                   &matrix,
-               const Epetra_Comm                   &comm,
+               const MPI_Comm                       comm,
                std::vector<std::pair<int, double>> &lone)
   {
     const unsigned int n     = matrix.n_components;
-    const Epetra_Map   nodes = nodes_of(matrix, comm);
-    Epetra_IntVector   number(nodes); // among those that couple; -1: does not
-    int                mine = 0, behind = 0;
+    const IndexSet     nodes = owned_range(matrix.size(), comm);
+    std::vector<int>   number(matrix.size()); // of those that couple; or -1
+    int                mine    = 0;
     const int         *columns = matrix.columns.data();
     const double      *values  = matrix.values.data();
     for (unsigned int i = 0; i < matrix.size(); ++i)
       {
-        const int self = nodes.GID(static_cast<int>(i));
+        const int self = first_of(nodes) + static_cast<int>(i);
         number[i] = couples(matrix, i, self, columns, values) ? mine++ : -1;
         for (unsigned int c = 0; c < n && number[i] < 0; ++c)
           if (matrix.entries[i * n + c] >= 0)
@@ -183,11 +188,11 @@ namespace mortise
         columns += matrix.lengths[i];
         values += std::size_t(matrix.lengths[i]) * matrix.variants[i];
       }
-    comm.ScanSum(&mine, &behind, 1);
-    for (unsigned int i = 0; i < matrix.size(); ++i)
-      if (number[i] >= 0)
-        number[i] += behind - mine;
-    const std::vector<int> numbers = by_column(matrix, number);
+    const int first = first_of(owned_range(mine, comm));
+    for (int &of_node : number)
+      if (of_node >= 0)
+        of_node += first;
+    const std::vector<int> numbers = by_column(matrix, number, nodes, comm);
 
     NodalMatrix result;
     result.n_components = n;
@@ -219,43 +224,31 @@ namespace mortise
     return result;
   }
 
-  std::unique_ptr<Epetra_CrsMatrix>
-  as_matrix(const NodalMatrix &rows, const Epetra_Comm &comm)
+  SparseMatrix
+  as_matrix(const NodalMatrix &rows, const MPI_Comm comm)
   {
-    const int           n_components = rows.n_components;
-    const Epetra_Map    map(-1,
-                         static_cast<int>(rows.size()) * n_components,
-                         0,
-                         comm);
-    std::vector<int>    lengths, columns;
-    std::vector<double> values;
-    for (const unsigned int length : rows.lengths)
-      lengths.insert(lengths.end(), n_components, static_cast<int>(length));
-    auto matrix =
-      std::make_unique<Epetra_CrsMatrix>(Copy, map, lengths.data(), true);
-    const int    *from_column = rows.columns.data();
-    const double *from_value  = rows.values.data();
+    const unsigned int           n = rows.n_components;
+    SparseMatrix::CompressedRows result;
+    const int                   *columns = rows.columns.data();
+    const double                *values  = rows.values.data();
     for (unsigned int i = 0; i < rows.size(); ++i)
       {
-        const int length = static_cast<int>(rows.lengths[i]);
-        for (int c = 0; c < n_components; ++c)
+        const unsigned int length = rows.lengths[i];
+        for (unsigned int c = 0; c < n; ++c)
           {
-            columns.clear();
-            for (int k = 0; k < length; ++k)
-              columns.push_back(from_column[k] * n_components + c);
             const double *variant =
-              from_value + (rows.variants[i] == 1 ? 0 : c * length);
-            values.assign(variant, variant + length);
-            matrix->InsertGlobalValues(
-              map.GID(static_cast<int>(i) * n_components + c),
-              length,
-              values.data(),
-              columns.data());
+              values + (rows.variants[i] == 1 ? 0 : c * length);
+            for (unsigned int k = 0; k < length; ++k)
+              result.columns.push_back(columns[k] * n + c);
+            result.values.insert(result.values.end(),
+                                 variant,
+                                 variant + length);
+            result.begin.push_back(result.columns.size());
           }
-        from_column += length;
-        from_value += std::size_t(length) * rows.variants[i];
+        columns += length;
+        values += std::size_t(length) * rows.variants[i];
       }
-    matrix->FillComplete();
-    return matrix;
+    const IndexSet owned = owned_range(n * rows.size(), comm);
+    return {owned, owned, comm, std::move(result)};
   }
 } // namespace mortise

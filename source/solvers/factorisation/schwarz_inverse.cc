@@ -3,8 +3,6 @@
 
 #include <boost/serialization/utility.hpp>
 
-#include <Epetra_MpiComm.h>
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/factorisation/schwarz_inverse.h>
 #include <mortise/solvers/pseudo_random.h>
 
@@ -87,7 +85,7 @@ namespace mortise
     NodalMatrix
     overlapping_rows(const DistributedNodalMatrix &matrix)
     {
-      const MPI_Comm     comm   = communicator(matrix.map());
+      const MPI_Comm     comm   = matrix.communicator();
       const NodalMatrix &rows   = matrix.rows();
       const auto        &starts = matrix.starts();
       const int          n      = static_cast<int>(rows.size());
@@ -143,22 +141,18 @@ namespace mortise
   bool
   SchwarzInverse::initialize(
     std::shared_ptr<DistributedNodalMatrix> node_matrix,
-    Product                                 matrix_product)
+    Product                                 matrix_product,
+    const Vector                           &zero)
   {
     matrix                  = std::move(node_matrix);
     product                 = std::move(matrix_product);
     NodalMatrix overlapping = overlapping_rows(*matrix);
-    local_map =
-      std::make_unique<Epetra_Map>(static_cast<int>(overlapping.entries.size()),
-                                   0,
-                                   Epetra_MpiComm(MPI_COMM_SELF));
-    local_x = std::make_unique<Epetra_Vector>(*local_map);
-    for (auto *vector : {&r, &z, &q})
-      *vector = std::make_unique<Epetra_Vector>(matrix->map());
+    local_x.resize(overlapping.entries.size());
+    for (Vector *vector : {&r, &z, &q})
+      vector->reinit(zero);
     const bool positive =
       local.initialize(std::move(overlapping), MPI_COMM_SELF);
-    if (Utilities::MPI::min(positive ? 1 : 0, communicator(matrix->map())) ==
-          0 ||
+    if (Utilities::MPI::min(positive ? 1 : 0, matrix->communicator()) == 0 ||
         !count_solves())
       return false;
     matrix->drop_rows();
@@ -168,15 +162,15 @@ namespace mortise
   bool
   SchwarzInverse::count_solves()
   {
-    Epetra_Vector x(*r);
-    for (int i = 0; i < x.MyLength(); ++i)
-      x[i] = pseudo_random(x.Map().GID(i));
-    product(*r, x); // of the matrix's scale
-    double first = 0., norm = 0.;
+    Vector x(r);
+    for (const auto i : x.locally_owned_elements())
+      x(i) = pseudo_random(i);
+    product(r, x); // of the matrix's scale
+    double first = 0.;
     for (n_solves = 0; n_solves < max_solves; ++n_solves)
       {
-        solve_local(*z, *r);
-        z->Norm2(&norm);
+        solve_local(z, r);
+        const double norm = z.l2_norm();
         if (n_solves == 0)
           first = norm;
         if (norm <= tolerance * first)
@@ -184,36 +178,33 @@ namespace mortise
             n_solves = std::max(n_solves, 1U);
             return true;
           }
-        product(*q, *z);
-        r->Update(-1., *q, 1.);
+        product(q, z);
+        r -= q;
       }
     return false;
   }
 
   void
-  SchwarzInverse::solve_local(Epetra_Vector       &to,
-                              const Epetra_Vector &from) const
+  SchwarzInverse::solve_local(Vector &to, const Vector &from) const
   {
-    // a view of what is only read
-    double *nodal = const_cast<double *>(matrix->at_nodes(from).begin());
-    local.solve(*local_x, Epetra_Vector(View, *local_map, nodal));
+    local.solve(local_x.data(), matrix->at_nodes(from).begin());
     const auto &entries = matrix->rows().entries;
     for (unsigned int i = 0; i < entries.size(); ++i)
       if (entries[i] >= 0)
-        to[entries[i]] = (*local_x)[i];
+        to.local_element(entries[i]) = local_x[i];
   }
 
   void
-  SchwarzInverse::solve(Epetra_Vector &x, const Epetra_Vector &b) const
+  SchwarzInverse::solve(Vector &x, const Vector &b) const
   {
-    *r = b;
-    solve_local(x, *r);
+    r = b;
+    solve_local(x, r);
     for (unsigned int k = 1; k < n_solves; ++k)
       {
-        product(*q, k == 1 ? x : *z);
-        r->Update(-1., *q, 1.);
-        solve_local(*z, *r);
-        x.Update(1., *z, 1.);
+        product(q, k == 1 ? x : z);
+        r -= q;
+        solve_local(z, r);
+        x += z;
       }
   }
 } // namespace mortise

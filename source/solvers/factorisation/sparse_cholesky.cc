@@ -249,8 +249,7 @@ namespace mortise
 
   template <typename Number, typename Work>
   void
-  SparseCholesky<Number, Work>::solve(Epetra_Vector       &x,
-                                      const Epetra_Vector &b) const
+  SparseCholesky<Number, Work>::solve(double *x, const double *b) const
   {
     const auto type   = Utilities::MPI::mpi_type_id_for_type<Number>;
     const auto gather = [&](const std::vector<int> &counts,

@@ -34,10 +34,9 @@ namespace mortise
         , d(r)
         , kd(r)
         , has_springs(system.has_springs())
-        , y(all_r.multiplier)
-        , z_lambda(y)
-        , d_lambda(y)
-        , no_offset(y)
+        , z_lambda(all_r.multiplier)
+        , d_lambda(z_lambda)
+        , no_offset(z_lambda)
       {}
 
       /// Start from what @p x holds, whose energy this takes into account.
@@ -60,7 +59,8 @@ namespace mortise
         for (bool first = true; report.iterations < options.max_iterations;
              first      = false)
           {
-            remove_multipliers(lambda);
+            if (projector != nullptr)
+              projector->remove_multipliers(r, lambda);
             const double reached = residual.norm(all_r);
             if (!first && options.monitor)
               options.monitor(report.iterations, reached / rhs_norm);
@@ -98,8 +98,9 @@ namespace mortise
       judge(const SystemVector &x, SolveReport &report)
       {
         const auto relative_error = [&] {
-          SystemVector unused = all_r;
-          remove_multipliers(unused.multiplier);
+          Vector unused(all_r.multiplier);
+          if (projector != nullptr)
+            projector->remove_multipliers(r, unused);
           precondition();
           return std::sqrt((z * r) / system.energy_product(x));
         };
@@ -110,29 +111,7 @@ namespace mortise
       }
 
     private:
-      /// From r what multipliers of ties can carry, to @p lambda.
-      void
-      remove_multipliers(Vector &lambda)
-      {
-        if (projector == nullptr)
-          return;
-        if (!has_springs)
-          {
-            projector->project_residual(r, lambda);
-            return;
-          }
-        // springs carry what opens them and nothing else
-        kd = r;
-        y  = 0.;
-        projector->project_residual(kd, y);
-        projector->clear_springs(y);
-        kd = 0.;
-        system.add_multiplier_force(kd, y);
-        r -= kd;
-        lambda += y;
-      }
-
-      /// z, z_lambda from r; behind remove_multipliers().
+      /// z, z_lambda from r without what multipliers carry.
       void
       precondition()
       {
@@ -177,9 +156,9 @@ namespace mortise
       Vector                    &r;
       Vector                     z, d, kd;
       const bool                 has_springs;
-      Vector                     y, z_lambda, d_lambda; ///< multipliers
-      const Vector               no_offset;             ///< likewise
-      double                     energy_of_x = 0.;      ///< gained so far
+      Vector                     z_lambda, d_lambda; ///< multipliers
+      const Vector               no_offset;          ///< likewise
+      double                     energy_of_x = 0.;   ///< gained so far
     };
   } // namespace
 

@@ -39,7 +39,7 @@ namespace mortise
       }
 
       void
-      vmult(LevelVector<double> &dst, const LevelVector<double> &src) const
+      vmult(Vector &dst, const Vector &src) const
       {
         nodal.apply_pressure_norm(dst, src);
       }
@@ -47,15 +47,14 @@ namespace mortise
       const NodalSystem &nodal;
     };
 
-    using Diagonal = DiagonalMatrix<LevelVector<double>>;
-    using Chebyshev =
-      PreconditionChebyshev<Matrix, LevelVector<double>, Diagonal>;
+    using Diagonal  = DiagonalMatrix<Vector>;
+    using Chebyshev = PreconditionChebyshev<Matrix, Vector, Diagonal>;
 
     explicit Polynomial(const NodalSystem &nodal)
       : matrix(nodal)
     {
-      const LevelVector<double> &diagonal = nodal.pressure_norm_diagonal();
-      const double               least    = Utilities::MPI::min(
+      const Vector &diagonal = nodal.pressure_norm_diagonal();
+      const double  least    = Utilities::MPI::min(
         diagonal.locally_owned_size() == 0 ?
           1. :
           *std::min_element(diagonal.begin(),
@@ -64,8 +63,6 @@ namespace mortise
       valid = least > 0.;
       if (!valid)
         return;
-      x.reinit(diagonal);
-      b.reinit(diagonal);
       typename Chebyshev::AdditionalData data(polynomial_degree,
                                               polynomial_range);
       data.preconditioner = std::make_shared<Diagonal>();
@@ -76,10 +73,9 @@ namespace mortise
       chebyshev.initialize(matrix, data);
     }
 
-    Matrix              matrix;
-    Chebyshev           chebyshev;
-    LevelVector<double> x, b;
-    bool                valid;
+    Matrix    matrix;
+    Chebyshev chebyshev;
+    bool      valid;
   };
 
   PressurePreconditioner::PressurePreconditioner(const BlockSystem &system)
@@ -97,10 +93,7 @@ namespace mortise
   void
   PressurePreconditioner::vmult(Vector &dst, const Vector &src) const
   {
-    LevelVector<double> &x = polynomial->x, &b = polynomial->b;
-    std::copy_n(src.begin(), b.locally_owned_size(), b.begin());
-    polynomial->chebyshev.vmult(x, b);
-    std::copy_n(x.begin(), x.locally_owned_size(), dst.begin());
+    polynomial->chebyshev.vmult(dst, src);
   }
 
   std::string

@@ -1,8 +1,7 @@
 // See saddle_point.h.
+#include <deal.II/lac/la_parallel_block_vector.h>
 #include <deal.II/lac/solver_gmres.h>
-#include <deal.II/lac/trilinos_parallel_block_vector.h>
 
-#include <mortise/solvers/epetra_tools.h>
 #include <mortise/solvers/krylov/pressure_preconditioner.h>
 #include <mortise/solvers/krylov/saddle_point.h>
 #include <mortise/solvers/multigrid/degree_multigrid.h>
@@ -16,17 +15,24 @@ namespace mortise
 
   namespace
   {
-    using BlockVector = TrilinosWrappers::MPI::BlockVector;
+    using BlockVector = LinearAlgebra::distributed::BlockVector<double>;
 
     /// Numbers of the blocks.
     constexpr unsigned int u = 0, p = 1, l = 2;
 
-    void
-    copy(BlockVector &to, const SystemVector &from)
+    BlockVector
+    as_blocks(const SystemVector &from)
     {
-      to.block(u) = from.displacement;
-      to.block(p) = from.pressure;
-      to.block(l) = from.multiplier;
+      BlockVector  result(3);
+      unsigned int b = 0;
+      for (const Vector *part :
+           {&from.displacement, &from.pressure, &from.multiplier})
+        {
+          result.block(b).reinit(*part, true);
+          result.block(b++) = *part;
+        }
+      result.collect_sizes();
+      return result;
     }
 
     void
@@ -44,25 +50,22 @@ namespace mortise
     {
     public:
       ScaledOperator(const BlockSystem &system, const ScaledResidual &residual)
-        : weight({system.owned_displacement,
-                  system.owned_pressure,
-                  system.owned_multiplier},
-                 system.communicator)
+        : weight(as_blocks({residual.inverse_diagonal_u(),
+                            residual.inverse_diagonal_p(),
+                            residual.inverse_diagonal_lambda()}))
+        , inverse(weight)
         , system(system)
         , tied(system.owned_multiplier.size() > 0)
         , scaled(weight)
       {
-        set_root(residual.inverse_diagonal_u(), weight.block(u));
-        if (system.mixed())
-          set_root(residual.inverse_diagonal_p(), weight.block(p));
-        if (tied)
-          set_root(residual.inverse_diagonal_lambda(), weight.block(l));
-        inverse = weight;
         for (unsigned int b = 0; b < 3; ++b)
-          for (unsigned int i = 0; i < inverse.block(b).locally_owned_size();
+          for (unsigned int i = 0; i < weight.block(b).locally_owned_size();
                ++i)
-            epetra(inverse.block(b))[0][i] =
-              1. / epetra(inverse.block(b))[0][i];
+            {
+              double &root = weight.block(b).local_element(i);
+              root         = std::sqrt(root);
+              inverse.block(b).local_element(i) = 1. / root;
+            }
       }
 
       void
@@ -89,13 +92,6 @@ namespace mortise
       BlockVector weight, inverse; ///< W and W^{-1}
 
     private:
-      static void
-      set_root(const Epetra_Vector &square, Vector &root)
-      {
-        for (int i = 0; i < square.MyLength(); ++i)
-          epetra(root)[0][i] = std::sqrt(square[i]);
-      }
-
       const BlockSystem  &system;
       const bool          tied;
       mutable BlockVector scaled;
@@ -145,7 +141,7 @@ namespace mortise
           }
         z_l = 0.;
         if (projector) // r_u - B^T y with y = C^{-1} B T r_u
-          remove_multipliers(t.block(u), z_l);
+          projector->remove_multipliers(t.block(u), z_l);
         bulk.vmult(z_u, t.block(u));
         if (system.has_springs())
           {
@@ -164,7 +160,7 @@ namespace mortise
       {
         Vector z(r.displacement), projected(z), multiplier(r.multiplier);
         if (projector)
-          remove_multipliers(projected, multiplier);
+          projector->remove_multipliers(projected, multiplier);
         bulk.vmult(z, projected);
         double energy = z * projected;
         if (pressure)
@@ -197,25 +193,6 @@ namespace mortise
       }
 
     private:
-      /// From @p r what multipliers of ties can carry, to @p lambda.
-      void
-      remove_multipliers(Vector &r, Vector &lambda) const
-      {
-        if (!system.has_springs())
-          {
-            projector->project_residual(r, lambda);
-            return;
-          }
-        Vector rest(r), y(lambda);
-        y = 0.;
-        projector->project_residual(rest, y);
-        projector->clear_springs(y);
-        rest = 0.;
-        system.add_multiplier_force(rest, y);
-        r -= rest;
-        lambda += y;
-      }
-
       /// S lambda
       Vector
       opening(const Vector &lambda) const
@@ -343,7 +320,6 @@ namespace mortise
     const double               rhs_norm       = residual->norm(rhs);
     const double               target         = options.tolerance * rhs_norm;
     SystemVector               all_r          = system.zero_vector();
-    BlockVector                r(parts->matrix.weight);
     residual->compute(rhs, solution, all_r);
     double     reached = residual->norm(all_r), goal = 0.9 * target;
     const auto accurate = [&] {
@@ -364,7 +340,7 @@ namespace mortise
          report.iterations < options.max_iterations;
          ++start)
       {
-        copy(r, all_r);
+        BlockVector r = as_blocks(all_r);
         r.scale(parts->matrix.weight);
         add(solution, parts->iterate(r, goal, rhs_norm, options, report));
         residual->compute(rhs, solution, all_r);

@@ -1,11 +1,11 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/operators/levels/degree_transfer.h>
-#include <mortise/solvers/interface/lifting.h>
 #include <mortise/solvers/multigrid/chebyshev.h>
 #include <mortise/solvers/multigrid/degree_multigrid.h>
 #include <mortise/solvers/multigrid/lower_smoothing_bound.h>
 #include <mortise/solvers/multigrid/vertex_multigrid.h>
+#include <mortise/solvers/multipliers/lifting.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,17 +61,11 @@ namespace mortise
     {
       if (system.owned_multiplier.size() == 0)
         return {};
-      std::unique_ptr<Epetra_Vector> compliance;
-      if (system.has_springs())
-        {
-          compliance =
-            std::make_unique<Epetra_Vector>(system.coupling.row_map());
-          system.spring_compliance.trilinos_matrix().ExtractDiagonalCopy(
-            *compliance);
-        }
       return find_weak_jumps(system.coupling,
                              system.nodal->node_diagonal(),
-                             compliance.get(),
+                             system.has_springs() ?
+                               system.spring_compliance.diagonal() :
+                               std::vector<double>(),
                              system.active);
     }
   } // namespace
@@ -86,8 +80,8 @@ namespace mortise
       : system(system)
       , max_gathered(max_gathered)
     {
-      const auto         &all       = system.nodal->levels();
-      LevelVector<double> stiffness = system.nodal->node_diagonal();
+      const auto &all       = system.nodal->levels();
+      Vector      stiffness = system.nodal->node_diagonal();
       for (const unsigned int index : all.front().constrained)
         stiffness.local_element(index) = 0.;
       root_of_stiffness = std::sqrt(stiffness.linfty_norm());
@@ -195,20 +189,18 @@ namespace mortise
           carried = 0.;
           return;
         }
-      const unsigned int n    = level.b.locally_owned_size();
-      const double      *from = src.begin();
-      double            *to   = dst.begin();
+      const unsigned int n = level.b.locally_owned_size();
       for (unsigned int i = 0; i < n; ++i)
-        level.b.local_element(i) = static_cast<Number>(from[i] / scale);
+        level.b.local_element(i) =
+          static_cast<Number>(src.local_element(i) / scale);
       level.matrix.clear_constrained(level.b);
       cycle(0);
       for (unsigned int i = 0; i < n; ++i)
-        to[i] = scale * static_cast<double>(level.x.local_element(i));
+        dst.local_element(i) =
+          scale * static_cast<double>(level.x.local_element(i));
       if (carried.size() == 0)
         return;
-      const Epetra_Vector &of_level = correction->carried_by_springs();
-      for (unsigned int i = 0; i < carried.locally_owned_size(); ++i)
-        carried.begin()[i] = scale * of_level[static_cast<int>(i)];
+      carried.equ(scale, correction->carried_by_springs());
       projector->clear_ties(carried);
     }
 

@@ -73,9 +73,9 @@ namespace mortise
       LevelVector<Number>        x, b, r;
     };
 
-    template <typename Number>
+    template <typename To, typename From>
     void
-    copy_owned(LevelVector<Number> &to, const LevelVector<Number> &from)
+    copy_owned(LevelVector<To> &to, const LevelVector<From> &from)
     {
       std::copy_n(from.begin(), from.locally_owned_size(), to.begin());
     }
@@ -138,17 +138,15 @@ namespace mortise
         }
       coarse_x.reinit(blocks.layout);
       coarse_b.reinit(blocks.layout);
-      constrained     = constrained_components(blocks);
-      const auto rows = as_epetra(blocks);
-      blocks          = NodalBlockMatrix();
-      vertex_x        = std::make_unique<Epetra_Vector>(rows->RowMap());
-      vertex_r        = std::make_unique<Epetra_Vector>(rows->RowMap());
-      valid           = coarsest.initialize(
-                rows_as_nodes(*rows),
-                [&rows](Epetra_Vector &y, const Epetra_Vector &x) {
-                  rows->Multiply(false, x, y);
-                },
-                rows->RowMap(),
+      constrained             = constrained_components(blocks);
+      const SparseMatrix rows = as_sparse_matrix(blocks);
+      blocks                  = NodalBlockMatrix();
+      vertex_x.reinit(rows.rows(), rows.communicator());
+      vertex_r.reinit(vertex_x);
+      valid = coarsest.initialize(
+                rows_as_nodes(rows),
+                [&rows](Vector &y, const Vector &x) { rows.vmult(y, x); },
+                vertex_x,
                 std::is_same_v<Number, float>) &&
               valid;
     }
@@ -159,13 +157,9 @@ namespace mortise
     {
       if (l == levels.size())
         {
-          std::copy_n(coarse_b.begin(),
-                      coarse_b.locally_owned_size(),
-                      vertex_r->Values());
-          coarsest.solve(*vertex_x, *vertex_r);
-          std::copy_n(vertex_x->Values(),
-                      coarse_x.locally_owned_size(),
-                      coarse_x.begin());
+          copy_owned(vertex_r, coarse_b);
+          coarsest.solve(vertex_x, vertex_r);
+          copy_owned(coarse_x, vertex_x);
           for (const unsigned int index : constrained)
             coarse_x.local_element(index) = 0;
           return;
@@ -213,7 +207,7 @@ namespace mortise
     /// Where the caller smooths the finest mesh.
     std::unique_ptr<VertexTransfer<Number>> to_first;
     CholeskyInverse<float>                  coarsest;
-    std::unique_ptr<Epetra_Vector>          vertex_x, vertex_r;
+    Vector                                  vertex_x, vertex_r;
     bool                                    valid = true;
   };
 

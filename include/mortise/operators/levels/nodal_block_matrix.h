@@ -5,8 +5,7 @@
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/partitioner.h>
 
-#include <Epetra_CrsMatrix.h>
-#include <mortise/base/types.h>
+#include <mortise/base/sparse_matrix.h>
 
 #include <map>
 #include <memory>
@@ -38,9 +37,9 @@ namespace mortise
   constrained_components(const NodalBlockMatrix &blocks);
 
   /// The same matrix for solvers that take rows; constrained components get a
-  /// diagonal as large as others.
-  std::unique_ptr<Epetra_CrsMatrix>
-  as_epetra(const NodalBlockMatrix &blocks);
+  /// diagonal as large as others. Collective.
+  SparseMatrix
+  as_sparse_matrix(const NodalBlockMatrix &blocks);
 
   /// Collects rows of any nodes: first what couples, then values. Those of
   /// other ranks' nodes go there.

@@ -4,7 +4,6 @@
 // bends, cost nothing.
 #pragma once
 
-#include <Epetra_Vector.h>
 #include <mortise/body/spaces/nodal_space.h>
 #include <mortise/mortar/coupling_matrix.h>
 #include <mortise/operators/levels/nodal_operator.h>
@@ -25,11 +24,11 @@ namespace mortise
 
   /// Of the owned multipliers i that @p active lets hold: b_i(u)^2 / (C_ii / f + S_ii), C = B D^{-1} B^T and f so
   /// large that the jumps hardly matter beside what D stands for. @p diagonal: D, of the stiffness, the same for
-  /// the components of a node. @p compliance: diag(S), by owned multiplier; null without springs. Collective.
+  /// the components of a node. @p compliance: diag(S), by owned multiplier; empty without springs. Collective.
   std::vector<WeakJump>
   find_weak_jumps(const CouplingMatrix                   &coupling,
-                  const LevelVector<double>              &diagonal,
-                  const Epetra_Vector                    *compliance,
+                  const Vector                           &diagonal,
+                  const std::vector<double>              &compliance,
                   const std::optional<std::vector<bool>> &active);
 
   /// Of the nodes in @p jumps, ascending, those of bodies that are not flat beside one that is. @p flat: by index of the body;

@@ -2,8 +2,6 @@
 // single precision where that is accurate enough.
 #pragma once
 
-#include <Epetra_Map.h>
-#include <Epetra_Vector.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
 
 #include <functional>
@@ -17,22 +15,21 @@ namespace mortise
   {
   public:
     /// y = matrix x.
-    using Product =
-      std::function<void(Epetra_Vector &y, const Epetra_Vector &x)>;
+    using Product = std::function<void(Vector &y, const Vector &x)>;
 
-    /// @p rows: those of the matrix. @p product: with it, in double precision. @p map: of vectors with the
+    /// @p rows: those of the matrix. @p product: with it, in double precision. @p zero: a vector with the
     /// entries of the rows. False, on every rank, when the matrix is not
     /// positive definite. Collective.
     bool
     initialize(const NodalMatrix &rows,
                const Product     &product,
-               const Epetra_Map  &map,
+               const Vector      &zero,
                bool               allow_single);
 
     /// x = matrix^{-1} b, to four digits at least in the norm of the matrix.
     /// Collective.
     void
-    solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+    solve(Vector &x, const Vector &b) const;
 
     bool
     is_single() const

@@ -2,10 +2,7 @@
 // than the nodes that its own couple with.
 #pragma once
 
-#include <deal.II/lac/la_parallel_vector.h>
-
-#include <Epetra_Map.h>
-#include <Epetra_Vector.h>
+#include <mortise/base/types.h>
 #include <mortise/solvers/factorisation/nodal_matrix.h>
 
 #include <vector>
@@ -15,10 +12,8 @@ namespace mortise
   class DistributedNodalMatrix
   {
   public:
-    using NodeVector = dealii::LinearAlgebra::distributed::Vector<double>;
-
-    /// @p map: of vectors that have the entries of @p rows. Collective.
-    DistributedNodalMatrix(NodalMatrix rows, const Epetra_Map &map);
+    /// Collective.
+    DistributedNodalMatrix(NodalMatrix rows, MPI_Comm comm);
 
     const NodalMatrix &
     rows() const
@@ -26,10 +21,10 @@ namespace mortise
       return node_rows;
     }
 
-    const Epetra_Map &
-    map() const
+    MPI_Comm
+    communicator() const
     {
-      return vector_map;
+      return nodal.get_mpi_communicator();
     }
 
     /// First node by rank, and what is behind the last.
@@ -52,16 +47,16 @@ namespace mortise
 
     /// By owned node and ghost, and component; 0 where one is lacking. Good
     /// until the next call of a member. Collective.
-    const NodeVector &
-    at_nodes(const Epetra_Vector &x) const;
+    const Vector &
+    at_nodes(const Vector &x) const;
 
     /// Leaves what at_nodes() needs.
     void
     drop_rows();
 
-    /// y = matrix x. Collective.
+    /// y = matrix x, both with the entries of rows(). Collective.
     void
-    vmult(Epetra_Vector &y, const Epetra_Vector &x) const;
+    vmult(Vector &y, const Vector &x) const;
 
   private:
     void
@@ -73,10 +68,9 @@ namespace mortise
       return node >= first && node < end;
     }
 
-    NodalMatrix        node_rows;
-    Epetra_Map         vector_map;
-    std::vector<int>   rank_starts, ghost_nodes;
-    int                first = 0, end = 0; ///< owned nodes
-    mutable NodeVector nodal;
+    NodalMatrix      node_rows;
+    std::vector<int> rank_starts, ghost_nodes;
+    int              first = 0, end = 0; ///< owned nodes
+    mutable Vector   nodal;
   };
 } // namespace mortise

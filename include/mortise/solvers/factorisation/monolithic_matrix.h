@@ -1,10 +1,9 @@
 // The saddle-point system of a scene as one matrix, in one numbering.
 #pragma once
 
-#include <Epetra_CrsMatrix.h>
+#include <mortise/base/sparse_matrix.h>
 #include <mortise/solvers/scaled_residual.h>
 
-#include <memory>
 #include <vector>
 
 namespace mortise
@@ -53,7 +52,7 @@ namespace mortise
   /// hangs, and of multipliers that are not active, have their diagonal alone;
   /// the diagonal of a pressure that stands for a free constant has the norm of
   /// @p residual added. Collective.
-  std::unique_ptr<Epetra_CrsMatrix>
+  SparseMatrix
   monolithic_matrix(const BlockSystem         &system,
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering);

@@ -2,10 +2,7 @@
 // solves. It never refines and never checks how good a solution is.
 #pragma once
 
-#include <deal.II/base/types.h>
-
-#include <Epetra_CrsMatrix.h>
-#include <Epetra_Vector.h>
+#include <mortise/base/sparse_matrix.h>
 
 #include <memory>
 #include <vector>
@@ -25,18 +22,18 @@ namespace mortise
     MumpsFactorisation();
     ~MumpsFactorisation();
 
-    /// Factorise @p matrix, whose rows must be numbered 0, 1, ... over the
-    /// ranks; it is not referred to afterwards. Ranks without rows take part.
+    /// Factorise @p matrix; it is not referred to afterwards. Ranks without
+    /// rows take part.
     /// False when the factorisation broke down, or when a matrix that was to be
     /// positive definite is not; throws std::bad_alloc on every rank when
     /// memory ran out on one. Collective.
     bool
-    initialize(const Epetra_CrsMatrix &matrix, MatrixKind kind);
+    initialize(const SparseMatrix &matrix, MatrixKind kind);
 
-    /// x = matrix^{-1} b, both with the rows of the matrix; false when the
+    /// x = matrix^{-1} b, both by owned row; false when the
     /// solve failed. Collective.
     bool
-    solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+    solve(double *x, const double *b) const;
 
     /// Rows of a positive semidefinite matrix that depend on the others, by
     /// their numbers; the same on all ranks. Collective.

@@ -2,9 +2,8 @@
 // refers to the matrix that it came from.
 #pragma once
 
-#include <Epetra_CrsMatrix.h>
+#include <mortise/base/sparse_matrix.h>
 
-#include <memory>
 #include <utility>
 #include <vector>
 
@@ -32,32 +31,31 @@ namespace mortise
     }
   };
 
-  /// Each row of @p matrix as a node of one component. Rows must be numbered 0,
-  /// 1, ... over the ranks.
+  /// Each row of @p matrix as a node of one component.
   NodalMatrix
-  rows_as_nodes(const Epetra_CrsMatrix &matrix);
+  rows_as_nodes(const SparseMatrix &matrix);
 
   /// matrix += @p other, whose rows are nodes of one component in the same
   /// order.
   void
-  add(NodalMatrix &matrix, const Epetra_CrsMatrix &other);
+  add(NodalMatrix &matrix, const SparseMatrix &other);
 
   /// Without the off-diagonal entries of rows and columns that are not @p active, by local entry of
   /// a vector. Collective.
   NodalMatrix
   select(const NodalMatrix       &matrix,
          const std::vector<bool> &active,
-         const Epetra_Comm       &comm);
+         MPI_Comm                 comm);
 
   /// The nodes that couple with others. (Entry, diagonal) of what is left goes
   /// to
   /// @p lone. Collective.
   NodalMatrix
   take_coupled(const NodalMatrix                   &matrix,
-               const Epetra_Comm                   &comm,
+               MPI_Comm                             comm,
                std::vector<std::pair<int, double>> &lone);
 
   /// The matrix of these rows, numbered by node and component. Collective.
-  std::unique_ptr<Epetra_CrsMatrix>
-  as_matrix(const NodalMatrix &rows, const Epetra_Comm &comm);
+  SparseMatrix
+  as_matrix(const NodalMatrix &rows, MPI_Comm comm);
 } // namespace mortise

@@ -6,12 +6,12 @@
 // Sources: Demko, Moss, Smith (1984); Cai, Sarkis (1999).
 #pragma once
 
-#include <Epetra_Vector.h>
 #include <mortise/solvers/factorisation/distributed_nodal_matrix.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace mortise
 {
@@ -19,19 +19,21 @@ namespace mortise
   {
   public:
     /// y = matrix x.
-    using Product =
-      std::function<void(Epetra_Vector &y, const Epetra_Vector &x)>;
+    using Product = std::function<void(Vector &y, const Vector &x)>;
 
     /// False, on every rank, when the matrix is not positive definite or
     /// corrections do not fall fast enough; else its rows are dropped. @p
-    /// product: with it, faster than with rows; it is kept. Collective.
+    /// product: with it, faster than with rows; it is kept. @p zero: a vector with the entries of
+    /// the rows. Collective.
     bool
-    initialize(std::shared_ptr<DistributedNodalMatrix> matrix, Product product);
+    initialize(std::shared_ptr<DistributedNodalMatrix> matrix,
+               Product                                 product,
+               const Vector                           &zero);
 
     /// x = matrix^{-1} b to six digits: a fixed number of corrections, so that
     /// it is linear. Collective.
     void
-    solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+    solve(Vector &x, const Vector &b) const;
 
     /// The number of corrections.
     unsigned int
@@ -45,13 +47,13 @@ namespace mortise
     bool
     count_solves();
     void
-    solve_local(Epetra_Vector &to, const Epetra_Vector &from) const;
+    solve_local(Vector &to, const Vector &from) const;
 
     std::shared_ptr<DistributedNodalMatrix> matrix;
     Product                                 product;
-    SparseCholesky<float>          local; ///< owned nodes and neighbours
-    std::unique_ptr<Epetra_Map>    local_map;
-    std::unique_ptr<Epetra_Vector> local_x, r, z, q;
-    unsigned int                   n_solves = 0;
+    SparseCholesky<float>       local; ///< owned nodes and neighbours
+    mutable std::vector<double> local_x;
+    mutable Vector              r, z, q;
+    unsigned int                n_solves = 0;
   };
 } // namespace mortise

@@ -7,7 +7,6 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <Epetra_Vector.h>
 #include <mortise/solvers/factorisation/gathered_nodal_matrix.h>
 #include <mortise/solvers/factorisation/nodal_matrix.h>
 
@@ -33,7 +32,7 @@ namespace mortise
 
     /// x = matrix^{-1} b, both with the entries of NodalMatrix. Collective.
     void
-    solve(Epetra_Vector &x, const Epetra_Vector &b) const;
+    solve(double *x, const double *b) const;
 
   private:
     class Factorisation;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <mortise/operators/levels/nodal_operator.h>
-#include <mortise/solvers/interface/interface_correction.h>
+#include <mortise/solvers/multipliers/interface_correction.h>
 
 namespace mortise
 {

@@ -6,7 +6,7 @@
 #pragma once
 
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/interface/constraint_projector.h>
+#include <mortise/solvers/multipliers/constraint_projector.h>
 
 #include <memory>
 #include <string>

@@ -2,7 +2,7 @@
 // the same entries.
 #pragma once
 
-#include <mortise/solvers/interface/coupling_transpose.h>
+#include <mortise/solvers/multipliers/coupling_transpose.h>
 
 #include <vector>
 

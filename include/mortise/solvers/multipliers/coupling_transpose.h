@@ -2,11 +2,11 @@
 // with the multipliers of all ranks.
 #pragma once
 
-#include <Epetra_Map.h>
 #include <mortise/operators/levels/nodal_level.h>
-#include <mortise/solvers/interface/coupling_rows.h>
+#include <mortise/solvers/multipliers/coupling_rows.h>
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -20,9 +20,10 @@ namespace mortise
     CouplingTranspose(const CouplingRows        &B,
                       const LevelVector<double> &weights);
 
-    Epetra_Map               multipliers; ///< those that entries refer to
-    std::vector<std::size_t> begin;       ///< by CouplingColumns::displacements
-    std::vector<Entry>       entries; ///< multipliers by their index in the map
+    /// Rows of B_c: owned ones, and those of others that entries refer to.
+    std::shared_ptr<const dealii::Utilities::MPI::Partitioner> multipliers;
+    std::vector<std::size_t> begin;   ///< by CouplingRows::displacements
+    std::vector<Entry>       entries; ///< multipliers by their local index
 
   private:
     /// By displacement.
@@ -38,6 +39,6 @@ namespace mortise
     replace(const CouplingRows &B, const Rows &rows);
     /// Collective.
     void
-    make_map();
+    make_local(const SparseMatrix &rows);
   };
 } // namespace mortise

@@ -1,7 +1,7 @@
 // See weighted_square.h.
 #include <Teuchos_BLAS.hpp>
-#include <mortise/solvers/interface/nodal_coupling_transpose.h>
-#include <mortise/solvers/interface/weighted_square.h>
+#include <mortise/solvers/multipliers/nodal_coupling_transpose.h>
+#include <mortise/solvers/multipliers/weighted_square.h>
 
 #include <algorithm>
 
@@ -283,10 +283,9 @@ namespace mortise
   weighted_square(const CouplingRows        &coupling,
                   const LevelVector<double> &weights)
   {
-    CouplingTranspose            transposed(coupling, weights);
-    const NodeNumbers            numbers = number_nodes(coupling.multipliers,
-                                             coupling.matrix.scalar().RowMap(),
-                                             transposed.multipliers);
+    CouplingTranspose transposed(coupling, weights);
+    const NodeNumbers numbers =
+      number_nodes(coupling.multipliers, transposed.multipliers);
     const NodalCouplingTranspose by_node(std::move(transposed),
                                          coupling,
                                          numbers);

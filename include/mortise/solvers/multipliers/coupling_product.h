@@ -7,9 +7,8 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <Epetra_Vector.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/interface/coupling_rows.h>
+#include <mortise/solvers/multipliers/coupling_rows.h>
 
 #include <memory>
 #include <vector>
@@ -48,7 +47,7 @@ namespace mortise
     /// jump = B u, @p trace the values of u at indices(); those of other than @p nodes are taken
     /// for zero or not, as is quicker. Collective.
     void
-    multiply(Epetra_Vector             &jump,
+    multiply(Vector                    &jump,
              const LevelVector<Number> &trace,
              CoupledNodes               nodes = CoupledNodes::all) const;
 
@@ -56,7 +55,7 @@ namespace mortise
     /// may be left out. Collective.
     void
     multiply_transposed(LevelVector<Number> &trace,
-                        const Epetra_Vector &y,
+                        const Vector        &y,
                         CoupledNodes         nodes = CoupledNodes::all) const;
 
   private:
@@ -86,19 +85,19 @@ namespace mortise
     void
     for_each_block(const Visit &visit) const;
     void
-    multiply_block(const Block   &block,
-                   const Number  *entries,
-                   Epetra_Vector &jump,
-                   CoupledNodes   nodes) const;
+    multiply_block(const Block  &block,
+                   const Number *entries,
+                   double       *jump,
+                   CoupledNodes  nodes) const;
     void
-    multiply_block_transposed(const Block         &block,
-                              const Number        *entries,
-                              const Epetra_Vector &y,
-                              CoupledNodes         nodes) const;
+    multiply_block_transposed(const Block  &block,
+                              const Number *entries,
+                              const double *y,
+                              CoupledNodes  nodes) const;
 
     /// Those of the matrix, if it has some.
-    const Epetra_CrsMatrix                                    *frames = nullptr;
-    mutable std::unique_ptr<Epetra_Vector>                     by_component;
+    const SparseMatrix         *frames = nullptr;
+    mutable std::vector<double> by_component; ///< rows of B_c, with frames
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<unsigned int>                                  moved_indices;
     std::vector<Block>                                         blocks;

@@ -5,7 +5,7 @@
 #include <deal.II/base/index_set.h>
 
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/interface/coupling_rows.h>
+#include <mortise/solvers/multipliers/coupling_rows.h>
 
 #include <array>
 #include <vector>

@@ -1,8 +1,8 @@
 // The projector onto { u : B u = 0 } that the condensed system is written with.
 #pragma once
 
-#include <mortise/solvers/interface/coupling_product.h>
-#include <mortise/solvers/interface/lifting.h>
+#include <mortise/solvers/multipliers/coupling_product.h>
+#include <mortise/solvers/multipliers/lifting.h>
 
 #include <vector>
 
@@ -19,18 +19,18 @@ namespace mortise
                         const CouplingRows &rows,
                         const Lifting      &lifting);
 
-    /// r := P^T r = r - B^T y; lambda += y. Collective.
+    /// From @p r what multipliers of ties can carry, to @p lambda: r := P^T r = r - B^T y and lambda
+    /// += y with y = C^{-1} B T r, but for those of springs, which carry what
+    /// opens them and nothing else. Collective.
     void
-    project_residual(Vector &r, Vector &lambda) const;
+    remove_multipliers(Vector &r, Vector &lambda) const;
 
     /// Project @p u, and of @p lambda what springs carry, onto B u - S lambda = g to rounding.
     /// Collective.
     void
     satisfy(Vector &u, Vector &lambda, const Vector &g) const;
 
-    /// Zero where springs carry @p lambda, or elsewhere.
-    void
-    clear_springs(Vector &lambda) const;
+    /// Zero where no springs carry @p lambda.
     void
     clear_ties(Vector &lambda) const;
 

@@ -1,7 +1,7 @@
 // See coupling_transpose.h.
 #include <deal.II/base/mpi.h>
 
-#include <mortise/solvers/interface/coupling_transpose.h>
+#include <mortise/solvers/multipliers/coupling_transpose.h>
 
 #include <algorithm>
 #include <numeric>
@@ -33,15 +33,13 @@ namespace mortise
 
   CouplingTranspose::CouplingTranspose(const CouplingRows        &B,
                                        const LevelVector<double> &weights)
-    : multipliers(B.matrix.scalar().RowMap())
-    , begin(B.moved.displacements.size() + 1)
+    : begin(B.displacements.size() + 1)
   {
     collect_own(B, weights);
-    if (multipliers.Comm().NumProc() > 1)
-      {
-        replace(B, exchange(B, weights));
-        make_map();
-      }
+    const SparseMatrix &rows = B.matrix.scalar();
+    if (Utilities::MPI::n_mpi_processes(rows.communicator()) > 1)
+      replace(B, exchange(B, weights));
+    make_local(rows);
   }
 
   void
@@ -49,18 +47,18 @@ namespace mortise
                                  const LevelVector<double> &weights)
   {
     const auto for_each_entry = [&B](const auto &visit) {
-      const Epetra_Map &rows = B.matrix.scalar().RowMap();
       for (const auto &of_entity : B.rows)
         for (const SharedRows &shared : of_entity)
           for (unsigned int c = 0; c < dim; ++c)
             for (int i = 0; i < shared.n_rows && shared.first_row[c] >= 0; ++i)
               {
-                const int     row = rows.GID(shared.first_row[c] + i);
+                const auto row = static_cast<int>(
+                  B.matrix.scalar().global_row(shared.first_row[c] + i));
                 const double *from =
                   shared.values.data() + i * shared.nodes.size();
                 for (unsigned int k = 0; k < shared.nodes.size(); ++k)
                   if (const auto v = dim * shared.nodes[k] + c;
-                      B.moved.displacements[v] >= 0)
+                      B.displacements[v] >= 0)
                     visit(v, Entry(row, from[k]));
               }
     };
@@ -72,7 +70,7 @@ namespace mortise
       [&](const auto v, const Entry &entry) { entries[next[v]++] = entry; });
     const auto &owned = *weights.get_partitioner();
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-      if (const int displacement = B.moved.displacements[v];
+      if (const int displacement = B.displacements[v];
           displacement >= 0 && owned.in_local_range(displacement))
         for (std::size_t k = begin[v]; k < begin[v + 1]; ++k)
           entries[k].second *= weights(displacement);
@@ -90,7 +88,7 @@ namespace mortise
     std::partial_sum(ends.begin(), ends.end(), ends.begin());
     SentEntries to_owners;
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-      if (const int displacement = B.moved.displacements[v];
+      if (const int displacement = B.displacements[v];
           displacement >= 0 && !owned.in_local_range(displacement))
         {
           auto &list =
@@ -112,8 +110,7 @@ namespace mortise
           asked[rank].insert(entry.displacement);
         }
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
-      if (const auto row = rows.find(B.moved.displacements[v]);
-          row != rows.end())
+      if (const auto row = rows.find(B.displacements[v]); row != rows.end())
         row->second.insert(row->second.end(),
                            entries.begin() + begin[v],
                            entries.begin() + begin[v + 1]);
@@ -141,8 +138,7 @@ namespace mortise
     entries.reserve(n_entries);
     for (std::size_t v = 0; v + 1 < begin.size(); ++v)
       {
-        if (const auto row = rows.find(B.moved.displacements[v]);
-            row != rows.end())
+        if (const auto row = rows.find(B.displacements[v]); row != rows.end())
           entries.insert(entries.end(), row->second.begin(), row->second.end());
         else
           entries.insert(entries.end(),
@@ -153,27 +149,21 @@ namespace mortise
   }
 
   void
-  CouplingTranspose::make_map()
+  CouplingTranspose::make_local(const SparseMatrix &rows)
   {
-    const Epetra_Map owned(multipliers);
-    const int  n = owned.NumMyElements(), first = n > 0 ? owned.GID(0) : 0;
-    const auto is_owned = [&](const int multiplier) {
-      return multiplier >= first && multiplier < first + n;
-    };
-    std::vector<int> list(n), ghosts;
-    std::iota(list.begin(), list.end(), first);
+    std::vector<int> others;
     for (const auto &[multiplier, value] : entries)
-      if (!is_owned(multiplier))
-        ghosts.push_back(multiplier);
-    std::sort(ghosts.begin(), ghosts.end());
-    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    list.insert(list.end(), ghosts.begin(), ghosts.end());
-    multipliers = Epetra_Map(-1, list.size(), list.data(), 0, owned.Comm());
+      if (!rows.rows().is_element(multiplier))
+        others.push_back(multiplier);
+    std::sort(others.begin(), others.end());
+    IndexSet ghosts(rows.m());
+    ghosts.add_indices(others.begin(),
+                       std::unique(others.begin(), others.end()));
+    multipliers =
+      std::make_shared<const Utilities::MPI::Partitioner>(rows.rows(),
+                                                          ghosts,
+                                                          rows.communicator());
     for (auto &[multiplier, value] : entries)
-      multiplier =
-        is_owned(multiplier) ?
-          multiplier - first :
-          n + (std::lower_bound(ghosts.begin(), ghosts.end(), multiplier) -
-               ghosts.begin());
+      multiplier = static_cast<int>(multipliers->global_to_local(multiplier));
   }
 } // namespace mortise

@@ -4,8 +4,8 @@
 // (1999).
 #pragma once
 
-#include <mortise/solvers/interface/coupling_product.h>
-#include <mortise/solvers/interface/lifting.h>
+#include <mortise/solvers/multipliers/coupling_product.h>
+#include <mortise/solvers/multipliers/lifting.h>
 
 #include <vector>
 
@@ -84,7 +84,7 @@ namespace mortise
     void
     add_spring_forces(LevelVector<Number> &r) const;
 
-    const Epetra_Vector &
+    const Vector &
     carried_by_springs() const
     {
       return carried;
@@ -110,8 +110,8 @@ namespace mortise
     const Lifting                 &lifting;
     std::vector<Number>            weights;           ///< T, by index
     bool                           some_lead = false; ///< on some rank
-    mutable Epetra_Vector          jump, multiplier;
-    mutable Epetra_Vector          carried, added; ///< by springs
+    mutable Vector                 jump, multiplier;
+    mutable Vector                 carried, added; ///< by springs
     mutable LevelVector<Number>    trace;          ///< values at the indices
     mutable std::vector<Number>    smoothed;       ///< likewise
   };

@@ -3,12 +3,11 @@
 
 #include <mortise/operators/levels/nodal_level.h>
 #include <mortise/solvers/factorisation/nodal_matrix.h>
-#include <mortise/solvers/interface/coupling_rows.h>
+#include <mortise/solvers/multipliers/coupling_rows.h>
 
 namespace mortise
 {
-  /// B T B^T; what all components share is computed once. @p coupling: B, by
-  /// node. @p weights: T, diagonal, by owned displacement. Collective.
+  /// B T B^T; what all components share is computed once. @p coupling: B. @p weights: T, diagonal, by owned displacement. Collective.
   NodalMatrix
   weighted_square(const CouplingRows        &coupling,
                   const LevelVector<double> &weights);
@@ -16,5 +15,5 @@ namespace mortise
   /// R C R^T for the C of rows by component, each row a node. @p frames: R, see
   /// BlockSystem. Collective.
   NodalMatrix
-  in_frames(const NodalMatrix &C, const Epetra_CrsMatrix &frames);
+  in_frames(const NodalMatrix &C, const SparseMatrix &frames);
 } // namespace mortise

@@ -1,5 +1,5 @@
 // See nodal_coupling_transpose.h.
-#include <mortise/solvers/interface/nodal_coupling_transpose.h>
+#include <mortise/solvers/multipliers/nodal_coupling_transpose.h>
 
 #include <algorithm>
 #include <array>
@@ -9,12 +9,12 @@ namespace mortise
   NodalCouplingTranspose::NodalCouplingTranspose(CouplingTranspose   source,
                                                  const CouplingRows &B,
                                                  const NodeNumbers  &numbers)
-    : is_common(B.moved.n_nodes)
-    , row_of(dim * B.moved.n_nodes, -1)
+    : is_common(B.n_nodes())
+    , row_of(dim * B.n_nodes(), -1)
     , begin{0}
     , components(numbers.global.size())
   {
-    std::vector<Row> rows(dim * B.moved.n_nodes);
+    std::vector<Row> rows(dim * B.n_nodes());
     for (unsigned int v = 0; v < rows.size(); ++v)
       {
         Entry *const first = source.entries.data() + source.begin[v],
@@ -37,7 +37,7 @@ namespace mortise
     nodes.reserve(source.entries.size());
     values.reserve(source.entries.size());
     std::vector<Entry> united;
-    for (unsigned int i = 0; i < B.moved.n_nodes; ++i)
+    for (unsigned int i = 0; i < B.n_nodes(); ++i)
       if (unite(&rows[dim * i], united))
         {
           is_common[i] = true;
@@ -48,9 +48,9 @@ namespace mortise
           add_row({united.data(), united.data() + united.size()});
         }
     for (unsigned int c = 0; c < dim; ++c)
-      for (unsigned int i = 0; i < B.moved.n_nodes; ++i)
+      for (unsigned int i = 0; i < B.n_nodes(); ++i)
         if (const unsigned int v = dim * i + c;
-            !is_common[i] && B.moved.displacements[v] >= 0)
+            !is_common[i] && B.displacements[v] >= 0)
           {
             row_of[v] = begin.size() - 1;
             add_row(rows[v]);

@@ -2,7 +2,6 @@
 // system has no single solution. It never drops one.
 #pragma once
 
-#include <Epetra_Vector.h>
 #include <mortise/mortar/coupling_matrix.h>
 
 #include <vector>
@@ -17,7 +16,7 @@ namespace mortise
   /// ranks. Collective.
   std::vector<dealii::types::global_dof_index>
   find_dependent_multipliers(const CouplingMatrix &coupling,
-                             const Epetra_Vector  &inverse_diagonal,
-                             const Epetra_Vector  &scale,
+                             const Vector         &inverse_diagonal,
+                             const Vector         &scale,
                              const SparseMatrix   &compliance);
 } // namespace mortise

@@ -1,7 +1,5 @@
 // See multiplier_nodes.h.
-#include <Epetra_Import.h>
-#include <Epetra_IntVector.h>
-#include <mortise/solvers/interface/multiplier_nodes.h>
+#include <mortise/solvers/multipliers/multiplier_nodes.h>
 
 #include <algorithm>
 #include <map>
@@ -9,11 +7,13 @@
 
 namespace mortise
 {
+  using namespace dealii;
+
   MultiplierNodes::MultiplierNodes(const CouplingMatrix &B)
   {
     unsigned int last = dim;
     int          next = 0; // node of this component
-    for (int i = 0; i < B.scalar().NumMyRows(); ++i)
+    for (int i = 0; i < static_cast<int>(B.scalar().n_rows()); ++i)
       {
         const unsigned int component = B.component(i);
         if (entities.empty() || component < last)
@@ -23,7 +23,7 @@ namespace mortise
           next = entity.first;
         // interfaces one after the other may look like one entity, in which
         // components that share rows are not at the same place
-        if (const int same = B.representative(i); same != i)
+        if (const int same = static_cast<int>(B.representative(i)); same != i)
           next = node_of_row[same];
         node_of_row.push_back(next++);
         entity.n_nodes = std::max(entity.n_nodes, next - entity.first);
@@ -33,31 +33,33 @@ namespace mortise
   }
 
   NodeNumbers
-  number_nodes(const MultiplierNodes &nodes,
-               const Epetra_Map      &rows,
-               const Epetra_BlockMap &columns)
+  number_nodes(const MultiplierNodes                                    &nodes,
+               const std::shared_ptr<const Utilities::MPI::Partitioner> &rows)
   {
-    const int n_owned = nodes.size();
-    int       first   = 0;
-    rows.Comm().ScanSum(const_cast<int *>(&n_owned), &first, 1);
-    first -= n_owned;
-    Epetra_IntVector owned(rows), all(columns);
-    for (int i = 0; i < owned.MyLength(); ++i)
-      owned[i] = first + nodes.node_of_row[i];
-    all.Import(owned, Epetra_Import(columns, rows), Insert);
+    const int      n_owned = nodes.size();
+    const IndexSet owned   = owned_range(n_owned, rows->get_mpi_communicator());
+    const int      first =
+      n_owned == 0 ? 0 : static_cast<int>(owned.nth_index_in_set(0));
+    Vector all(rows); // node by row
+    for (unsigned int i = 0; i < all.locally_owned_size(); ++i)
+      all.local_element(i) = first + nodes.node_of_row[i];
+    all.update_ghost_values();
     NodeNumbers numbers;
     numbers.global.resize(n_owned);
     std::iota(numbers.global.begin(), numbers.global.end(), first);
     std::map<int, int> others;
-    for (int k = 0; k < columns.NumMyElements(); ++k)
-      if (all[k] >= first && all[k] < first + n_owned)
-        numbers.of_column.push_back(all[k] - first);
+    for (unsigned int k = 0;
+         k < rows->locally_owned_size() + rows->n_ghost_indices();
+         ++k)
+      if (const int node = static_cast<int>(all.local_element(k));
+          node >= first && node < first + n_owned)
+        numbers.of_column.push_back(node - first);
       else
         {
           const auto [other, is_new] =
-            others.emplace(all[k], static_cast<int>(numbers.global.size()));
+            others.emplace(node, static_cast<int>(numbers.global.size()));
           if (is_new)
-            numbers.global.push_back(all[k]);
+            numbers.global.push_back(node);
           numbers.of_column.push_back(other->second);
         }
     return numbers;

@@ -3,28 +3,13 @@
 // prescribed.
 #pragma once
 
-#include <mortise/solvers/interface/multiplier_nodes.h>
+#include <mortise/solvers/multipliers/multiplier_nodes.h>
 
 #include <array>
 #include <vector>
 
 namespace mortise
 {
-  /// What the columns of B stand for.
-  struct CouplingColumns
-  {
-    explicit CouplingColumns(const CouplingMatrix &B);
-
-    unsigned int n_nodes = 0;
-
-    /// By local column of the matrix; -1: it has no entries.
-    std::vector<int> node_of_column;
-
-    /// By node and component: the displacement, of any rank; -1: it is
-    /// prescribed.
-    std::vector<int> displacements;
-  };
-
   /// Rows of neighbouring multiplier nodes, for some components or all.
   struct SharedRows
   {
@@ -40,11 +25,19 @@ namespace mortise
   /// (SharedRows) also where a displacement of one component is prescribed.
   struct CouplingRows
   {
-    /// @p B: by node.
     explicit CouplingRows(const CouplingMatrix &B);
 
-    const CouplingMatrix                &matrix;
-    CouplingColumns                      moved;
+    /// Nodes that this rank's rows move: the columns of matrix.scalar().
+    unsigned int
+    n_nodes() const
+    {
+      return matrix.scalar().n_columns();
+    }
+
+    const CouplingMatrix &matrix;
+    /// By node and component: the displacement, of any rank; -1: it is
+    /// prescribed.
+    std::vector<int>                     displacements;
     MultiplierNodes                      multipliers;
     std::vector<std::vector<SharedRows>> rows; ///< by entity
   };

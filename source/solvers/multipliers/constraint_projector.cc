@@ -1,6 +1,5 @@
 // See constraint_projector.h.
-#include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/interface/constraint_projector.h>
+#include <mortise/solvers/multipliers/constraint_projector.h>
 
 #include <limits>
 
@@ -14,33 +13,23 @@ namespace mortise
     , product(system, rows)
     , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
-    , force(system.owned_displacement, system.communicator)
-    , correction(force)
   {
+    system.nodal->initialize(force);
+    system.nodal->initialize(correction);
     product.initialize(trace);
     for (unsigned int i = 0; i < jump.locally_owned_size(); ++i)
       {
         const bool is_spring =
-          system.has_springs() &&
-          EpetraRow(system.spring_compliance.trilinos_matrix(),
-                    static_cast<int>(i))
-              .length > 0;
+          system.has_springs() && system.spring_compliance.row(i).length > 0;
         (is_spring ? springs : ties).push_back(i);
       }
-  }
-
-  void
-  ConstraintProjector::clear_springs(Vector &lambda) const
-  {
-    for (const unsigned int i : springs)
-      lambda.begin()[i] = 0.;
   }
 
   void
   ConstraintProjector::clear_ties(Vector &lambda) const
   {
     for (const unsigned int i : ties)
-      lambda.begin()[i] = 0.;
+      lambda.local_element(i) = 0.;
   }
 
   void
@@ -48,23 +37,23 @@ namespace mortise
   {
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
-      trace.local_element(k) = u.begin()[indices[k]];
-    Epetra_Vector b = epetra_view(jump);
-    product.multiply(b, trace);
+      trace.local_element(k) = u.local_element(indices[k]);
+    product.multiply(jump, trace);
   }
 
   void
-  ConstraintProjector::project_residual(Vector &r, Vector &lambda) const
+  ConstraintProjector::remove_multipliers(Vector &r, Vector &lambda) const
   {
     lifting.vmult(correction, r);
     apply(correction);
-    Epetra_Vector y = epetra_view(multiplier);
-    lifting.apply_inverse_schur(y, epetra_view(jump));
+    lifting.apply_inverse_schur(multiplier, jump);
+    for (const unsigned int i : springs)
+      multiplier.local_element(i) = 0.;
     lambda += multiplier;
-    product.multiply_transposed(trace, y);
+    product.multiply_transposed(trace, multiplier);
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
-      r.begin()[indices[k]] -= trace.local_element(k);
+      r.local_element(indices[k]) -= trace.local_element(k);
   }
 
   void
@@ -77,7 +66,7 @@ namespace mortise
         apply(u);
         jump -= g;
         system.subtract_spring_opening(jump, lambda);
-        system.clear_inactive(jump.begin());
+        system.clear_inactive(jump);
         const double norm = jump.l2_norm();
         if (!(norm > 0. && norm < 0.1 * previous))
           break;
@@ -101,12 +90,11 @@ namespace mortise
   void
   ConstraintProjector::step_to_constraint(Vector &u) const
   {
-    Epetra_Vector y = epetra_view(multiplier);
-    lifting.apply_inverse_schur(y, epetra_view(jump));
-    product.multiply_transposed(trace, y);
+    lifting.apply_inverse_schur(multiplier, jump);
+    product.multiply_transposed(trace, multiplier);
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
-      force.begin()[indices[k]] = trace.local_element(k);
+      force.local_element(indices[k]) = trace.local_element(k);
     lifting.vmult(correction, force);
     u -= correction;
   }

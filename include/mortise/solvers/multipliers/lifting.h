@@ -6,7 +6,7 @@
 #include <mortise/solvers/factorisation/cholesky_inverse.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 #include <mortise/solvers/factorisation/schwarz_inverse.h>
-#include <mortise/solvers/interface/coupling_product.h>
+#include <mortise/solvers/multipliers/coupling_product.h>
 
 #include <memory>
 #include <string>
@@ -61,7 +61,7 @@ namespace mortise
     /// y = C^{-1} jump, to four digits at least in the norm of C; both with the
     /// rows of B, those that are active: y is zero elsewhere. Collective.
     void
-    apply_inverse_schur(Epetra_Vector &y, const Epetra_Vector &jump) const;
+    apply_inverse_schur(Vector &y, const Vector &jump) const;
 
   private:
     /// Factorise @p active rows and columns of C, entries those of multipliers, in single precision
@@ -74,7 +74,7 @@ namespace mortise
     product_with_schur() const;
 
     void
-    solve(Epetra_Vector &y, const Epetra_Vector &jump) const;
+    solve(Vector &y, const Vector &jump) const;
 
     const BlockSystem            &system;
     const CouplingProduct<float> &product;
@@ -88,9 +88,9 @@ namespace mortise
     /// For the others one of them; the last for what no other can.
     std::unique_ptr<SchwarzInverse>          schwarz;
     std::unique_ptr<CholeskyInverse<double>> cholesky;
-    MumpsFactorisation                       mumps;
-    std::vector<int>               mumps_entries;    ///< as in NodalMatrix
-    std::unique_ptr<Epetra_Vector> mumps_x, mumps_b; ///< by these
-    bool                           valid = false;
+    std::unique_ptr<MumpsFactorisation>      mumps;
+    std::vector<int>            mumps_entries;    ///< as in NodalMatrix
+    mutable std::vector<double> mumps_x, mumps_b; ///< by these
+    bool                        valid = false;
   };
 } // namespace mortise

@@ -2,9 +2,11 @@
 // together.
 #pragma once
 
-#include <Epetra_Map.h>
+#include <deal.II/base/partitioner.h>
+
 #include <mortise/mortar/coupling_matrix.h>
 
+#include <memory>
 #include <vector>
 
 namespace mortise
@@ -41,10 +43,9 @@ namespace mortise
     std::vector<int> global;
   };
 
-  /// @p rows: of B_c. @p columns: rows, those of other ranks among them.
-  /// Collective.
+  /// @p rows: of B_c, those of other ranks among them, which are the columns. Collective.
   NodeNumbers
-  number_nodes(const MultiplierNodes &nodes,
-               const Epetra_Map      &rows,
-               const Epetra_BlockMap &columns);
+  number_nodes(
+    const MultiplierNodes                                            &nodes,
+    const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &rows);
 } // namespace mortise

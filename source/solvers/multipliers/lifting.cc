@@ -1,11 +1,15 @@
 // See lifting.h.
-#include <mortise/solvers/interface/lifting.h>
-#include <mortise/solvers/interface/weighted_square.h>
+#include <deal.II/base/mpi.h>
+
+#include <mortise/solvers/multipliers/lifting.h>
+#include <mortise/solvers/multipliers/weighted_square.h>
 
 #include <utility>
 
 namespace mortise
 {
+  using namespace dealii;
+
   namespace
   {
     /// The number of rows that a last attempt may have on all ranks.
@@ -29,7 +33,7 @@ namespace mortise
     if (system.coupling.has_frames())
       schur = in_frames(schur, system.coupling.frames());
     if (system.has_springs())
-      add(schur, system.spring_compliance.trilinos_matrix());
+      add(schur, system.spring_compliance);
     if (!system.active)
       factorise(std::move(schur));
     else
@@ -39,7 +43,7 @@ namespace mortise
   bool
   Lifting::update_active()
   {
-    factorise(select(schur, *system.active, system.coupling.row_map().Comm()));
+    factorise(select(schur, *system.active, system.communicator));
     return is_valid();
   }
 
@@ -48,55 +52,52 @@ namespace mortise
   {
     LevelVector<float> trace;
     product.initialize(trace);
-    const Epetra_CrsMatrix *const springs =
-      system.has_springs() ? &system.spring_compliance.trilinos_matrix() :
-                             nullptr;
-    return [trace, springs, this](Epetra_Vector       &to,
-                                  const Epetra_Vector &from) mutable {
+    return [trace, this](Vector &to, const Vector &from) mutable {
       product.multiply_transposed(trace, from);
       const auto &indices = product.indices();
       for (unsigned int k = 0; k < indices.size(); ++k)
         trace.local_element(k) *= weights.local_element(indices[k]);
       product.multiply(to, trace);
-      if (springs)
+      if (system.has_springs())
         {
-          Epetra_Vector opening(to);
-          springs->Multiply(false, from, opening);
-          to.Update(1., opening, 1.);
+          Vector opening(to);
+          system.spring_compliance.vmult(opening, from);
+          to += opening;
         }
-      system.clear_inactive(to.Values());
+      system.clear_inactive(to);
     };
   }
 
   void
   Lifting::factorise(NodalMatrix active)
   {
-    const Epetra_Map &map = system.coupling.row_map();
+    const MPI_Comm comm = system.communicator;
     schwarz.reset();
     cholesky.reset();
-    mumps_x.reset();
+    mumps.reset();
     lone.clear();
     std::vector<std::pair<int, double>> uncoupled;
-    NodalMatrix coupled = take_coupled(active, map.Comm(), uncoupled);
-    int         mine[]  = {0, static_cast<int>(coupled.entries.size())};
+    NodalMatrix coupled = take_coupled(active, comm, uncoupled);
+    valid               = true;
     for (auto &[entry, diagonal] : uncoupled)
       {
-        mine[0] += diagonal > 0. ? 0 : 1;
+        valid    = valid && diagonal > 0.;
         diagonal = 1. / diagonal;
       }
-    int all[2];
-    map.Comm().SumAll(mine, all, 2);
-    valid                  = all[0] == 0;
-    const std::size_t size = all[1];
+    valid = Utilities::MPI::min(valid ? 1 : 0, comm) == 1;
     if (!valid)
       return;
-    const bool together = map.Comm().NumProc() == 1 || size <= max_gathered;
+    const std::size_t size = Utilities::MPI::sum(coupled.entries.size(), comm);
+    const bool        together =
+      Utilities::MPI::n_mpi_processes(comm) == 1 || size <= max_gathered;
+    const Vector zero(system.owned_multiplier, comm);
     if (!together)
       {
         schwarz = std::make_unique<SchwarzInverse>();
         valid   = schwarz->initialize(
-          std::make_shared<DistributedNodalMatrix>(std::move(active), map),
-          product_with_schur());
+          std::make_shared<DistributedNodalMatrix>(std::move(active), comm),
+          product_with_schur(),
+          zero);
         if (valid)
           return;
         schwarz.reset();
@@ -104,70 +105,69 @@ namespace mortise
     lone = std::move(uncoupled);
     if (size == 0)
       return;
-    const DistributedNodalMatrix C(std::move(coupled), map);
+    const DistributedNodalMatrix C(std::move(coupled), comm);
     if (together || size <= always_gathered)
       {
         cholesky = std::make_unique<CholeskyInverse<double>>();
         valid    = cholesky->initialize(
           C.rows(),
-          [&C](Epetra_Vector &y, const Epetra_Vector &x) {
-            y.PutScalar(0.); // where nothing couples
+          [&C](Vector &y, const Vector &x) {
+            y = 0.; // where nothing couples
             C.vmult(y, x);
           },
-          map,
+          zero,
           true);
         if (valid)
           return;
         cholesky.reset();
       }
-    const auto matrix = as_matrix(C.rows(), map.Comm());
-    valid         = mumps.initialize(*matrix, MatrixKind::positive_definite);
+    mumps         = std::make_unique<MumpsFactorisation>();
+    valid         = mumps->initialize(as_matrix(C.rows(), comm),
+                              MatrixKind::positive_definite);
     mumps_entries = C.rows().entries;
-    mumps_x       = std::make_unique<Epetra_Vector>(matrix->RowMap());
-    mumps_b       = std::make_unique<Epetra_Vector>(matrix->RowMap());
+    mumps_x.resize(mumps_entries.size());
+    mumps_b.resize(mumps_entries.size());
   }
 
   void
   Lifting::vmult(Vector &dst, const Vector &src) const
   {
-    const double *from = src.begin();
-    double       *to   = dst.begin();
     for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
-      to[i] = weights.local_element(i) * from[i];
+      dst.local_element(i) = weights.local_element(i) * src.local_element(i);
   }
 
   void
-  Lifting::apply_inverse_schur(Epetra_Vector       &y,
-                               const Epetra_Vector &jump) const
+  Lifting::apply_inverse_schur(Vector &y, const Vector &jump) const
   {
     if (!system.active)
       {
         solve(y, jump);
         return;
       }
-    Epetra_Vector of_active(jump);
-    system.clear_inactive(of_active.Values());
+    Vector of_active(jump);
+    system.clear_inactive(of_active);
     solve(y, of_active);
-    system.clear_inactive(y.Values());
+    system.clear_inactive(y);
   }
 
   void
-  Lifting::solve(Epetra_Vector &y, const Epetra_Vector &jump) const
+  Lifting::solve(Vector &y, const Vector &jump) const
   {
     for (const auto &[entry, inverse] : lone)
-      y[entry] = inverse * jump[entry];
+      y.local_element(entry) = inverse * jump.local_element(entry);
     if (schwarz)
       schwarz->solve(y, jump);
     else if (cholesky)
       cholesky->solve(y, jump);
-    else if (mumps_x)
+    else if (mumps)
       {
         for (unsigned int i = 0; i < mumps_entries.size(); ++i)
-          (*mumps_b)[i] = mumps_entries[i] < 0 ? 0. : jump[mumps_entries[i]];
-        mumps.solve(*mumps_x, *mumps_b);
+          mumps_b[i] =
+            mumps_entries[i] < 0 ? 0. : jump.local_element(mumps_entries[i]);
+        mumps->solve(mumps_x.data(), mumps_b.data());
         for (unsigned int i = 0; i < mumps_entries.size(); ++i)
           if (mumps_entries[i] >= 0)
-            y[mumps_entries[i]] = (*mumps_x)[i];
+            y.local_element(mumps_entries[i]) = mumps_x[i];
       }
   }
 
@@ -176,7 +176,7 @@ namespace mortise
   {
     if (schwarz)
       return "multipliers by parts";
-    if (mumps_x)
+    if (mumps)
       return "multipliers by MUMPS";
     return !cholesky || cholesky->is_single() ?
              "" :

@@ -1,10 +1,8 @@
 // The Schur complement of multipliers along normals, in_frames().
 #include <deal.II/base/mpi.h>
 
-#include <Epetra_Map.h>
 #include <mortise/base/types.h>
-#include <mortise/solvers/epetra_tools.h>
-#include <mortise/solvers/interface/weighted_square.h>
+#include <mortise/solvers/multipliers/weighted_square.h>
 
 #include <algorithm>
 #include <array>
@@ -20,7 +18,7 @@ namespace mortise
     /// What of a node a multiplier is.
     struct RowFrame
     {
-      int                     multiplier;
+      SparseMatrix::Index     multiplier;
       std::array<double, dim> weight;
 
       template <class Archive>
@@ -36,8 +34,8 @@ namespace mortise
     class FramesOfNodes
     {
     public:
-      FramesOfNodes(const NodalMatrix &C, const Epetra_CrsMatrix &frames)
-        : comm(communicator(frames.RowMap()))
+      FramesOfNodes(const NodalMatrix &C, const SparseMatrix &frames)
+        : comm(frames.communicator())
         , of_owned(C.size())
       {
         const auto sizes = Utilities::MPI::all_gather(comm, int(C.size()));
@@ -70,24 +68,19 @@ namespace mortise
       }
 
       void
-      collect_owned(const NodalMatrix &C, const Epetra_CrsMatrix &frames)
+      collect_owned(const NodalMatrix &C, const SparseMatrix &frames)
       {
-        const auto transposed =
-          transpose(frames,
-                    Epetra_Map(-1,
-                               frames.DomainMap().NumMyElements(),
-                               frames.DomainMap().MyGlobalElements(),
-                               0,
-                               frames.Comm()));
+        const SparseMatrix transposed = frames.transposed();
         for (unsigned int i = 0; i < C.entries.size(); ++i)
           if (C.entries[i] >= 0)
             {
-              const EpetraRow row(*transposed, C.entries[i]);
-              auto           &list = of_owned[i / dim];
-              for (int k = 0; k < row.length; ++k)
+              const auto row  = transposed.row(C.entries[i]);
+              auto      &list = of_owned[i / dim];
+              for (unsigned int k = 0; k < row.length; ++k)
                 {
-                  const int multiplier = transposed->GCID(row.columns[k]);
-                  auto      found =
+                  const auto multiplier =
+                    transposed.global_column(row.columns[k]);
+                  auto found =
                     std::find_if(list.begin(), list.end(), [&](const auto &f) {
                       return f.multiplier == multiplier;
                     });
@@ -125,74 +118,32 @@ namespace mortise
       std::vector<std::vector<RowFrame>>   of_owned;
       std::map<int, std::vector<RowFrame>> others;
     };
-
-    using Entries = std::map<int, double>; ///< by column
-
-    /// To owned rows, what other ranks have for them. Collective.
-    void
-    exchange(const Epetra_Map &map, std::map<int, Entries> &rows)
-    {
-      const MPI_Comm comm = communicator(map);
-      const auto ends = Utilities::MPI::all_gather(comm, map.MaxMyGID() + 1);
-      std::map<unsigned int, std::map<int, Entries>> packages;
-      for (auto row = rows.begin(); row != rows.end();)
-        if (map.MyGID(row->first))
-          ++row;
-        else
-          {
-            unsigned int rank = 0;
-            while (ends[rank] <= row->first)
-              ++rank;
-            packages[rank].insert(rows.extract(row++));
-          }
-      for (const auto &[rank, package] :
-           Utilities::MPI::some_to_some(comm, packages))
-        for (const auto &[row, entries] : package)
-          for (const auto &[column, value] : entries)
-            rows[row][column] += value;
-    }
   } // namespace
 
   NodalMatrix
-  in_frames(const NodalMatrix &C, const Epetra_CrsMatrix &frames)
+  in_frames(const NodalMatrix &C, const SparseMatrix &frames)
   {
-    const FramesOfNodes    frames_of(C, frames);
-    std::map<int, Entries> rows;
-    const int             *columns = C.columns.data();
-    const double          *values  = C.values.data();
+    const FramesOfNodes              frames_of(C, frames);
+    std::vector<SparseMatrix::Entry> entries;
+    const int                       *columns = C.columns.data();
+    const double                    *values  = C.values.data();
     for (unsigned int i = 0; i < C.size(); ++i)
       {
         const unsigned int n = C.lengths[i];
         for (const RowFrame &row : frames_of.owned(i))
-          {
-            Entries &to = rows[row.multiplier];
-            for (unsigned int k = 0; k < n; ++k)
-              for (const RowFrame &column : frames_of(columns[k]))
-                {
-                  double sum = 0.;
-                  for (unsigned int c = 0; c < dim; ++c)
-                    sum += row.weight[c] * column.weight[c] *
-                           values[(C.variants[i] == 1 ? 0 : c * n) + k];
-                  to[column.multiplier] += sum;
-                }
-          }
+          for (unsigned int k = 0; k < n; ++k)
+            for (const RowFrame &column : frames_of(columns[k]))
+              {
+                double sum = 0.;
+                for (unsigned int c = 0; c < dim; ++c)
+                  sum += row.weight[c] * column.weight[c] *
+                         values[(C.variants[i] == 1 ? 0 : c * n) + k];
+                entries.push_back({row.multiplier, column.multiplier, sum});
+              }
         columns += n;
         values += n * C.variants[i];
       }
-    exchange(frames.RowMap(), rows);
-    NodalMatrix result;
-    result.variants.assign(frames.NumMyRows(), 1);
-    for (int i = 0; i < frames.NumMyRows(); ++i)
-      {
-        const Entries &row = rows[frames.GRID(i)];
-        result.entries.push_back(i);
-        result.lengths.push_back(row.size());
-        for (const auto &[column, value] : row)
-          {
-            result.columns.push_back(column);
-            result.values.push_back(value);
-          }
-      }
-    return result;
+    return rows_as_nodes(SparseMatrix(
+      frames.rows(), frames.rows(), frames.communicator(), entries));
   }
 } // namespace mortise

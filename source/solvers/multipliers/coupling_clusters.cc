@@ -1,5 +1,5 @@
 // See coupling_clusters.h.
-#include <mortise/solvers/interface/coupling_clusters.h>
+#include <mortise/solvers/multipliers/coupling_clusters.h>
 
 #include <algorithm>
 #include <iterator>
@@ -26,7 +26,7 @@ namespace mortise
   touched_displacements(const BlockSystem &system, const CouplingRows &rows)
   {
     IndexSet touched(system.owned_displacement.size());
-    for (const int displacement : rows.moved.displacements)
+    for (const int displacement : rows.displacements)
       if (displacement >= 0)
         touched.add_index(displacement);
     touched.compress();
@@ -43,9 +43,9 @@ namespace mortise
       for (const auto &leading : system.nodal->leading_displacements())
         leads.local_element(leading.index) = 1.;
     leads.update_ghost_values();
-    std::vector<bool> result(rows.moved.n_nodes, true);
+    std::vector<bool> result(rows.n_nodes(), true);
     for (unsigned int v = 0; v < dim * result.size(); ++v)
-      if (const int displacement = rows.moved.displacements[v];
+      if (const int displacement = rows.displacements[v];
           displacement >= 0 && leads(displacement) == 0.)
         result[v / dim] = false;
     return result;

@@ -1,7 +1,7 @@
 // See interface_correction.h.
 #include <deal.II/base/mpi.h>
 
-#include <mortise/solvers/interface/interface_correction.h>
+#include <mortise/solvers/multipliers/interface_correction.h>
 
 namespace mortise
 {
@@ -22,7 +22,7 @@ namespace mortise
     : system(system)
     , product(product)
     , lifting(lifting)
-    , jump(system.coupling.row_map())
+    , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
     , carried(jump)
     , added(jump)
@@ -67,24 +67,22 @@ namespace mortise
     product.multiply(jump, trace, CoupledNodes::all);
     if (has_springs())
       {
-        system.spring_compliance.trilinos_matrix().Multiply(false,
-                                                            carried,
-                                                            multiplier);
-        jump.Update(-1., multiplier, 1.);
+        system.spring_compliance.vmult(multiplier, carried);
+        jump -= multiplier;
       }
     lifting.apply_inverse_schur(multiplier, jump);
     product.multiply_transposed(trace, multiplier, CoupledNodes::following);
     for (unsigned int k = 0; k < indices.size(); ++k)
       x.local_element(indices[k]) -= weights[k] * trace.local_element(k);
     if (has_springs())
-      carried.Update(1., multiplier, 1.);
+      carried += multiplier;
   }
 
   template <typename Number>
   void
   InterfaceCorrection<Number>::release_springs() const
   {
-    carried.PutScalar(0.);
+    carried = 0.;
   }
 
   template <typename Number>
@@ -92,8 +90,8 @@ namespace mortise
   InterfaceCorrection<Number>::load_springs(const double keep,
                                             const double take) const
   {
-    added.Update(take, multiplier, keep);
-    carried.Update(1., added, 1.);
+    added.sadd(keep, take, multiplier);
+    carried += added;
   }
 
   template <typename Number>

@@ -1,8 +1,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/operators/matrix_free/tensor_kernel.h>
-#include <mortise/solvers/interface/coupling_clusters.h>
-#include <mortise/solvers/interface/coupling_product.h>
+#include <mortise/solvers/multipliers/coupling_clusters.h>
+#include <mortise/solvers/multipliers/coupling_product.h>
 #include <mortise/solvers/register_blocks.h>
 
 #include <algorithm>
@@ -38,8 +38,7 @@ namespace mortise
     if (rows.matrix.has_frames())
       {
         frames = &rows.matrix.frames();
-        by_component =
-          std::make_unique<Epetra_Vector>(rows.matrix.scalar().RowMap());
+        by_component.resize(rows.matrix.scalar().n_rows());
       }
     make_layout(system, rows);
     make_blocks(rows, leading_nodes(system, rows));
@@ -62,30 +61,21 @@ namespace mortise
         moved_indices.push_back(i);
 
     // number what is moved by itself; exact in double precision
-    using Index      = types::global_dof_index;
-    const Index mine = moved_indices.size(),
-                size = Utilities::MPI::sum(mine, system.communicator);
-    Index first      = 0;
-    MPI_Scan(&mine,
-             &first,
-             1,
-             DEAL_II_DOF_INDEX_MPI_TYPE,
-             MPI_SUM,
-             system.communicator);
-    first -= mine;
+    using Index = types::global_dof_index;
+    const IndexSet owned =
+      owned_range(moved_indices.size(), system.communicator);
     for (unsigned int k = 0; k < moved_indices.size(); ++k)
-      number.local_element(moved_indices[k]) = first + k;
+      number.local_element(moved_indices[k]) = owned.nth_index_in_set(k);
     number.update_ghost_values();
-    IndexSet owned(size), relevant(size);
-    owned.add_range(first, first + moved_indices.size());
+    IndexSet relevant(owned.size());
     for (const auto index : touched)
       relevant.add_index(static_cast<Index>(number(index)));
     layout =
       std::make_shared<const Utilities::MPI::Partitioner>(owned,
                                                           relevant,
                                                           system.communicator);
-    values.resize(rows.moved.displacements.size());
-    for (const int displacement : rows.moved.displacements)
+    values.resize(rows.displacements.size());
+    for (const int displacement : rows.displacements)
       entry_of_value.push_back(displacement < 0 ?
                                  -1 :
                                  static_cast<int>(layout->global_to_local(
@@ -174,7 +164,7 @@ namespace mortise
   void
   CouplingProduct<Number>::multiply_block(const Block       &block,
                                           const Number      *block_entries,
-                                          Epetra_Vector     &jump,
+                                          double            *jump,
                                           const CoupledNodes which) const
   {
     using V                  = typename Batch<Number>::Vector;
@@ -218,10 +208,10 @@ namespace mortise
   template <typename Number>
   void
   CouplingProduct<Number>::multiply_block_transposed(
-    const Block         &block,
-    const Number        *block_entries,
-    const Epetra_Vector &y,
-    const CoupledNodes   which) const
+    const Block       &block,
+    const Number      *block_entries,
+    const double      *y,
+    const CoupledNodes which) const
   {
     using V                  = typename Batch<Number>::Vector;
     constexpr unsigned int w = Batch<Number>::size;
@@ -275,7 +265,7 @@ namespace mortise
 
   template <typename Number>
   void
-  CouplingProduct<Number>::multiply(Epetra_Vector             &jump,
+  CouplingProduct<Number>::multiply(Vector                    &jump,
                                     const LevelVector<Number> &trace,
                                     const CoupledNodes         nodes) const
   {
@@ -285,23 +275,26 @@ namespace mortise
                     Number() :
                     trace.local_element(entry_of_value[v]);
     trace.zero_out_ghost_values();
-    Epetra_Vector &to = frames ? *by_component : jump;
+    double *to = frames ? by_component.data() : jump.begin();
     for_each_block([&](const Block &block, const Number *from) {
       multiply_block(block, from, to, nodes);
     });
     if (frames)
-      frames->Multiply(false, to, jump);
+      frames->vmult(jump.begin(), to);
   }
 
   template <typename Number>
   void
   CouplingProduct<Number>::multiply_transposed(LevelVector<Number> &trace,
-                                               const Epetra_Vector &y,
+                                               const Vector        &y,
                                                const CoupledNodes   nodes) const
   {
     if (frames)
-      frames->Multiply(true, y, *by_component);
-    const Epetra_Vector &factors = frames ? *by_component : y;
+      {
+        std::fill(by_component.begin(), by_component.end(), 0.);
+        frames->Tvmult_add(by_component.data(), y.begin());
+      }
+    const double *factors = frames ? by_component.data() : y.begin();
     std::fill(values.begin(), values.end(), Number());
     for_each_block([&](const Block &block, const Number *from) {
       multiply_block_transposed(block, from, factors, nodes);

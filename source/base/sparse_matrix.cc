@@ -1,0 +1,351 @@
+// See sparse_matrix.h.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/base/sparse_matrix.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Entry = SparseMatrix::Entry;
+    using Index = SparseMatrix::Index;
+
+    IndexSet
+    by_component(const IndexSet &set, const unsigned int n)
+    {
+      IndexSet result(n * set.size());
+      for (auto range = set.begin_intervals(); range != set.end_intervals();
+           ++range)
+        result.add_range(n * *range->begin(), n * (range->last() + 1));
+      result.compress();
+      return result;
+    }
+
+    Index
+    first_of(const IndexSet &owned)
+    {
+      return owned.n_elements() == 0 ? 0 : owned.nth_index_in_set(0);
+    }
+
+    /// Those of owned rows, of all ranks. Collective.
+    std::vector<Entry>
+    of_owned_rows(const IndexSet           &rows,
+                  const MPI_Comm            comm,
+                  const std::vector<Entry> &entries)
+    {
+      if (Utilities::MPI::n_mpi_processes(comm) == 1)
+        return entries;
+      auto ends = Utilities::MPI::all_gather(comm, Index(rows.n_elements()));
+      std::partial_sum(ends.begin(), ends.end(), ends.begin());
+      std::vector<Entry>                         own;
+      std::map<unsigned int, std::vector<Entry>> packages;
+      for (const Entry &entry : entries)
+        if (rows.is_element(entry.row))
+          own.push_back(entry);
+        else
+          packages[std::upper_bound(ends.begin(), ends.end(), entry.row) -
+                   ends.begin()]
+            .push_back(entry);
+      for (const auto &[rank, package] :
+           Utilities::MPI::some_to_some(comm, packages))
+        own.insert(own.end(), package.begin(), package.end());
+      return own;
+    }
+
+    SparseMatrix::CompressedRows
+    compress(const IndexSet               &rows,
+             const std::vector<Entry>     &entries,
+             const VectorOperation::values operation)
+    {
+      const unsigned int       n     = rows.n_elements();
+      const Index              first = first_of(rows);
+      std::vector<std::size_t> begin(n + 1);
+      for (const Entry &entry : entries)
+        ++begin[entry.row - first + 1];
+      std::partial_sum(begin.begin(), begin.end(), begin.begin());
+      std::vector<std::pair<Index, double>> by_row(entries.size());
+      auto                                  next = begin;
+      for (const Entry &entry : entries)
+        by_row[next[entry.row - first]++] = {entry.column, entry.value};
+      SparseMatrix::CompressedRows result;
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const auto from = by_row.begin() + begin[i],
+                     to   = by_row.begin() + begin[i + 1];
+          std::stable_sort(from, to, [](const auto &a, const auto &b) {
+            return a.first < b.first;
+          });
+          for (auto entry = from; entry != to; ++entry)
+            if (entry != from && entry->first == result.columns.back())
+              result.values.back() +=
+                operation == VectorOperation::add ? entry->second : 0.;
+            else
+              {
+                result.columns.push_back(entry->first);
+                result.values.push_back(entry->second);
+              }
+          result.begin.push_back(result.columns.size());
+        }
+      return result;
+    }
+
+    /// dst = A src, the components of an index one after the other.
+    template <unsigned int n>
+    void
+    multiply_rows(const SparseMatrix &A, double *dst, const double *src)
+    {
+      for (unsigned int i = 0; i < A.n_rows(); ++i, dst += n)
+        {
+          const auto row     = A.row(i);
+          double     sums[n] = {};
+          for (unsigned int k = 0; k < row.length; ++k)
+            for (unsigned int c = 0; c < n; ++c)
+              sums[c] += row.values[k] * src[n * row.columns[k] + c];
+          std::copy_n(sums, n, dst);
+        }
+    }
+
+    /// dst += A^T src, likewise.
+    template <unsigned int n>
+    void
+    multiply_rows_transposed(const SparseMatrix &A,
+                             double             *dst,
+                             const double       *src)
+    {
+      for (unsigned int i = 0; i < A.n_rows(); ++i, src += n)
+        {
+          const auto row = A.row(i);
+          for (unsigned int k = 0; k < row.length; ++k)
+            for (unsigned int c = 0; c < n; ++c)
+              dst[n * row.columns[k] + c] += row.values[k] * src[c];
+        }
+    }
+  } // namespace
+
+  IndexSet
+  owned_range(const types::global_dof_index n, const MPI_Comm comm)
+  {
+    const auto  counts = Utilities::MPI::all_gather(comm, n);
+    const auto  mine  = counts.begin() + Utilities::MPI::this_mpi_process(comm);
+    const Index first = std::accumulate(counts.begin(), mine, Index(0));
+    IndexSet    owned(std::accumulate(mine, counts.end(), first));
+    owned.add_range(first, first + n);
+    owned.compress();
+    return owned;
+  }
+
+  SparseMatrix::SparseMatrix(const IndexSet               &rows,
+                             const IndexSet               &columns,
+                             const MPI_Comm                comm,
+                             const std::vector<Entry>     &entries,
+                             const VectorOperation::values operation)
+    : SparseMatrix(rows,
+                   columns,
+                   comm,
+                   compress(rows,
+                            of_owned_rows(rows, comm, entries),
+                            operation))
+  {}
+
+  SparseMatrix::SparseMatrix(const IndexSet    &rows,
+                             const IndexSet    &columns,
+                             const MPI_Comm     comm,
+                             CompressedRows     given,
+                             const unsigned int n_components)
+    : owned_rows(rows)
+    , first_row(first_of(rows))
+    , n_components(n_components)
+    , all(std::move(given))
+  {
+    number_columns(columns, comm);
+  }
+
+  void
+  SparseMatrix::number_columns(const IndexSet &columns, const MPI_Comm comm)
+  {
+    const Index        first = first_of(columns), n = columns.n_elements();
+    std::vector<bool>  is_used(n);
+    std::vector<Index> others;
+    // neighbouring rows mostly have the same columns
+    const auto for_each_row = [this](const auto &visit) {
+      for (unsigned int i = 0; i < n_rows(); ++i)
+        visit(all.columns.begin() + all.begin[i],
+              all.columns.begin() + all.begin[i + 1]);
+    };
+    std::vector<Index> last;
+    for_each_row([&](const auto begin, const auto end) {
+      if (std::equal(begin, end, last.begin(), last.end()))
+        return;
+      last.assign(begin, end);
+      for (const Index column : last)
+        if (column >= first && column < first + n)
+          is_used[column - first] = true;
+        else
+          others.push_back(column);
+    });
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    n_below =
+      std::lower_bound(others.begin(), others.end(), first) - others.begin();
+    column_indices.assign(others.begin(), others.begin() + n_below);
+    std::vector<Index> number(n); // of those owned
+    for (Index k = 0; k < n; ++k)
+      if (is_used[k])
+        {
+          number[k] = column_indices.size();
+          owned.push_back(k);
+          column_indices.push_back(first + k);
+        }
+    column_indices.insert(column_indices.end(),
+                          others.begin() + n_below,
+                          others.end());
+    last.clear();
+    std::vector<Index> numbers;
+    for_each_row([&](const auto begin, const auto end) {
+      if (!std::equal(begin, end, last.begin(), last.end()))
+        {
+          last.assign(begin, end);
+          numbers.clear();
+          for (const Index column : last)
+            if (column >= first && column < first + n)
+              numbers.push_back(number[column - first]);
+            else
+              {
+                const Index other =
+                  std::lower_bound(others.begin(), others.end(), column) -
+                  others.begin();
+                numbers.push_back(other + (other < n_below ? 0 : owned.size()));
+              }
+        }
+      std::copy(numbers.begin(), numbers.end(), begin);
+    });
+    IndexSet ghosts(columns.size());
+    ghosts.add_indices(others.begin(), others.end());
+    layout = std::make_shared<const Utilities::MPI::Partitioner>(
+      by_component(columns, n_components),
+      by_component(ghosts, n_components),
+      comm);
+  }
+
+  std::vector<double>
+  SparseMatrix::diagonal() const
+  {
+    std::vector<double> result(n_rows());
+    for (unsigned int i = 0; i < n_rows(); ++i)
+      for (std::size_t k = all.begin[i]; k < all.begin[i + 1]; ++k)
+        if (global_column(all.columns[k]) == global_row(i))
+          result[i] = all.values[k];
+    return result;
+  }
+
+  SparseMatrix
+  SparseMatrix::transposed() const
+  {
+    std::vector<Entry> entries;
+    for (unsigned int i = 0; i < n_rows(); ++i)
+      for (std::size_t k = all.begin[i]; k < all.begin[i + 1]; ++k)
+        entries.push_back(
+          {global_column(all.columns[k]), global_row(i), all.values[k]});
+    return SparseMatrix(layout->locally_owned_range(),
+                        owned_rows,
+                        layout->get_mpi_communicator(),
+                        entries);
+  }
+
+  void
+  SparseMatrix::vmult(double *dst, const double *src) const
+  {
+    multiply(dst, on_columns(src).data());
+  }
+
+  void
+  SparseMatrix::Tvmult_add(double *dst, const double *src) const
+  {
+    std::vector<double> values(n_components * n_columns());
+    multiply_transposed_add(values.data(), src);
+    add_to_owned(dst, values);
+  }
+
+  void
+  SparseMatrix::multiply(double *dst, const double *of_columns) const
+  {
+    if (n_components == 1)
+      multiply_rows<1>(*this, dst, of_columns);
+    else
+      multiply_rows<dim>(*this, dst, of_columns);
+  }
+
+  void
+  SparseMatrix::multiply_transposed_add(double       *of_columns,
+                                        const double *src) const
+  {
+    if (n_components == 1)
+      multiply_rows_transposed<1>(*this, of_columns, src);
+    else
+      multiply_rows_transposed<dim>(*this, of_columns, src);
+  }
+
+  std::vector<double>
+  SparseMatrix::on_columns(const double *of_owned) const
+  {
+    const unsigned int  n = n_components;
+    std::vector<double> result(n * n_columns());
+    double             *to = result.data() + n * n_below;
+    for (const unsigned int k : owned)
+      to = std::copy_n(of_owned + n * k, n, to);
+    if (layout->n_mpi_processes() == 1)
+      return result;
+    std::vector<double> ghosts(layout->n_ghost_indices()),
+      sent(layout->n_import_indices());
+    std::vector<MPI_Request> requests;
+    layout->export_to_ghosted_array_start<double, MemorySpace::Host>(
+      0,
+      ArrayView<const double>(of_owned, layout->locally_owned_size()),
+      make_array_view(sent),
+      make_array_view(ghosts),
+      requests);
+    layout->export_to_ghosted_array_finish<double, MemorySpace::Host>(
+      make_array_view(ghosts), requests);
+    std::copy_n(ghosts.begin(), n * n_below, result.begin());
+    std::copy(ghosts.begin() + n * n_below, ghosts.end(), to);
+    return result;
+  }
+
+  void
+  SparseMatrix::add_to_owned(double                    *of_owned,
+                             const std::vector<double> &values) const
+  {
+    const unsigned int n    = n_components;
+    const double      *from = values.data() + n * n_below;
+    for (const unsigned int k : owned)
+      for (unsigned int c = 0; c < n; ++c)
+        of_owned[n * k + c] += *from++;
+    if (layout->n_mpi_processes() == 1)
+      return;
+    std::vector<double> ghosts(values.begin(), values.begin() + n * n_below),
+      received(layout->n_import_indices());
+    ghosts.insert(ghosts.end(),
+                  values.begin() + n * (n_below + owned.size()),
+                  values.end());
+    std::vector<MPI_Request> requests;
+    layout->import_from_ghosted_array_start<double, MemorySpace::Host>(
+      VectorOperation::add,
+      0,
+      make_array_view(ghosts),
+      make_array_view(received),
+      requests);
+    layout->import_from_ghosted_array_finish<double, MemorySpace::Host>(
+      VectorOperation::add,
+      ArrayView<const double>(received.data(), received.size()),
+      ArrayView<double>(of_owned, layout->locally_owned_size()),
+      make_array_view(ghosts),
+      requests);
+  }
+} // namespace mortise
