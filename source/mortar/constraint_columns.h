@@ -15,7 +15,6 @@ namespace mortise
   public:
     explicit NodalColumns(const FaceTrace &trace)
       : trace(trace)
-      , begin(1)
     {
       const FaceNodes   &face = trace.nodes[0];
       const unsigned int n    = trace.n_functions();
@@ -23,10 +22,10 @@ namespace mortise
         {
           if (face.hang())
             for (unsigned int e = face.begin[k]; e < face.begin[k + 1]; ++e)
-              add(face.nodes[face.column[e]], face.weight[e]);
+              nodes.add(face.nodes[face.column[e]], face.weight[e]);
           else
-            add(face.nodes[k], 1.);
-          begin.push_back(index.size());
+            nodes.add(face.nodes[k], 1.);
+          nodes.close();
         }
     }
 
@@ -34,7 +33,7 @@ namespace mortise
     Expansion
     component() const
     {
-      return {begin, index, weight, 0};
+      return nodes();
     }
 
     /// A local matrix for these functions.
@@ -47,16 +46,7 @@ namespace mortise
     }
 
   private:
-    void
-    add(const dealii::types::global_dof_index node, const double factor)
-    {
-      index.push_back(node);
-      weight.push_back(factor);
-    }
-
-    const FaceTrace                             &trace;
-    std::vector<unsigned int>                    begin;
-    std::vector<dealii::types::global_dof_index> index;
-    std::vector<double>                          weight;
+    const FaceTrace &trace;
+    OwnExpansion     nodes;
   };
 } // namespace mortise

@@ -37,42 +37,28 @@ namespace mortise
                         rows.weight[e] * direction[c];
             });
         for (unsigned int c = 0; c < dim; ++c)
-          {
-            Part &part = parts[c];
-            part.begin = {0};
-            for (unsigned int k = 0; k < n; ++k)
-              {
-                for (const auto &[index, weight] : weights[c * n + k])
-                  {
-                    part.index.push_back(index);
-                    part.weight.push_back(weight);
-                  }
-                part.begin.push_back(part.index.size());
-              }
-          }
+          for (unsigned int k = 0; k < n; ++k)
+            {
+              for (const auto &[index, weight] : weights[c * n + k])
+                parts[c].add(index, weight);
+              parts[c].close();
+            }
       }
 
       bool
       has_component(const unsigned int c) const
       {
-        return !parts[c].index.empty();
+        return parts[c].has_terms();
       }
 
       Expansion
       component(const unsigned int c) const
       {
-        return {parts[c].begin, parts[c].index, parts[c].weight, 0};
+        return parts[c]();
       }
 
     private:
-      struct Part
-      {
-        std::vector<unsigned int> begin;
-        std::vector<Index>        index;
-        std::vector<double>       weight;
-      };
-
-      std::array<Part, dim> parts;
+      std::array<OwnExpansion, dim> parts;
     };
 
     /// Calls visit(nodes) for the vertices, the edges and the inside of a face.
@@ -148,7 +134,7 @@ namespace mortise
                   for (unsigned int i = 0; i < nodes.size(); ++i)
                     block(i, i) = local.weights[nodes[i]];
                   for_each_component([&](const unsigned int c) {
-                    const ExpansionPart row(rows.component(c), nodes),
+                    const OwnExpansion row(rows.component(c), nodes),
                       column(own.component(), nodes);
                     visit(row(), column(), block, 1.);
                   });

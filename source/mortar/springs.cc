@@ -72,13 +72,13 @@ namespace mortise
 
     private:
       /// The rows of a node.
-      ExpansionPart
+      OwnExpansion
       expansion(const unsigned int k) const
       {
         std::vector<unsigned int> of_node;
         for (unsigned int r = k; r + 1 < rows.begin.size(); r += rows.n_nodes())
           of_node.push_back(r);
-        return ExpansionPart({rows.begin, rows.index, rows.weight, 0}, of_node);
+        return OwnExpansion({rows.begin, rows.index, rows.weight, 0}, of_node);
       }
 
       /// Standard multipliers of all directions where the normal turns: the
@@ -185,14 +185,14 @@ namespace mortise
                         FaceCompliance(coupling, s).for_each_block(visit);
                     });
     };
-    for_each_block([&](const ExpansionPart      &row,
-                       const ExpansionPart      &column,
+    for_each_block([&](const OwnExpansion       &row,
+                       const OwnExpansion       &column,
                        const FullMatrix<double> &block) {
       assembler.record(row(), block.m(), column(), block.n());
     });
     assembler.allocate();
-    for_each_block([&](const ExpansionPart      &row,
-                       const ExpansionPart      &column,
+    for_each_block([&](const OwnExpansion       &row,
+                       const OwnExpansion       &column,
                        const FullMatrix<double> &block) {
       assembler.add(row(), column(), block, 1., false);
     });

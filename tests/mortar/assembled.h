@@ -3,6 +3,8 @@
 
 #include <scenes/scene.h>
 
+#include <numeric>
+
 #include "tied_scene.h"
 
 namespace mortise::testing
@@ -50,6 +52,22 @@ namespace mortise::testing
       mortise::Vector result = scene.multiplier();
       B.vmult(result, u);
       return result;
+    }
+
+    /// sqrt(sum_ij B_ij^2)
+    double
+    norm() const
+    {
+      double sum = 0.;
+      for (unsigned int i = 0; i < B.n_rows(); ++i)
+        {
+          const auto row = B.row(i);
+          sum += std::inner_product(row.values,
+                                    row.values + row.length,
+                                    row.values,
+                                    0.);
+        }
+      return std::sqrt(Utilities::MPI::sum(sum, scene.comm));
     }
 
     mortise::Vector

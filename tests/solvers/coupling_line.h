@@ -182,7 +182,7 @@ struct CouplingLine
                                        std::move(scalar),
                                        3),
                           rows,
-                          SparseMatrix());
+                          std::move(frames));
     std::vector<unsigned int> constrained;
     const auto [begin, end] = part(n_nodes());
     for (int node = begin; node < end; ++node)

@@ -12,17 +12,16 @@
 
 using namespace mortise;
 using namespace dealii;
-using mortise::SparseMatrix;
 
 namespace
 {
   template <typename Number>
   void
-  check(const std::string  &name,
-        const BlockSystem  &system,
-        const SparseMatrix &B,
-        const double        n_moved,
-        const double        allowed)
+  check(const std::string           &name,
+        const BlockSystem           &system,
+        const mortise::SparseMatrix &B,
+        const double                 n_moved,
+        const double                 allowed)
   {
     const auto say =
       [&](const std::string &what, const double got, const double limit) {
@@ -60,10 +59,10 @@ namespace
 
   /// @p B: the same entry by entry.
   void
-  check_all(const std::string  &name,
-            const BlockSystem  &system,
-            const SparseMatrix &B,
-            const double        n_moved)
+  check_all(const std::string           &name,
+            const BlockSystem           &system,
+            const mortise::SparseMatrix &B,
+            const double                 n_moved)
   {
     check<double>(name, system, B, n_moved, 1e-15);
     check<float>(name + ", single", system, B, n_moved, 1e-6);
@@ -79,18 +78,18 @@ namespace
     u                  = 0.;
     system.coupling.Tvmult_add(u, expected);
     u -= expected_u;
-    const double       error_u    = u.linfty_norm() / expected_u.linfty_norm();
-    const SparseMatrix same       = system.coupling.expanded();
-    u                             = 2.;
-    const mortise::Vector squares = system.coupling.diagonal_of_square(u);
+    const double error_u = u.linfty_norm() / expected_u.linfty_norm();
+    const mortise::SparseMatrix same = system.coupling.expanded();
+    u                                = 2.;
+    const mortise::Vector squares    = system.coupling.diagonal_of_square(u);
     double                largest = 0., of_squares = 0.;
     for (unsigned int i = 0; i < B.n_rows(); ++i)
       {
         std::map<unsigned int, double> row;
         double                         sum = 0.;
-        for (const auto &[matrix, sign] :
-             std::initializer_list<std::pair<const SparseMatrix *, double>>{
-               {&B, 1.}, {&same, -1.}})
+        for (const auto &[matrix, sign] : std::initializer_list<
+               std::pair<const mortise::SparseMatrix *, double>>{{&B, 1.},
+                                                                 {&same, -1.}})
           {
             const auto entries = matrix->row(i);
             for (unsigned int k = 0; k < entries.length; ++k)
@@ -120,9 +119,9 @@ namespace
   void
   check_line(const int n_entities)
   {
-    const CouplingLine line{n_entities};
-    const SparseMatrix B = line.matrix();
-    BlockSystem        system;
+    const CouplingLine          line{n_entities};
+    const mortise::SparseMatrix B = line.matrix();
+    BlockSystem                 system;
     system.communicator       = MPI_COMM_WORLD;
     system.owned_displacement = line.owned_nodes(dim);
     system.owned_multiplier   = line.owned_rows();

@@ -24,25 +24,60 @@ namespace mortise
     unsigned int                                        offset;
   };
 
-  /// Some of the functions of an expansion.
-  class ExpansionPart
+  /// The same with its numbers, written function by function.
+  class OwnExpansion
   {
   public:
-    ExpansionPart(const Expansion                 &all,
-                  const std::vector<unsigned int> &functions)
-      : begin(1)
+    OwnExpansion() = default;
+
+    /// @p functions of others.
+    OwnExpansion(const Expansion                 &all,
+                 const std::vector<unsigned int> &functions)
     {
       for (const unsigned int i : functions)
         {
           for (unsigned int e = all.begin[all.offset + i];
                e < all.begin[all.offset + i + 1];
                ++e)
-            {
-              index.push_back(all.index[e]);
-              weight.push_back(all.weight[e]);
-            }
-          begin.push_back(index.size());
+            add(all.index[e], all.weight[e]);
+          close();
         }
+    }
+
+    /// A term of the next function.
+    void
+    add(const dealii::types::global_dof_index term, const double factor)
+    {
+      index.push_back(term);
+      weight.push_back(factor);
+    }
+
+    /// It has all its terms.
+    void
+    close()
+    {
+      begin.push_back(index.size());
+    }
+
+    void
+    clear()
+    {
+      begin = {0};
+      index.clear();
+      weight.clear();
+    }
+
+    /// Functions.
+    unsigned int
+    size() const
+    {
+      return begin.size() - 1;
+    }
+
+    bool
+    has_terms() const
+    {
+      return !index.empty();
     }
 
     Expansion
@@ -52,7 +87,7 @@ namespace mortise
     }
 
   private:
-    std::vector<unsigned int>                    begin;
+    std::vector<unsigned int>                    begin{0};
     std::vector<dealii::types::global_dof_index> index;
     std::vector<double>                          weight;
   };

@@ -147,63 +147,33 @@ namespace mortise
       std::vector<Index> cell_indices;
     };
 
-    /// Combinations of indices of the matrix.
-    class Combinations
+    OwnExpansion
+    one(const Index i)
     {
-    public:
-      void
-      clear()
-      {
-        begin = {0};
-        index.clear();
-        weight.clear();
-      }
+      OwnExpansion result;
+      result.add(i, 1.);
+      result.close();
+      return result;
+    }
 
-      /// One more, that stands for what @p constraints make of @p i.
-      void
-      add(const Index i, const AffineConstraints<double> &constraints)
-      {
-        if (const auto *entries = constraints.is_constrained(i) ?
-                                    constraints.get_constraint_entries(i) :
-                                    nullptr)
-          for (const auto &[master, factor] : *entries)
-            add_term(master, factor);
-        else
-          add_term(i, 1.);
-        begin.push_back(index.size());
-      }
-
-      void
-      add(const Index i)
-      {
-        add_term(i, 1.);
-        begin.push_back(index.size());
-      }
-
-      unsigned int
-      size() const
-      {
-        return begin.size() - 1;
-      }
-
-      Expansion
-      operator()() const
-      {
-        return {begin, index, weight, 0};
-      }
-
-    private:
-      void
-      add_term(const Index i, const double factor)
-      {
-        index.push_back(i);
-        weight.push_back(factor);
-      }
-
-      std::vector<unsigned int> begin{0};
-      std::vector<Index>        index;
-      std::vector<double>       weight;
-    };
+    /// @p indices with what @p constraints make of them.
+    OwnExpansion
+    resolve(const std::vector<Index>        &indices,
+            const AffineConstraints<double> &constraints)
+    {
+      OwnExpansion result;
+      for (const Index i : indices)
+        {
+          if (!constraints.is_constrained(i))
+            result.add(i, 1.);
+          else
+            for (const auto &[master, factor] :
+                 *constraints.get_constraint_entries(i))
+              result.add(master, factor);
+          result.close();
+        }
+      return result;
+    }
 
     /// Calls @p visit(i, columns, values, symmetric) for what is not K, G and C:
     /// entries of the row i, and of the column if they are symmetric. @p B: expanded, without
@@ -216,27 +186,23 @@ namespace mortise
                             const SparseMatrix   &B,
                             const Visit          &visit)
     {
-      Combinations       columns;
-      FullMatrix<double> values;
       const auto visit_diagonal = [&](const Index i, const double value) {
-        columns.clear();
-        columns.add(i);
-        values.reinit(1, 1);
-        values(0, 0) = value;
-        visit(i, columns, values, false);
+        visit(i, one(i), FullMatrix<double>(1, 1, &value), false);
       };
       const auto visit_row = [&](const Index         i,
                                  const SparseMatrix &from,
                                  const unsigned int  local,
                                  const auto          field,
                                  const double        factor) {
-        const auto row = from.row(local);
-        columns.clear();
-        values.reinit(1, row.length);
+        const auto         row = from.row(local);
+        OwnExpansion       columns;
+        FullMatrix<double> values(1, row.length, row.values);
+        values *= factor;
         for (unsigned int k = 0; k < row.length; ++k)
           {
-            columns.add(numbering(field, from.global_column(row.columns[k])));
-            values(0, k) = factor * row.values[k];
+            columns.add(numbering(field, from.global_column(row.columns[k])),
+                        1.);
+            columns.close();
           }
         visit(i, columns, values, field == Numbering::displacement);
       };
@@ -263,18 +229,6 @@ namespace mortise
               k, system.spring_compliance, local, Numbering::multiplier, -1.);
         }
     }
-
-    /// Calls @p visit(i) for owned numbers of what is prescribed or hangs.
-    template <typename Visit>
-    void
-    for_each_constrained(const Numbering                 &numbering,
-                         const AffineConstraints<double> &constraints,
-                         const Visit                     &visit)
-    {
-      for (const auto &line : constraints.get_lines())
-        if (numbering.owned().is_element(line.index))
-          visit(line.index);
-    }
   } // namespace
 
   SparseMatrix
@@ -283,9 +237,9 @@ namespace mortise
                     const MonolithicNumbering &numbering)
   {
     const NodalSystem &nodal = *system.nodal;
-    SparseMatrix       B;
-    if (system.owned_multiplier.size() > 0)
-      B = system.coupling.expanded();
+    const SparseMatrix B     = system.owned_multiplier.size() > 0 ?
+                                 system.coupling.expanded() :
+                                 SparseMatrix();
     CellIndices        cells(nodal, numbering);
     std::vector<Index> touched = cells.displacements;
     touched.insert(touched.end(),
@@ -297,55 +251,51 @@ namespace mortise
     const AffineConstraints<double> constraints =
       monolithic_constraints(nodal, numbering, rows);
 
-    RowAssembler assembler(numbering.owned(), numbering.owned());
-    Combinations of_cell, one;
-    const auto   set_cell = [&](const auto &cell) {
-      of_cell.clear();
-      for (const Index i : cells.of(cell))
-        of_cell.add(i, constraints);
-    };
+    // visit(row expansion, column expansion, block, transposed)
     const auto for_each_row = [&](const auto &visit) {
       for_each_constraint_row(system,
                               residual,
                               numbering,
                               B,
                               [&](const Index               i,
-                                  const Combinations       &columns,
+                                  const OwnExpansion       &columns,
                                   const FullMatrix<double> &values,
                                   const bool                symmetric) {
-                                one.clear();
-                                one.add(i);
-                                visit(one, columns, values, false);
+                                visit(one(i), columns, values, false);
                                 if (symmetric)
-                                  visit(columns, one, values, true);
+                                  visit(columns, one(i), values, true);
                               });
-      for_each_constrained(numbering, constraints, [&](const Index i) {
-        one.clear();
-        one.add(i);
-        FullMatrix<double> value(1, 1);
-        value(0, 0) = 1.; // as the norm of residuals has it
-        visit(one, one, value, false);
-      });
+      // as the norm of residuals has it
+      const double diagonal = 1.;
+      for (const auto &line : constraints.get_lines())
+        if (numbering.owned().is_element(line.index))
+          visit(one(line.index),
+                one(line.index),
+                FullMatrix<double>(1, 1, &diagonal),
+                false);
+    };
+    RowAssembler assembler(numbering.owned(), numbering.owned());
+    const auto   record = [&](const OwnExpansion &row,
+                            const OwnExpansion &column) {
+      assembler.record(row(), row.size(), column(), column.size());
     };
     nodal.elasticity().for_each_cell([&](const auto &cell) {
-      set_cell(cell);
-      assembler.record(of_cell(), of_cell.size(), of_cell(), of_cell.size());
+      const OwnExpansion of_cell = resolve(cells.of(cell), constraints);
+      record(of_cell, of_cell);
     });
-    for_each_row([&](const Combinations &row,
-                     const Combinations &column,
+    for_each_row([&](const OwnExpansion &row,
+                     const OwnExpansion &column,
                      const FullMatrix<double> &,
-                     const bool) {
-      assembler.record(row(), row.size(), column(), column.size());
-    });
+                     const bool) { record(row, column); });
     assembler.allocate();
     nodal.elasticity().for_each_cell_matrix(
       [](const auto &) { return true; },
       [&](const auto &cell, const auto &local) {
-        set_cell(cell);
+        const OwnExpansion of_cell = resolve(cells.of(cell), constraints);
         assembler.add(of_cell(), of_cell(), local.mixed, 1., false);
       });
-    for_each_row([&](const Combinations       &row,
-                     const Combinations       &column,
+    for_each_row([&](const OwnExpansion       &row,
+                     const OwnExpansion       &column,
                      const FullMatrix<double> &block,
                      const bool                transposed) {
       assembler.add(row(), column(), block, 1., transposed);
