@@ -17,22 +17,32 @@ namespace mortise
     using Entry = SparseMatrix::Entry;
     using Index = SparseMatrix::Index;
 
-    IndexSet
-    by_component(const IndexSet &set, const unsigned int n)
-    {
-      IndexSet result(n * set.size());
-      for (auto range = set.begin_intervals(); range != set.end_intervals();
-           ++range)
-        result.add_range(n * *range->begin(), n * (range->last() + 1));
-      result.compress();
-      return result;
-    }
-
     Index
     first_of(const IndexSet &owned)
     {
       return owned.n_elements() == 0 ? 0 : owned.nth_index_in_set(0);
     }
+
+    /// Who owns which row.
+    class Owners
+    {
+    public:
+      /// Collective.
+      Owners(const IndexSet &rows, const MPI_Comm comm)
+        : ends(Utilities::MPI::all_gather(comm, Index(rows.n_elements())))
+      {
+        std::partial_sum(ends.begin(), ends.end(), ends.begin());
+      }
+
+      unsigned int
+      operator()(const Index row) const
+      {
+        return std::upper_bound(ends.begin(), ends.end(), row) - ends.begin();
+      }
+
+    private:
+      std::vector<Index> ends; ///< by rank
+    };
 
     /// Those of owned rows, of all ranks. Collective.
     std::vector<Entry>
@@ -42,17 +52,14 @@ namespace mortise
     {
       if (Utilities::MPI::n_mpi_processes(comm) == 1)
         return entries;
-      auto ends = Utilities::MPI::all_gather(comm, Index(rows.n_elements()));
-      std::partial_sum(ends.begin(), ends.end(), ends.begin());
+      const Owners                               owners(rows, comm);
       std::vector<Entry>                         own;
       std::map<unsigned int, std::vector<Entry>> packages;
       for (const Entry &entry : entries)
         if (rows.is_element(entry.row))
           own.push_back(entry);
         else
-          packages[std::upper_bound(ends.begin(), ends.end(), entry.row) -
-                   ends.begin()]
-            .push_back(entry);
+          packages[owners(entry.row)].push_back(entry);
       for (const auto &[rank, package] :
            Utilities::MPI::some_to_some(comm, packages))
         own.insert(own.end(), package.begin(), package.end());
@@ -77,11 +84,13 @@ namespace mortise
       SparseMatrix::CompressedRows result;
       for (unsigned int i = 0; i < n; ++i)
         {
-          const auto from = by_row.begin() + begin[i],
-                     to   = by_row.begin() + begin[i + 1];
-          std::stable_sort(from, to, [](const auto &a, const auto &b) {
+          const auto from     = by_row.begin() + begin[i],
+                     to       = by_row.begin() + begin[i + 1];
+          const auto in_order = [](const auto &a, const auto &b) {
             return a.first < b.first;
-          });
+          };
+          if (!std::is_sorted(from, to, in_order))
+            std::stable_sort(from, to, in_order);
           for (auto entry = from; entry != to; ++entry)
             if (entry != from && entry->first == result.columns.back())
               result.values.back() +=
@@ -141,17 +150,30 @@ namespace mortise
     return owned;
   }
 
+  IndexSet
+  by_component(const IndexSet &set, const unsigned int n)
+  {
+    IndexSet result(n * set.size());
+    for (auto range = set.begin_intervals(); range != set.end_intervals();
+         ++range)
+      result.add_range(n * *range->begin(), n * (range->last() + 1));
+    result.compress();
+    return result;
+  }
+
   SparseMatrix::SparseMatrix(const IndexSet               &rows,
                              const IndexSet               &columns,
                              const MPI_Comm                comm,
                              const std::vector<Entry>     &entries,
-                             const VectorOperation::values operation)
+                             const VectorOperation::values operation,
+                             const unsigned int            n_components)
     : SparseMatrix(rows,
                    columns,
                    comm,
                    compress(rows,
                             of_owned_rows(rows, comm, entries),
-                            operation))
+                            operation),
+                   n_components)
   {}
 
   SparseMatrix::SparseMatrix(const IndexSet    &rows,
@@ -242,6 +264,49 @@ namespace mortise
       for (std::size_t k = all.begin[i]; k < all.begin[i + 1]; ++k)
         if (global_column(all.columns[k]) == global_row(i))
           result[i] = all.values[k];
+    return result;
+  }
+
+  SparseMatrix::CompressedRows
+  SparseMatrix::fetch(const std::vector<Index> &wanted) const
+  {
+    const Owners owners(owned_rows, communicator());
+    const auto   append = [this](CompressedRows &to, const Index global) {
+      const Row from = row(global - first_row);
+      for (unsigned int k = 0; k < from.length; ++k)
+        to.columns.push_back(global_column(from.columns[k]));
+      to.values.insert(to.values.end(), from.values, from.values + from.length);
+      to.begin.push_back(to.columns.size());
+    };
+    std::map<unsigned int, std::vector<Index>> asked;
+    for (const Index row : wanted)
+      if (!owned_rows.is_element(row))
+        asked[owners(row)].push_back(row);
+    std::map<unsigned int, CompressedRows> answers;
+    for (const auto &[rank, rows] :
+         Utilities::MPI::some_to_some(communicator(), asked))
+      for (const Index row : rows)
+        append(answers[rank], row);
+    const auto others = Utilities::MPI::some_to_some(communicator(), answers);
+    CompressedRows                       result;
+    std::map<unsigned int, unsigned int> next; // row of the answer, by rank
+    for (const Index row : wanted)
+      if (owned_rows.is_element(row))
+        append(result, row);
+      else
+        {
+          const unsigned int    rank  = owners(row);
+          const CompressedRows &from  = others.at(rank);
+          const auto            begin = from.begin[next[rank]],
+                     end              = from.begin[++next[rank]];
+          result.columns.insert(result.columns.end(),
+                                from.columns.begin() + begin,
+                                from.columns.begin() + end);
+          result.values.insert(result.values.end(),
+                               from.values.begin() + begin,
+                               from.values.begin() + end);
+          result.begin.push_back(result.columns.size());
+        }
     return result;
   }
 

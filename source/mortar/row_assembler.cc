@@ -20,10 +20,6 @@ namespace mortise
       std::sort(indices.begin(), indices.end());
       indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
     }
-
-    /// Row, number of columns, columns of each row; values.
-    using RowsOfOthers =
-      std::pair<std::vector<GlobalIndex>, std::vector<double>>;
   } // namespace
 
   RowAssembler::RowAssembler(const IndexSet &rows, const IndexSet &columns)
@@ -163,84 +159,26 @@ namespace mortise
     return places;
   }
 
-  void
-  RowAssembler::add_from_others(const MPI_Comm comm)
-  {
-    std::vector<Index> ends =
-      Utilities::MPI::all_gather(comm, Index(rows.n_elements()));
-    std::partial_sum(ends.begin(), ends.end(), ends.begin());
-    std::map<unsigned int, RowsOfOthers> packages;
-    for (const auto &[row, r] : number_of_other)
-      {
-        auto &[indices, entries] =
-          packages[std::upper_bound(ends.begin(), ends.end(), row) -
-                   ends.begin()];
-        const auto &list = patterns[pattern_of[r]];
-        indices.push_back(row);
-        indices.push_back(list.size());
-        indices.insert(indices.end(), list.begin(), list.end());
-        entries.insert(entries.end(),
-                       values.begin() + begin[r],
-                       values.begin() + begin[r] + list.size());
-      }
-    std::map<Index, Entries> shared;
-    for (const auto &[rank, package] :
-         Utilities::MPI::some_to_some(comm, packages))
-      {
-        auto index = package.first.begin();
-        auto value = package.second.begin();
-        while (index != package.first.end())
-          {
-            const Index row = *index++;
-            const Index n   = *index++;
-            Entries    &to  = shared[row];
-            if (const int r = find(row); to.empty() && r >= 0)
-              {
-                const auto &list = patterns[pattern_of[r]];
-                for (unsigned int k = 0; k < list.size(); ++k)
-                  to.emplace_back(list[k], values[begin[r] + k]);
-              }
-            for (Index k = 0; k < n; ++k)
-              to.emplace_back(*index++, *value++);
-          }
-      }
-    for (auto &[row, entries] : shared)
-      replace(row, entries);
-  }
-
-  void
-  RowAssembler::replace(const Index row, Entries &entries)
-  {
-    std::stable_sort(entries.begin(),
-                     entries.end(),
-                     [](const auto &a, const auto &b) {
-                       return a.first < b.first;
-                     });
-    int r = find(row);
-    if (r < 0)
-      {
-        r                                           = pattern_of.size();
-        number_of_owned[rows.index_within_set(row)] = r;
-        pattern_of.push_back(0);
-        begin.push_back(0);
-      }
-    pattern_of[r] = patterns.size();
-    begin[r]      = values.size();
-    patterns.emplace_back();
-    for (const auto &[column, value] : entries)
-      if (!patterns.back().empty() && patterns.back().back() == column)
-        values.back() += value;
-      else
-        {
-          patterns.back().push_back(column);
-          values.push_back(value);
-        }
-  }
-
   SparseMatrix
   RowAssembler::create(const MPI_Comm comm, const unsigned int n_components)
   {
-    add_from_others(comm);
+    if (Utilities::MPI::n_mpi_processes(comm) > 1)
+      {
+        std::vector<SparseMatrix::Entry> entries;
+        entries.reserve(values.size());
+        const auto add = [&](const Index row, const int r) {
+          std::size_t k = r < 0 ? 0 : begin[r];
+          if (r >= 0)
+            for (const Index column : patterns[pattern_of[r]])
+              entries.push_back({row, column, values[k++]});
+        };
+        for (const Index row : rows)
+          add(row, number_of_owned[rows.index_within_set(row)]);
+        for (const auto &[row, r] : number_of_other)
+          add(row, static_cast<int>(r));
+        return {
+          rows, columns, comm, entries, VectorOperation::add, n_components};
+      }
     SparseMatrix::CompressedRows result;
     for (const int r : number_of_owned)
       {
@@ -257,8 +195,6 @@ namespace mortise
           }
         result.begin.push_back(result.columns.size());
       }
-    patterns = {};
-    values   = {};
     return {rows, columns, comm, std::move(result), n_components};
   }
 } // namespace mortise

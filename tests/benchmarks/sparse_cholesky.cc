@@ -17,7 +17,6 @@
 #include <mortise/operators/levels/nodal_block_matrix.h>
 #include <mortise/operators/levels/vertex_matrix.h>
 #include <mortise/operators/nodal_system.h>
-#include <mortise/solvers/factorisation/distributed_nodal_matrix.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
 #include <mortise/solvers/multipliers/weighted_square.h>
@@ -87,10 +86,9 @@ namespace
   /// The rows with, by node, the entries of vectors like zero.
   struct Problem
   {
-    NodalMatrix                             rows;
-    mortise::Vector                         zero;
-    mortise::SparseMatrix                   matrix; ///< of nodes and components
-    std::unique_ptr<DistributedNodalMatrix> product;
+    NodalMatrix           rows;
+    mortise::Vector       zero;
+    mortise::SparseMatrix matrix; ///< of nodes and components
   };
 
   std::vector<Held>
@@ -170,8 +168,6 @@ namespace
         problem.zero.reinit(scene.owned_multiplier, scene.comm);
       }
     problem.matrix = as_matrix(problem.rows, scene.comm);
-    problem.product =
-      std::make_unique<DistributedNodalMatrix>(problem.rows, scene.comm);
     return problem;
   }
 
@@ -361,7 +357,7 @@ namespace
            const mortise::Vector &b)
   {
     mortise::Vector r(problem.zero);
-    problem.product->vmult(r, x);
+    multiply(problem.rows, problem.matrix, r, x);
     r -= b;
     return r.l2_norm() / b.l2_norm();
   }

@@ -17,6 +17,10 @@ namespace mortise
   dealii::IndexSet
   owned_range(dealii::types::global_dof_index n, MPI_Comm comm);
 
+  /// Indices n i + c, c < n, of each i in @p set.
+  dealii::IndexSet
+  by_component(const dealii::IndexSet &set, unsigned int n);
+
   /// Rows and columns are owned in contiguous ranges that ascend with the rank.
   /// A rank has its rows, and numbers the columns in which they have entries in
   /// ascending order: its columns, which other ranks may own. An entry couples
@@ -59,7 +63,8 @@ namespace mortise
       const dealii::IndexSet         &columns,
       MPI_Comm                        comm,
       const std::vector<Entry>       &entries,
-      dealii::VectorOperation::values operation = dealii::VectorOperation::add);
+      dealii::VectorOperation::values operation = dealii::VectorOperation::add,
+      unsigned int                    n_components = 1);
 
     /// Owned rows one after the other.
     struct CompressedRows
@@ -67,6 +72,13 @@ namespace mortise
       std::vector<std::size_t> begin{0}; ///< of rows, and behind the last
       std::vector<Index>       columns;  ///< global, ascending in a row
       std::vector<double>      values;
+
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &begin &columns &values;
+      }
     };
 
     /// Collective.
@@ -155,6 +167,10 @@ namespace mortise
     /// By owned row.
     std::vector<double>
     diagonal() const;
+
+    /// The rows with these global numbers, of any rank. Collective.
+    CompressedRows
+    fetch(const std::vector<Index> &wanted) const;
 
     /// Collective.
     SparseMatrix

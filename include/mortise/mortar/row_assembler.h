@@ -118,14 +118,12 @@ namespace mortise
         double                            factor,
         bool                              transposed);
 
-    /// The sum; @p n_components as in SparseMatrix. Nothing is left here. Collective.
+    /// The sum; @p n_components as in SparseMatrix. Collective.
     SparseMatrix
     create(MPI_Comm comm, unsigned int n_components = 1);
 
   private:
-    using Index   = dealii::types::global_dof_index;
-    using Entries = std::vector<std::pair<Index, double>>; ///< by column
-
+    using Index = dealii::types::global_dof_index;
     int
     find(Index row) const;
     unsigned int
@@ -136,12 +134,7 @@ namespace mortise
     find_places(const std::vector<Index> &wanted,
                 const std::vector<Index> &pattern,
                 unsigned int              guess);
-    /// To owned rows, what other ranks have for them. Collective.
-    void
-    add_from_others(MPI_Comm comm);
-    /// An owned row becomes the sum of @p entries.
-    void
-                            replace(Index row, Entries &entries);
+
     const dealii::IndexSet &rows, &columns;
     std::vector<int>        number_of_owned; ///< by owned row; -1: not recorded
     std::map<Index, unsigned int>   number_of_other;

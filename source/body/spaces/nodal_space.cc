@@ -3,6 +3,7 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
+#include <mortise/base/sparse_matrix.h>
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/legendre_basis.h>
@@ -236,13 +237,7 @@ namespace mortise
   IndexSet
   displacement_indices(const IndexSet &nodes)
   {
-    IndexSet result(dim * nodes.size());
-    for (auto interval = nodes.begin_intervals();
-         interval != nodes.end_intervals();
-         ++interval)
-      result.add_range(dim * *interval->begin(), dim * (interval->last() + 1));
-    result.compress();
-    return result;
+    return by_component(nodes, dim);
   }
 
   namespace

@@ -251,4 +251,22 @@ namespace mortise
     const IndexSet owned = owned_range(n * rows.size(), comm);
     return {owned, owned, comm, std::move(result)};
   }
+
+  void
+  multiply(const NodalMatrix  &rows,
+           const SparseMatrix &matrix,
+           Vector             &y,
+           const Vector       &x)
+  {
+    const auto         &entries = rows.entries;
+    std::vector<double> from(entries.size()), to(entries.size());
+    for (unsigned int i = 0; i < entries.size(); ++i)
+      if (entries[i] >= 0)
+        from[i] = x.local_element(entries[i]);
+    matrix.vmult(to.data(), from.data());
+    y = 0.;
+    for (unsigned int i = 0; i < entries.size(); ++i)
+      if (entries[i] >= 0)
+        y.local_element(entries[i]) = to[i];
+  }
 } // namespace mortise

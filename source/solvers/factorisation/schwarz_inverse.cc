@@ -22,13 +22,26 @@ namespace mortise
     /// Lengths, variants and columns of rows, and their values.
     using RowPackage = std::pair<std::vector<int>, std::vector<double>>;
 
-    /// Appends rows to @p to, with columns that are local to @p matrix.
+    /// Owned nodes and those of others in the columns of @p rows. Collective.
+    Utilities::MPI::Partitioner
+    nodes_of(const NodalMatrix &rows, const MPI_Comm comm)
+    {
+      const IndexSet   owned = owned_range(rows.size(), comm);
+      std::vector<int> columns(rows.columns);
+      std::sort(columns.begin(), columns.end());
+      IndexSet relevant(owned.size());
+      relevant.add_indices(columns.begin(),
+                           std::unique(columns.begin(), columns.end()));
+      return {owned, relevant, comm};
+    }
+
+    /// Appends rows to @p to, with columns that are local to @p nodes.
     class RowCollector
     {
     public:
-      RowCollector(NodalMatrix &to, const DistributedNodalMatrix &matrix)
+      RowCollector(NodalMatrix &to, const Utilities::MPI::Partitioner &nodes)
         : to(to)
-        , matrix(matrix)
+        , nodes(nodes)
       {}
 
       void
@@ -39,10 +52,12 @@ namespace mortise
       {
         kept.clear();
         for (int k = 0; k < length; ++k)
-          if (const int local = matrix.local(columns[k]); local >= 0)
+          if (nodes.in_local_range(columns[k]) ||
+              nodes.is_ghost_entry(columns[k]))
             {
               kept.push_back(k);
-              to.columns.push_back(local);
+              to.columns.push_back(
+                static_cast<int>(nodes.global_to_local(columns[k])));
             }
         to.lengths.push_back(kept.size());
         to.variants.push_back(variants);
@@ -52,9 +67,9 @@ namespace mortise
       }
 
     private:
-      NodalMatrix                  &to;
-      const DistributedNodalMatrix &matrix;
-      std::vector<int>              kept;
+      NodalMatrix                       &to;
+      const Utilities::MPI::Partitioner &nodes;
+      std::vector<int>                   kept;
     };
 
     /// The rows of @p nodes, local.
@@ -83,20 +98,18 @@ namespace mortise
     /// What owned nodes and ghosts have among each other, in this order.
     /// Collective.
     NodalMatrix
-    overlapping_rows(const DistributedNodalMatrix &matrix)
+    overlapping_rows(const NodalMatrix                 &rows,
+                     const Utilities::MPI::Partitioner &nodes)
     {
-      const MPI_Comm     comm   = matrix.communicator();
-      const NodalMatrix &rows   = matrix.rows();
-      const auto        &starts = matrix.starts();
-      const int          n      = static_cast<int>(rows.size());
+      const MPI_Comm comm  = nodes.get_mpi_communicator();
+      const int      n     = static_cast<int>(rows.size());
+      const auto    &local = nodes.local_range();
       std::map<unsigned int, std::vector<int>> wanted;
-      for (const int ghost : matrix.ghosts())
-        {
-          const auto rank =
-            std::upper_bound(starts.begin(), starts.end(), ghost) -
-            starts.begin() - 1;
-          wanted[rank].push_back(ghost - starts[rank]);
-        }
+      unsigned int                             ghost = 0;
+      for (const auto &[rank, n_ghosts] : nodes.ghost_targets())
+        for (unsigned int k = 0; k < n_ghosts; ++k)
+          wanted[rank].push_back(
+            static_cast<int>(nodes.ghost_indices().nth_index_in_set(ghost++)));
 
       std::vector<std::size_t> first_column(n + 1), first_value(n + 1);
       for (int i = 0; i < n; ++i)
@@ -106,13 +119,16 @@ namespace mortise
             first_value[i] + std::size_t(rows.lengths[i]) * rows.variants[i];
         }
       std::map<unsigned int, RowPackage> packages;
-      for (const auto &[rank, nodes] :
-           Utilities::MPI::some_to_some(comm, wanted))
-        packages[rank] = pack(rows, nodes, first_column, first_value);
+      for (auto &[rank, asked] : Utilities::MPI::some_to_some(comm, wanted))
+        {
+          for (int &node : asked)
+            node -= static_cast<int>(local.first);
+          packages[rank] = pack(rows, asked, first_column, first_value);
+        }
 
       NodalMatrix result;
       result.n_components = rows.n_components;
-      RowCollector collector(result, matrix);
+      RowCollector collector(result, nodes);
       for (int i = 0; i < n; ++i)
         collector.add(rows.lengths[i],
                       rows.variants[i],
@@ -139,24 +155,24 @@ namespace mortise
   } // namespace
 
   bool
-  SchwarzInverse::initialize(
-    std::shared_ptr<DistributedNodalMatrix> node_matrix,
-    Product                                 matrix_product,
-    const Vector                           &zero)
+  SchwarzInverse::initialize(const NodalMatrix &rows,
+                             Product            matrix_product,
+                             const Vector      &zero)
   {
-    matrix                  = std::move(node_matrix);
-    product                 = std::move(matrix_product);
-    NodalMatrix overlapping = overlapping_rows(*matrix);
+    entries              = rows.entries;
+    product              = std::move(matrix_product);
+    const MPI_Comm comm  = zero.get_mpi_communicator();
+    const auto     nodes = nodes_of(rows, comm);
+    nodal.reinit(by_component(nodes.locally_owned_range(), rows.n_components),
+                 by_component(nodes.ghost_indices(), rows.n_components),
+                 comm);
+    NodalMatrix overlapping = overlapping_rows(rows, nodes);
     local_x.resize(overlapping.entries.size());
     for (Vector *vector : {&r, &z, &q})
       vector->reinit(zero);
     const bool positive =
       local.initialize(std::move(overlapping), MPI_COMM_SELF);
-    if (Utilities::MPI::min(positive ? 1 : 0, matrix->communicator()) == 0 ||
-        !count_solves())
-      return false;
-    matrix->drop_rows();
-    return true;
+    return Utilities::MPI::min(positive ? 1 : 0, comm) == 1 && count_solves();
   }
 
   bool
@@ -187,8 +203,12 @@ namespace mortise
   void
   SchwarzInverse::solve_local(Vector &to, const Vector &from) const
   {
-    local.solve(local_x.data(), matrix->at_nodes(from).begin());
-    const auto &entries = matrix->rows().entries;
+    nodal.zero_out_ghost_values();
+    for (unsigned int i = 0; i < entries.size(); ++i)
+      nodal.local_element(i) =
+        entries[i] < 0 ? 0. : from.local_element(entries[i]);
+    nodal.update_ghost_values();
+    local.solve(local_x.data(), nodal.begin());
     for (unsigned int i = 0; i < entries.size(); ++i)
       if (entries[i] >= 0)
         to.local_element(entries[i]) = local_x[i];

@@ -94,10 +94,7 @@ namespace mortise
     if (!together)
       {
         schwarz = std::make_unique<SchwarzInverse>();
-        valid   = schwarz->initialize(
-          std::make_shared<DistributedNodalMatrix>(std::move(active), comm),
-          product_with_schur(),
-          zero);
+        valid   = schwarz->initialize(active, product_with_schur(), zero);
         if (valid)
           return;
         schwarz.reset();
@@ -105,16 +102,13 @@ namespace mortise
     lone = std::move(uncoupled);
     if (size == 0)
       return;
-    const DistributedNodalMatrix C(std::move(coupled), comm);
+    const SparseMatrix matrix = as_matrix(coupled, comm);
     if (together || size <= always_gathered)
       {
         cholesky = std::make_unique<CholeskyInverse<double>>();
         valid    = cholesky->initialize(
-          C.rows(),
-          [&C](Vector &y, const Vector &x) {
-            y = 0.; // where nothing couples
-            C.vmult(y, x);
-          },
+          coupled,
+          [&](Vector &y, const Vector &x) { multiply(coupled, matrix, y, x); },
           zero,
           true);
         if (valid)
@@ -122,9 +116,8 @@ namespace mortise
         cholesky.reset();
       }
     mumps         = std::make_unique<MumpsFactorisation>();
-    valid         = mumps->initialize(as_matrix(C.rows(), comm),
-                              MatrixKind::positive_definite);
-    mumps_entries = C.rows().entries;
+    valid         = mumps->initialize(matrix, MatrixKind::positive_definite);
+    mumps_entries = std::move(coupled.entries);
     mumps_x.resize(mumps_entries.size());
     mumps_b.resize(mumps_entries.size());
   }

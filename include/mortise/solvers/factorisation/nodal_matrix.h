@@ -58,4 +58,12 @@ namespace mortise
   /// The matrix of these rows, numbered by node and component. Collective.
   SparseMatrix
   as_matrix(const NodalMatrix &rows, MPI_Comm comm);
+
+  /// y = A x with A = @p matrix = as_matrix(rows), both vectors with the entries of @p rows; y is
+  /// zero where there are none. Collective.
+  void
+  multiply(const NodalMatrix  &rows,
+           const SparseMatrix &matrix,
+           Vector             &y,
+           const Vector       &x);
 } // namespace mortise

@@ -6,11 +6,11 @@
 // Sources: Demko, Moss, Smith (1984); Cai, Sarkis (1999).
 #pragma once
 
-#include <mortise/solvers/factorisation/distributed_nodal_matrix.h>
+#include <mortise/base/types.h>
+#include <mortise/solvers/factorisation/nodal_matrix.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
 
 #include <functional>
-#include <memory>
 #include <vector>
 
 namespace mortise
@@ -22,13 +22,10 @@ namespace mortise
     using Product = std::function<void(Vector &y, const Vector &x)>;
 
     /// False, on every rank, when the matrix is not positive definite or
-    /// corrections do not fall fast enough; else its rows are dropped. @p
-    /// product: with it, faster than with rows; it is kept. @p zero: a vector with the entries of
-    /// the rows. Collective.
+    /// corrections do not fall fast enough. @p product: with it, faster than with rows; it
+    /// is kept. @p zero: a vector with the entries of the rows. Collective.
     bool
-    initialize(std::shared_ptr<DistributedNodalMatrix> matrix,
-               Product                                 product,
-               const Vector                           &zero);
+    initialize(const NodalMatrix &rows, Product product, const Vector &zero);
 
     /// x = matrix^{-1} b to six digits: a fixed number of corrections, so that
     /// it is linear. Collective.
@@ -49,10 +46,11 @@ namespace mortise
     void
     solve_local(Vector &to, const Vector &from) const;
 
-    std::shared_ptr<DistributedNodalMatrix> matrix;
-    Product                                 product;
-    SparseCholesky<float>       local; ///< owned nodes and neighbours
-    mutable std::vector<double> local_x;
+    std::vector<int>            entries; ///< as in NodalMatrix
+    Product                     product;
+    SparseCholesky<float>       local;   ///< owned nodes and neighbours
+    mutable Vector              nodal;   ///< by these and component
+    mutable std::vector<double> local_x; ///< likewise
     mutable Vector              r, z, q;
     unsigned int                n_solves = 0;
   };

@@ -5,7 +5,6 @@
 #include <mortise/operators/levels/nodal_level.h>
 #include <mortise/solvers/multipliers/coupling_rows.h>
 
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -24,21 +23,5 @@ namespace mortise
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> multipliers;
     std::vector<std::size_t> begin;   ///< by CouplingRows::displacements
     std::vector<Entry>       entries; ///< multipliers by their local index
-
-  private:
-    /// By displacement.
-    using Rows = std::map<int, std::vector<Entry>>;
-
-    /// Multipliers of this rank; T where the displacement is owned.
-    void
-    collect_own(const CouplingRows &B, const LevelVector<double> &weights);
-    /// The whole rows of displacements that several ranks move. Collective.
-    Rows
-    exchange(const CouplingRows &B, const LevelVector<double> &weights) const;
-    void
-    replace(const CouplingRows &B, const Rows &rows);
-    /// Collective.
-    void
-    make_local(const SparseMatrix &rows);
   };
 } // namespace mortise
