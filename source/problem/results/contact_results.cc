@@ -43,6 +43,7 @@ namespace mortise
       const Vector            &pressures = step.solved.solution.multiplier;
       const std::vector<bool> &active_ones =
         *step.discretisation.linear_system().active;
+      const Vector      &gaps  = step.gaps(); // collective
       const unsigned int first = coupling.multipliers->range().first;
       ContactSummary     result;
       Tensor<1, dim>     force, moment;
@@ -52,7 +53,7 @@ namespace mortise
           const NormalMultiplier &of       = coupling.normal_multipliers[k];
           const bool              active   = active_ones[first + k];
           const double            pressure = pressures.begin()[first + k];
-          least = std::min(least, step.gaps().begin()[first + k]);
+          least = std::min(least, gaps.begin()[first + k]);
           result.undecided += step.solved.undecided[first + k] ? 1 : 0;
           ++(active ? result.active : result.inactive);
           if (!active)

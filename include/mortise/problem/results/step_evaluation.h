@@ -33,7 +33,8 @@ namespace mortise
     const Discretisation &discretisation;
     const SolvedStep      solved;
 
-    /// By body. Collective, as all that follows.
+    /// By body. Collective, as all that follows: not to be asked for within a loop
+    /// over what a rank owns.
     const std::vector<BodySolution> &
     solutions() const;
 
