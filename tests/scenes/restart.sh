@@ -97,7 +97,7 @@ disturbed gmsh 1e-6 "${steps[@]}" --set "Steps/Step=0.1" "$prm/thick_sphere_gmsh
 
 # what presses, and by how much bolts are tightened; what rounding leaves of forces of 1e4
 absolute=1e-6
-disturbed contact 1e-5 "${steps[@]}" --set "Steps/Step=0.1" "$prm/flange_lift.prm"
+disturbed contact 1e-5 "${steps[@]}" --set "Steps/Step=0.1" --set "Steps/End time=1" "$prm/flange_lift.prm"
 absolute=1e-9
 
 # solvers go no further than a thousandth of the target
