@@ -1,6 +1,8 @@
 // See coupling_transpose.h.
 #include <mortise/solvers/multipliers/coupling_transpose.h>
 
+#include <algorithm>
+
 namespace mortise
 {
   using namespace dealii;
@@ -38,9 +40,15 @@ namespace mortise
     for (const int displacement : B.displacements)
       if (displacement >= 0)
         wanted.push_back(displacement);
-    const auto rows = transposed.fetch(wanted);
-    IndexSet   used(scalar.m());
-    used.add_indices(rows.columns.begin(), rows.columns.end());
+    const auto                       rows = transposed.fetch(wanted);
+    // those in front of the owned ones wrap around
+    std::vector<SparseMatrix::Index> others;
+    for (const auto column : rows.columns)
+      if (column - scalar.global_row(0) >= scalar.n_rows())
+        others.push_back(column);
+    std::sort(others.begin(), others.end());
+    IndexSet used(scalar.m());
+    used.add_indices(others.begin(), others.end());
     multipliers = std::make_shared<const Utilities::MPI::Partitioner>(
       scalar.rows(), used, scalar.communicator());
     unsigned int next = 0;
