@@ -205,9 +205,9 @@ namespace mortise
     multiply_transposed_add(double *of_columns, const double *src) const;
 
   private:
-    /// Numbers the columns of this rank. Collective.
+    /// Numbers the columns of this rank.
     void
-    number_columns(const dealii::IndexSet &columns, MPI_Comm comm);
+    number_columns(const dealii::IndexSet &columns);
 
     dealii::IndexSet owned_rows;
     Index            first_row    = 0;

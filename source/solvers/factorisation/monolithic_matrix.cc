@@ -147,6 +147,20 @@ namespace mortise
       std::vector<Index> cell_indices;
     };
 
+    /// Owned rows, and those that the cells of this rank touch.
+    IndexSet
+    relevant_rows(const CellIndices &cells, const Numbering &numbering)
+    {
+      std::vector<Index> touched = cells.displacements;
+      touched.insert(touched.end(),
+                     cells.pressures.begin(),
+                     cells.pressures.end());
+      std::sort(touched.begin(), touched.end());
+      IndexSet rows = numbering.owned();
+      rows.add_indices(touched.begin(), touched.end());
+      return rows;
+    }
+
     OwnExpansion
     one(const Index i)
     {
@@ -236,20 +250,13 @@ namespace mortise
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering)
   {
-    const NodalSystem &nodal = *system.nodal;
-    const SparseMatrix B     = system.owned_multiplier.size() > 0 ?
-                                 system.coupling.expanded() :
-                                 SparseMatrix();
-    CellIndices        cells(nodal, numbering);
-    std::vector<Index> touched = cells.displacements;
-    touched.insert(touched.end(),
-                   cells.pressures.begin(),
-                   cells.pressures.end());
-    std::sort(touched.begin(), touched.end());
-    IndexSet rows = numbering.owned();
-    rows.add_indices(touched.begin(), touched.end());
+    const NodalSystem              &nodal = *system.nodal;
+    const SparseMatrix              B     = system.owned_multiplier.size() > 0 ?
+                                              system.coupling.expanded() :
+                                              SparseMatrix();
+    CellIndices                     cells(nodal, numbering);
     const AffineConstraints<double> constraints =
-      monolithic_constraints(nodal, numbering, rows);
+      monolithic_constraints(nodal, numbering, relevant_rows(cells, numbering));
 
     // visit(row expansion, column expansion, block, transposed)
     const auto for_each_row = [&](const auto &visit) {
