@@ -54,34 +54,22 @@ namespace mortise
     return force;
   }
 
-  double
-  Material::softest_modulus() const
+  LinearElastic::Averages
+  Material::averages() const
   {
-    return isotropic() ?
-             isotropic()->young_modulus :
-             std::get<Orthotropic>(law).averages().reuss.young_modulus;
-  }
-
-  double
-  Material::stiffest_modulus() const
-  {
-    return isotropic() ?
-             isotropic()->young_modulus :
-             std::get<Orthotropic>(law).averages().voigt.young_modulus;
+    return std::visit([](const auto &any) { return any.averages(); }, law);
   }
 
   double
   Material::modulus() const
   {
-    return isotropic() ? isotropic()->young_modulus :
-                         std::sqrt(softest_modulus() * stiffest_modulus());
+    return std::sqrt(softest_modulus() * stiffest_modulus());
   }
 
   double
   Material::stiffness_ratio() const
   {
-    const LinearElastic any =
-      isotropic() ? *isotropic() : std::get<Orthotropic>(law).averages().voigt;
+    const LinearElastic any = averages().voigt;
     return 2. + any.displacement_lambda() / any.lame_mu();
   }
 } // namespace mortise

@@ -131,7 +131,7 @@ namespace mortise
   template AnisotropicLaw<float>
   Orthotropic::law<float>() const;
 
-  Orthotropic::Averages
+  LinearElastic::Averages
   Orthotropic::averages() const
   {
     const auto         law     = own_law(*this);

@@ -75,5 +75,23 @@ namespace mortise
     {
       return {Number(displacement_lambda()), Number(lame_mu())};
     }
+
+    /// Of all directions: the law itself twice.
+    struct Averages;
+    Averages
+    averages() const;
   };
+
+  /// Averages over all directions of the stiffness (Voigt), an upper bound, and
+  /// of the compliance (Reuss), a lower one.
+  struct LinearElastic::Averages
+  {
+    LinearElastic voigt, reuss;
+  };
+
+  inline LinearElastic::Averages
+  LinearElastic::averages() const
+  {
+    return {*this, *this};
+  }
 } // namespace mortise

@@ -91,12 +91,24 @@ namespace mortise
       return std::get<LinearElastic>(law).pressure_norm();
     }
 
-    /// Young's modulus as it is, or bounds of what it is in the mean over
-    /// directions: what differs from body to body by orders of magnitude.
+    /// Isotropic laws between which the law lies in the mean over directions;
+    /// every law has them.
+    LinearElastic::Averages
+    averages() const;
+
+    /// Young's modulus of these: what differs from body to body by orders of
+    /// magnitude.
     double
-    softest_modulus() const;
+    softest_modulus() const
+    {
+      return averages().reuss.young_modulus;
+    }
+
     double
-    stiffest_modulus() const;
+    stiffest_modulus() const
+    {
+      return averages().voigt.young_modulus;
+    }
 
     /// Their geometric mean.
     double

@@ -44,13 +44,7 @@ namespace mortise
       return law<Number>();
     }
 
-    /// Averages over all directions of the stiffness (Voigt), an upper bound,
-    /// and of the compliance (Reuss), a lower one.
-    struct Averages
-    {
-      LinearElastic voigt, reuss;
-    };
-    Averages
+    LinearElastic::Averages
     averages() const;
   };
 } // namespace mortise

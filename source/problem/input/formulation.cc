@@ -32,21 +32,18 @@ namespace mortise
                body.material.poisson_ratio >= nearly_incompressible));
     }
 
-    /// That of all directions in the mean, from the average that yields most.
-    double
-    poisson_ratio(const MaterialParameters &material)
-    {
-      return material.law == isotropic_law ?
-               material.poisson_ratio :
-               material.orthotropic.averages().reuss.poisson_ratio;
-    }
-
     /// The mixed form has one law alone.
     void
     check_form_of_other_laws(const Parameters     &parameters,
                              const BodyParameters &body)
     {
-      const double       nu = poisson_ratio(body.material);
+      // in the mean over directions, from the average that yields most
+      const double nu =
+        make_material(body.material,
+                      false,
+                      [](const std::string &name) { return name; })
+          .averages()
+          .reuss.poisson_ratio;
       std::ostringstream got;
       got << (body.formulation == Formulation::mixed ? "\"mixed\"" : "\"auto\"")
           << " with Law = " << body.material.law;
