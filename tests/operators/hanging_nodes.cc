@@ -3,19 +3,21 @@
 // each other, across hanging faces, the lower one on either side, three and
 // more around a line), cells refined once and twice, affine and curved, and
 // several bodies at once: a function of that space has the same energy by the
-// matrices of cells and by its values at nodes that do not hang, and comes back
+// sums over cells and by its values at nodes that do not hang, and comes back
 // from these; that transfers between degrees keep functions and are transposes
 // of each other; that the matrix of vertices is the product on its level. The
 // same on every number of ranks.
-#include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/cells/cell_order.h>
+#include <mortise/operators/cells/cell_values.h>
 #include <mortise/operators/levels/degree_transfer.h>
 #include <mortise/operators/levels/nodal_block_operator.h>
 #include <mortise/operators/levels/vertex_matrix.h>
 
 #include <cmath>
+#include <deque>
 
 #include "nodal_scene.h"
+#include "reference_cell.h"
 
 namespace mortise::testing
 {
@@ -159,32 +161,26 @@ namespace mortise::testing
     return result;
   }
 
-  /// w.Ku by the matrices of cells in the hierarchical basis.
+  /// w.Ku by cells in the hierarchical basis.
   double
-  by_matrices(const NodalScene              &scene,
-              const std::vector<BodyVector> &w,
-              const std::vector<BodyVector> &u)
+  by_cells(const NodalScene              &scene,
+           const std::vector<BodyVector> &w,
+           const std::vector<BodyVector> &u)
   {
     double product = 0.;
     for (const auto &body : scene.bodies)
       {
-        std::vector<std::unique_ptr<CellKernel>> kernels;
+        std::deque<ReferenceCell> references;
         for (unsigned int i = 0; i < body->fe.size(); ++i)
-          kernels.push_back(std::make_unique<CellKernel>(*body, body->fe[i]));
+          references.emplace_back(*body, body->fe[i]);
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
-              FullMatrix<double>     K(cell->get_fe().n_dofs_per_cell());
-              dealii::Vector<double> a(K.m()), b(K.m());
-              std::vector<types::global_dof_index> dofs(K.m());
-              kernels[cell->active_fe_index()]->compute(cell, K);
-              cell->get_dof_indices(dofs);
-              for (unsigned int i = 0; i < K.m(); ++i)
-                {
-                  a(i) = w[body->index](dofs[i]);
-                  b(i) = u[body->index](dofs[i]);
-                }
-              product += K.matrix_scalar_product(a, b);
+              ReferenceCell &reference = references[cell->active_fe_index()];
+              reference.reinit(cell);
+              product +=
+                reference.stiffness(cell_coefficients(cell, w[body->index]),
+                                    cell_coefficients(cell, u[body->index]));
             }
       }
     return Utilities::MPI::sum(product, MPI_COMM_WORLD);
@@ -210,9 +206,9 @@ namespace mortise::testing
   {
     const auto   u = make_function(scene, 1), w = make_function(scene, 2);
     const auto   u_nodes = to_nodes(scene, u), w_nodes = to_nodes(scene, w);
-    const double size       = std::sqrt(by_matrices(scene, u, u) *
-                                  by_matrices(scene, w, w)),
-                 exact      = by_matrices(scene, w, u);
+    const double size =
+                   std::sqrt(by_cells(scene, u, u) * by_cells(scene, w, w)),
+                 exact      = by_cells(scene, w, u);
     const NodalLevel &level = scene.levels().front();
     verdict(name + ", product",
             std::fabs(product<double>(level, w_nodes, u_nodes) - exact) / size,

@@ -1,17 +1,18 @@
 // Proves that the stiffness without a matrix is the assembled one in another
 // basis, for p = 1..8 on affine, straight and curved hexahedra, affine and
 // curved tetrahedra, several bodies at once, and orthotropic ones: w.Ku agrees
-// with the sum over the matrices of cells to rounding, double and single
+// with deal.II's sum over the points of cells to rounding, double and single
 // precision, and so does the diagonal; that the transfer between degrees
 // reproduces polynomials and its transpose is the restriction. The same on
 // every number of ranks.
+#include <deal.II/base/quadrature_lib.h>
+
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/fe/fe_values.h>
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/simplex_elements.h>
 #include <mortise/body/elements/simplex_nodes.h>
-#include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/levels/degree_transfer.h>
 #include <mortise/operators/matrix_free/matrix_free_kernel.h>
 #include <mortise/operators/nodal_system.h>
@@ -103,6 +104,7 @@ namespace mortise::testing
         {
           scalar = std::make_unique<FE_Q<dim>>(degree);
           points = scalar->get_unit_support_points();
+          rule = single_rule = QGauss<dim>(degree + 1);
           return;
         }
       const VertexOrder order = vertex_order(cell);
@@ -140,8 +142,8 @@ namespace mortise::testing
 
     std::unique_ptr<FiniteElement<dim>> scalar;
     std::vector<Point<dim>>             points;
-    FullMatrix<double>                  to_modes; ///< (mode, node)
-    Quadrature<dim> rule, single_rule; ///< on tetrahedra, by precision
+    FullMatrix<double> to_modes; ///< (mode, node) on tetrahedra
+    Quadrature<dim>    rule, single_rule;
   };
 
   /// Calls visit(body, cell, basis, nodes) for the owned cells.
@@ -199,29 +201,7 @@ namespace mortise::testing
 
   using ValuesOfCell = std::array<std::vector<double>, dim>;
 
-  /// Of a hexahedron, by the matrix of the assembled stiffness.
-  void
-  add_by_matrix(CellKernel               &kernel,
-                const Body::CellIterator &cell,
-                const FESystem<dim>      &system,
-                const ValuesOfCell       &w,
-                const ValuesOfCell       &u,
-                Sums                     &sums)
-  {
-    FullMatrix<double>     K(system.n_dofs_per_cell());
-    dealii::Vector<double> a(K.m()), b(K.m());
-    kernel.compute(cell, K);
-    for (unsigned int i = 0; i < K.m(); ++i)
-      {
-        const auto [c, k] = system.system_to_component_index(i);
-        a(i)              = w[c][k];
-        b(i)              = u[c][k];
-        sums.trace += K(i, i);
-      }
-    sums.product += K.matrix_scalar_product(a, b);
-  }
-
-  /// Of a tetrahedron, by deal.II's gradients at the points of the rule.
+  /// By deal.II's gradients at the points of the rule.
   void
   add_by_points(const Body               &body,
                 const Body::CellIterator &cell,
@@ -236,14 +216,15 @@ namespace mortise::testing
                          rule,
                          update_gradients | update_JxW_values);
     values.reinit(Triangulation<dim>::cell_iterator(cell));
-    const unsigned int n = basis.to_modes.n();
     for (const unsigned int q : values.quadrature_point_indices())
       {
         Tensor<2, dim> grad_u, grad_w; // [c][e]
-        for (unsigned int i = 0; i < n; ++i)
+        for (const unsigned int i : values.dof_indices())
           {
             Tensor<1, dim> gradient;
-            for (unsigned int k = 0; k < n; ++k)
+            if (basis.to_modes.empty())
+              gradient = values.shape_grad(i, q);
+            for (unsigned int k = 0; k < basis.to_modes.m(); ++k)
               gradient += basis.to_modes(k, i) * values.shape_grad(k, q);
             double energy = 0.; // of all components, each alone
             for (unsigned int c = 0; c < dim; ++c)
@@ -270,45 +251,29 @@ namespace mortise::testing
   {
     const NodalLevel &level = scene.levels.front();
     Sums              sums;
-    // by body
-    std::map<unsigned int, std::unique_ptr<FESystem<dim>>> systems;
-    std::map<unsigned int, std::unique_ptr<CellKernel>>    kernels;
     u.update_ghost_values();
     w.update_ghost_values();
-    for_each_cell(
-      level,
-      [&](const Body       &body,
-          const auto       &cell,
-          const NodalBasis &basis,
-          const auto       &nodes) {
-        const auto read = [&](const LevelVector<double> &v) {
-          ValuesOfCell result;
-          for (unsigned int c = 0; c < dim; ++c)
-            for (const auto node : nodes)
-              result[c].push_back(
-                v.local_element(level.layout->global_to_local(dim * node + c)));
-          return result;
-        };
-        if (body.mesh.tetrahedra)
-          {
-            add_by_points(body,
-                          cell,
-                          basis,
-                          single ? basis.single_rule : basis.rule,
-                          read(w),
-                          read(u),
-                          sums);
-            return;
-          }
-        auto &system = systems[body.index];
-        auto &kernel = kernels[body.index];
-        if (!system)
-          {
-            system = std::make_unique<FESystem<dim>>(*basis.scalar, dim);
-            kernel = std::make_unique<CellKernel>(body, *system);
-          }
-        add_by_matrix(*kernel, cell, *system, read(w), read(u), sums);
-      });
+    for_each_cell(level,
+                  [&](const Body       &body,
+                      const auto       &cell,
+                      const NodalBasis &basis,
+                      const auto       &nodes) {
+                    const auto read = [&](const LevelVector<double> &v) {
+                      ValuesOfCell result;
+                      for (unsigned int c = 0; c < dim; ++c)
+                        for (const auto node : nodes)
+                          result[c].push_back(v.local_element(
+                            level.layout->global_to_local(dim * node + c)));
+                      return result;
+                    };
+                    add_by_points(body,
+                                  cell,
+                                  basis,
+                                  single ? basis.single_rule : basis.rule,
+                                  read(w),
+                                  read(u),
+                                  sums);
+                  });
     u.zero_out_ghost_values();
     w.zero_out_ghost_values();
     return {Utilities::MPI::sum(sums.product, MPI_COMM_WORLD),

@@ -1,6 +1,6 @@
-// Proves that the matrix-free products in mixed form are those of the matrices
-// of cells in another basis, for p = 2..8 on affine, straight and curved
-// hexahedra, affine tetrahedra, and beside bodies in displacement form:
+// Proves that the matrix-free products in mixed form are FEValues' sums over
+// the points of cells in another basis, for p = 2..8 on affine, straight and
+// curved hexahedra, affine tetrahedra, and beside bodies in displacement form:
 // displacement and pressure tested with other fields, the force of a pressure,
 // the norm of pressures and its diagonal; that with hanging nodes and on curved
 // tetrahedra, where rules differ, they are symmetric and a pressure of one has
@@ -9,7 +9,6 @@
 #include <deal.II/fe/fe_system.h>
 
 #include <mortise/body/elements/simplex_elements.h>
-#include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_system.h>
@@ -18,7 +17,7 @@
 #include <map>
 
 #include "../scenes/scene.h"
-#include "pressure_kernel.h"
+#include "reference_cell.h"
 
 namespace mortise::testing
 {
@@ -128,12 +127,12 @@ namespace mortise::testing
     mortise::Vector u, p;
   };
 
-  /// The matrices of cells with one element. On hexahedra in the nodal bases of
+  /// Cells with one element. On hexahedra in the nodal bases of
   /// deal.II; on tetrahedra in modes, values at nodes are transformed.
-  class CellMatrices
+  class Cells
   {
   public:
-    CellMatrices(const Body &body, const FiniteElement<dim> &element)
+    Cells(const Body &body, const FiniteElement<dim> &element)
       : mixed(body.pressure != nullptr)
     {
       const unsigned int p = element.degree;
@@ -149,49 +148,33 @@ namespace mortise::testing
           pressure =
             std::make_unique<FE_SimplexLegendre>(std::max(p, 2u) - 1, order);
         }
-      stiffness = std::make_unique<CellKernel>(body, *system);
-      if (mixed)
-        of_pressure =
-          std::make_unique<PressureKernel>(body, *system, *pressure);
-      K.reinit(system->n_dofs_per_cell(), system->n_dofs_per_cell());
+      reference =
+        std::make_unique<ReferenceCell>(body,
+                                        *system,
+                                        mixed ? pressure.get() : nullptr);
     }
 
-    void
-    compute(const Body::CellIterator &cell)
-    {
-      stiffness->compute(cell, K);
-      if (mixed)
-        of_pressure->compute(cell);
-    }
-
-    /// In the functions of these matrices, from values at the nodes of a cell.
+    /// In these functions, from values at the nodes of a cell.
     template <typename ValueAt>
-    dealii::Vector<double>
+    ReferenceCell::Coefficients
     displacement(const ValueAt &at) const
     {
-      dealii::Vector<double> result(K.m());
+      ReferenceCell::Coefficients result;
       for (unsigned int c = 0; c < dim; ++c)
-        {
-          const auto values = in_functions(*system, [&](const unsigned int k) {
-            return at(k, c);
-          });
-          for (unsigned int k = 0; k < values.size(); ++k)
-            result(system->component_to_system_index(c, k)) = values[k];
-        }
+        result[c] =
+          in_functions(*system, [&](const unsigned int k) { return at(k, c); });
       return result;
     }
 
     template <typename ValueAt>
-    dealii::Vector<double>
+    std::vector<double>
     pressures(const ValueAt &at) const
     {
-      const auto values = in_functions(*pressure, at);
-      return dealii::Vector<double>(values.begin(), values.end());
+      return in_functions(*pressure, at);
     }
 
-    bool                            mixed;
-    FullMatrix<double>              K;
-    std::unique_ptr<PressureKernel> of_pressure;
+    const bool                     mixed;
+    std::unique_ptr<ReferenceCell> reference;
 
   private:
     template <typename ValueAt>
@@ -215,13 +198,11 @@ namespace mortise::testing
     }
 
     std::unique_ptr<FiniteElement<dim>> system, pressure;
-    std::unique_ptr<CellKernel>         stiffness;
   };
 
-  /// (w, q) [K G^T; G -C] (u, p), w G^T p, q P p and the trace of P by the
-  /// matrices of cells.
+  /// (w, q) [K G^T; G -C] (u, p), w G^T p, q P p and the trace of P by cells.
   Expected
-  by_matrices(const Scene &scene, const Fields &left, const Fields &right)
+  by_cells(const Scene &scene, const Fields &left, const Fields &right)
   {
     const NodalSpace &space     = *scene.system->levels().front().space,
                      &pressures = *scene.pressure_space;
@@ -238,48 +219,46 @@ namespace mortise::testing
     std::vector<NodalSpace::Index> nodes, p_nodes;
     for (const Body *body : space.bodies())
       {
-        std::map<unsigned int, CellMatrices> all;
+        std::map<unsigned int, Cells> all;
         for (const auto &cell : body->dof_handler.active_cell_iterators())
           if (cell->is_locally_owned())
             {
-              CellMatrices &matrices =
+              Cells &cells =
                 all.try_emplace(cell->active_fe_index(), *body, cell->get_fe())
                   .first->second;
-              matrices.compute(cell);
+              cells.reference->reinit(cell);
               space.get_nodes(body->index, cell, nodes);
               const auto of = [&](const mortise::Vector &v) {
-                return matrices.displacement(
+                return cells.displacement(
                   [&](const unsigned int k, const unsigned int c) {
                     return v(dim * nodes[k] + c);
                   });
               };
               const auto w = of(a.u), u = of(b.u);
-              sum.mixed += matrices.K.matrix_scalar_product(w, u);
-              if (!matrices.mixed)
+              sum.mixed += cells.reference->stiffness(w, u);
+              if (!cells.mixed)
                 continue;
-              const auto &M = matrices.of_pressure->mass(),
-                         &G = matrices.of_pressure->divergence();
+              const ReferenceCell &reference = *cells.reference;
               pressures.get_nodes(body->index, cell, p_nodes);
               const auto of_p = [&](const mortise::Vector &v) {
-                return matrices.pressures(
+                return cells.pressures(
                   [&](const unsigned int k) { return v(p_nodes[k]); });
               };
               const auto q = of_p(a.p), r = of_p(b.p);
-              for (unsigned int i = 0; i < M.m(); ++i)
+              for (unsigned int i = 0; i < r.size(); ++i)
                 {
-                  const auto one = matrices.pressures(
+                  const auto one = cells.pressures(
                     [&](const unsigned int k) { return k == i ? 1. : 0.; });
                   if (!pressures.hanging_nodes().is_constrained(p_nodes[i]))
-                    sum.trace += body->material.pressure_norm() *
-                                 M.matrix_norm_square(one);
+                    sum.trace +=
+                      body->material.pressure_norm() * reference.mass(one, one);
                 }
-              const double force = G.matrix_scalar_product(r, w);
+              const double force = reference.divergence(r, w);
               sum.force += force;
-              sum.mixed += force + G.matrix_scalar_product(q, u) -
-                           body->material.compressibility() *
-                             M.matrix_scalar_product(q, r);
-              sum.norm +=
-                body->material.pressure_norm() * M.matrix_scalar_product(q, r);
+              sum.mixed +=
+                force + reference.divergence(q, u) -
+                body->material.compressibility() * reference.mass(q, r);
+              sum.norm += body->material.pressure_norm() * reference.mass(q, r);
             }
       }
     for (double *value : {&sum.mixed, &sum.force, &sum.norm, &sum.trace})
@@ -312,7 +291,7 @@ namespace mortise::testing
     const Scene  scene(kinds, degrees);
     const Fields left       = random_fields(scene, 1),
                  right      = random_fields(scene, 3);
-    const Expected expected = by_matrices(scene, left, right);
+    const Expected expected = by_cells(scene, left, right);
     Fields         product  = right;
     scene.system->apply_mixed(product.u, product.p, right.u, right.p);
     verdict(name + ": product",

@@ -10,7 +10,6 @@
 #include <Teuchos_LAPACK.hpp>
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/body/elements/legendre_elements.h>
-#include <mortise/operators/cells/cell_kernel.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 
@@ -21,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "../operators/pressure_kernel.h"
+#include "../operators/reference_cell.h"
 
 namespace mortise::testing
 {
@@ -238,7 +237,6 @@ namespace mortise::testing
   {
     const dealii::types::global_dof_index n_u = u.numbering.size(),
                                           n_p = p.numbering.size();
-    dealii::FullMatrix<double>     K;
     dealii::DynamicSparsityPattern all(n_u + n_p, n_u + n_p);
     // both fields with one set of constraints, pressures last
     dealii::AffineConstraints<double> constraints;
@@ -272,25 +270,22 @@ namespace mortise::testing
     dealii::SparseMatrix<double> assembled(sparsity);
     for (const auto &cell : body.dof_handler.active_cell_iterators())
       {
-        CellKernel     stiffness(body, cell->get_fe());
-        PressureKernel pressure(body,
-                                cell->get_fe(),
-                                body.pressure->cell(cell)->get_fe());
-        K.reinit(cell->get_fe().n_dofs_per_cell(),
-                 cell->get_fe().n_dofs_per_cell());
-        stiffness.compute(cell, K);
-        pressure.compute(cell);
+        const auto   &system = cell->get_fe();
+        ReferenceCell of_cell(body,
+                              system,
+                              &body.pressure->cell(cell)->get_fe());
+        of_cell.reinit(cell);
+        const dealii::FullMatrix<double> matrix = of_cell.matrix();
         indices(cell);
         dealii::FullMatrix<double> local(dofs.size());
-        local.fill(K);
-        const unsigned int n = K.m();
-        for (unsigned int k = n; k < dofs.size(); ++k)
-          {
-            for (unsigned int i = 0; i < n; ++i)
-              local(k, i) = pressure.divergence()(k - n, i);
-            for (unsigned int l = n; l < dofs.size(); ++l)
-              local(k, l) = pressure.mass()(k - n, l - n);
-          }
+        const auto                 place = [&](const unsigned int i) {
+          return i < system.n_dofs_per_cell() ?
+                                   system.component_to_system_index(i % dim, i / dim) :
+                                   i;
+        };
+        for (unsigned int i = 0; i < dofs.size(); ++i)
+          for (unsigned int j = 0; j < dofs.size(); ++j)
+            local(place(i), place(j)) = matrix(i, j);
         constraints.distribute_local_to_global(local, dofs, assembled);
       }
     const SparseMatrix mixed = copy_of(assembled);

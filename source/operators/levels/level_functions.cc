@@ -1,8 +1,4 @@
 // See level_functions.h.
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_system.h>
-
-#include <mortise/body/elements/fe_simplex_legendre.h>
 #include <mortise/operators/levels/level_functions.h>
 
 #include <algorithm>
@@ -158,28 +154,5 @@ namespace mortise
             for (unsigned int r = 0; r < dim; ++r)
               block[dim * c + r] += matrix(dim * i + r, dim * j + c);
         }
-  }
-
-  namespace
-  {
-    /// Components in the order of the nodes.
-    std::unique_ptr<FiniteElement<dim>>
-    linear_element(const Body &body)
-    {
-      if (body.mesh.tetrahedra)
-        return make_simplex_system(FE_SimplexLegendre(1), dim);
-      return std::make_unique<FESystem<dim>>(FE_Q<dim>(1), dim);
-    }
-  } // namespace
-
-  const FullMatrix<double> &
-  LinearCellMatrices::of(const Body &body, const Body::CellIterator &cell)
-  {
-    auto &kernel = kernels[body.index];
-    if (!kernel)
-      kernel = std::make_unique<CellKernel>(body, *linear_element(body));
-    local.reinit(dim * cell->n_vertices(), dim * cell->n_vertices());
-    kernel->compute(cell, local);
-    return local;
   }
 } // namespace mortise

@@ -1,6 +1,7 @@
 // See thickness_matrix.h.
 #include <deal.II/base/partitioner.h>
 
+#include <mortise/operators/cells/linear_cell_matrices.h>
 #include <mortise/operators/levels/level_functions.h>
 #include <mortise/operators/levels/thickness_matrix.h>
 

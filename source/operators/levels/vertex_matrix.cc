@@ -1,3 +1,4 @@
+#include <mortise/operators/cells/linear_cell_matrices.h>
 #include <mortise/operators/levels/level_functions.h>
 #include <mortise/operators/levels/vertex_matrix.h>
 

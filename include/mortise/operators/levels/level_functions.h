@@ -2,13 +2,12 @@
 // nodes of its cells, and sums over cells.
 #pragma once
 
-#include <mortise/operators/cells/cell_kernel.h>
+#include <deal.II/lac/full_matrix.h>
+
 #include <mortise/operators/levels/nodal_block_matrix.h>
 #include <mortise/operators/levels/nodal_level.h>
 #include <mortise/operators/levels/vertex_transfer.h>
 
-#include <map>
-#include <memory>
 #include <vector>
 
 namespace mortise
@@ -90,18 +89,5 @@ namespace mortise
     std::vector<unsigned int>  begin;
     dealii::FullMatrix<double> half, resolved;
     std::vector<unsigned int>  numbers; ///< in the builder
-  };
-
-  /// Of functions of degree one.
-  class LinearCellMatrices
-  {
-  public:
-    /// Components in the order of the vertices.
-    const dealii::FullMatrix<double> &
-    of(const Body &body, const Body::CellIterator &cell);
-
-  private:
-    std::map<unsigned int, std::unique_ptr<CellKernel>> kernels; ///< by body
-    dealii::FullMatrix<double>                          local;
   };
 } // namespace mortise

@@ -1,0 +1,41 @@
+// Stiffness matrices of cells with functions of degree one.
+#pragma once
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <mortise/operators/cells/cell_geometry.h>
+
+#include <map>
+#include <vector>
+
+namespace mortise
+{
+  class LinearCellMatrices
+  {
+  public:
+    /// With the moduli C of the law, the component c of vertex i at dim i + c,
+    ///
+    ///     K_(ic)(jd) = int sum_ef C_cedf dN_i/dx_e dN_j/dx_f.
+    ///
+    /// The Jacobian must be positive.
+    const dealii::FullMatrix<double> &
+    of(const Body &body, const Body::CellIterator &cell);
+
+  private:
+    /// What the cells of one body share.
+    struct Shared
+    {
+      Moduli                              C;
+      dealii::Quadrature<dim>             rule;
+      CellGeometry                        geometry;
+      std::vector<dealii::Tensor<1, dim>> gradients; ///< dN_i/dxi as [q][i]
+    };
+
+    static Shared
+    share(const Body &body);
+
+    std::map<unsigned int, Shared>      by_body;
+    std::vector<dealii::Tensor<1, dim>> gradients; ///< sqrt(w |J|) dN_i/dx
+    dealii::FullMatrix<double>          K;
+  };
+} // namespace mortise
