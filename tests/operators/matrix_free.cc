@@ -14,7 +14,7 @@
 #include <mortise/body/elements/simplex_elements.h>
 #include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/operators/levels/degree_transfer.h>
-#include <mortise/operators/matrix_free/matrix_free_kernel.h>
+#include <mortise/operators/matrix_free/simplex_tables.h>
 #include <mortise/operators/nodal_system.h>
 
 #include <cmath>

@@ -1,7 +1,12 @@
+#include <deal.II/base/quadrature_lib.h>
+
+#include <mortise/base/lagrange.h>
+#include <mortise/base/tensor_product.h>
 #include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/operators/levels/degree_transfer.h>
 #include <mortise/operators/matrix_free/dense_kernel.h>
-#include <mortise/operators/matrix_free/matrix_free_kernel_of_size.h>
+#include <mortise/operators/matrix_free/matrix_free_kernel.h>
+#include <mortise/operators/matrix_free/node_access.h>
 
 namespace mortise
 {
@@ -289,26 +294,11 @@ namespace mortise
   std::unique_ptr<typename DegreeTransfer<Number>::Kernel>
   DegreeTransfer<Number>::make_kernel(const unsigned int fine_degree)
   {
-    switch (fine_degree)
-      {
-        case 1: // degree one on these cells, more on others
-          return std::make_unique<KernelOfDegree<1>>();
-        case 2:
-          return std::make_unique<KernelOfDegree<2>>();
-        case 3:
-          return std::make_unique<KernelOfDegree<3>>();
-        case 4:
-          return std::make_unique<KernelOfDegree<4>>();
-        case 5:
-          return std::make_unique<KernelOfDegree<5>>();
-        case 6:
-          return std::make_unique<KernelOfDegree<6>>();
-        case 7:
-          return std::make_unique<KernelOfDegree<7>>();
-        default:
-          AssertThrow(fine_degree == 8, ExcInternalError());
-          return std::make_unique<KernelOfDegree<8>>();
-      }
+    // one where cells of other bodies have more
+    return with_degree<1>(fine_degree, [](const auto degree) {
+      return std::unique_ptr<Kernel>(
+        std::make_unique<KernelOfDegree<degree>>());
+    });
   }
 
   template class DegreeTransfer<float>;

@@ -49,6 +49,12 @@ namespace mortise
           for (unsigned int k = 0; k < n_p; ++k)
             one.pressure_nodes[k * width + lane] = lane * n_p + k;
         }
+      one.nonlinear              = cells.nonlinear;
+      const std::size_t n_moduli = cells.moduli.size() / cells.n_batches;
+      one.moduli.resize(n_moduli);
+      std::copy_n(cells.moduli.begin() + batch * n_moduli,
+                  n_moduli,
+                  one.moduli.begin());
       one.metric.resize((one.n_affine == 1 ? 1 : cells.n_points) * dim * dim *
                         width);
       std::copy_n(cells.metric_of(batch),
@@ -115,20 +121,16 @@ namespace mortise
       n_u,
       n_p,
       [&](Number *u, Number *p, Number *of_u, Number *of_p) {
-        if (mixed[g])
-          mixed[g]->add_mixed_product(one, {u, p}, {of_u, of_p});
-        else
-          kernels[g]->add_product(one, u, of_u);
+        kernels[g]->add_mixed_product(one, {u, p}, {of_u, of_p});
       },
       systems);
-    if (mixed[g])
-      fill_columns<Number>(
-        0,
-        n_p,
-        [&](Number *, Number *p, Number *, Number *of_p) {
-          mixed[g]->add_pressure_norm(one, p, of_p);
-        },
-        norms);
+    fill_columns<Number>(
+      0,
+      n_p,
+      [&](Number *, Number *p, Number *, Number *of_p) {
+        kernels[g]->add_pressure_norm(one, p, of_p);
+      },
+      norms);
     return result;
   }
 

@@ -1,294 +1,43 @@
-#include <deal.II/base/quadrature_lib.h>
-
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_tools.h>
-
 #include <mortise/base/error.h>
-#include <mortise/body/elements/simplex_elements.h>
-#include <mortise/body/elements/simplex_nodes.h>
-#include <mortise/operators/cells/cell_geometry.h>
+#include <mortise/operators/matrix_free/hexahedra.h>
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
-#include <mortise/operators/matrix_free/matrix_free_kernel_of_size.h>
-
-#include <cmath>
+#include <mortise/operators/matrix_free/nonlinear_kernel_on.h>
 
 namespace mortise
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Owned cells with one element of the body, those with constant Jacobians
-    /// first.
-    struct SortedCells
-    {
-      SortedCells(const Body         &body,
-                  const unsigned int  element,
-                  const CellGeometry &geometry)
-      {
-        std::vector<Body::CellIterator> curved;
-        for (const auto &cell : body.dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned() && cell->active_fe_index() == element)
-            (geometry.constant_jacobian(cell) ? all : curved).push_back(cell);
-        n_affine = all.size();
-        all.insert(all.end(), curved.begin(), curved.end());
-      }
-
-      std::vector<Body::CellIterator> all;
-      unsigned int                    n_affine;
-    };
-
-    /// Fills the batches of one body's cells with one element.
-    template <typename Number>
-    class BatchBuilder
-    {
-    public:
-      static constexpr unsigned int width = Batch<Number>::size;
-
-      BatchBuilder(const NodalSpace                  &space,
-                   const Body                        &body,
-                   const unsigned int                 element,
-                   const Utilities::MPI::Partitioner &layout,
-                   const PressureNodes               *pressures)
-        : space(space)
-        , body(body)
-        , element(element)
-        , layout(layout)
-        , pressures(body.pressure ? pressures : nullptr)
-        , degree(space.degree(body, body.fe[element].degree))
-        , quadrature(make_quadrature())
-        , geometry(body, body.fe[element].reference_cell(), quadrature)
-      {
-        batches.tetrahedra = body.mesh.tetrahedra;
-        batches.degree     = degree;
-        batches.n_points   = quadrature.size();
-        batches.law        = body.material.template displacement_law<Number>();
-        node_order =
-          batches.tetrahedra ?
-            ascending_dof_indices(degree, order()) :
-            FETools::lexicographic_to_hierarchic_numbering<dim>(degree);
-        batches.n_nodes = node_order.size();
-        if (this->pressures == nullptr)
-          return;
-        batches.compressibility = body.material.compressibility();
-        batches.pressure_norm   = body.material.pressure_norm();
-        pressure_order =
-          batches.tetrahedra ?
-            ascending_dof_indices(degree - 1, order()) :
-            FETools::lexicographic_to_hierarchic_numbering<dim>(degree - 1);
-      }
-
-      /// What is wrong, if anything.
-      std::string
-      build()
-      {
-        const SortedCells  cells(body, element, geometry);
-        const unsigned int n_curved = cells.all.size() - cells.n_affine;
-        batches.n_cells             = cells.all.size();
-        batches.n_affine_cells      = cells.n_affine;
-        batches.n_affine            = (cells.n_affine + width - 1) / width;
-        batches.n_batches = batches.n_affine + (n_curved + width - 1) / width;
-        const std::size_t point = dim * dim * width;
-        batches.nodes.resize(std::size_t(batches.n_batches) * batches.n_nodes *
-                             width);
-        batches.metric.resize(batches.n_affine * point +
-                              (batches.n_batches - batches.n_affine) *
-                                quadrature.size() * point);
-        batches.pressure_nodes.resize(batches.n_batches *
-                                      pressure_order.size() * width);
-        for (unsigned int i = 0; i < cells.all.size(); ++i)
-          {
-            const bool         affine = i < cells.n_affine;
-            const unsigned int index  = affine ? i : i - cells.n_affine;
-            const unsigned int batch =
-              (affine ? 0 : batches.n_affine) + index / width;
-            set_nodes(cells.all[i], batch, index % width);
-            if (pressures != nullptr)
-              set_pressure_nodes(cells.all[i], batch, index % width);
-            if (!set_metric(cells.all[i], affine, batch, index % width))
-              return tangled_message(body, cells.all[i]);
-          }
-        return "";
-      }
-
-      CellBatches<Number> batches;
-
-    private:
-      /// Of the vertices of these tetrahedra.
-      const VertexOrder &
-      order() const
-      {
-        return SimplexElements::base(body.fe[element]).order;
-      }
-
-      /// The rule of the stiffness; on tetrahedra its points have the same
-      /// barycentric coordinates by ascending vertices, whatever their order.
-      Quadrature<dim>
-      make_quadrature()
-      {
-        if (!body.mesh.tetrahedra)
-          return QGauss<dim>(degree + 1);
-        const Quadrature<dim>   rule = simplex_rule<Number>(degree);
-        std::vector<Point<dim>> points;
-        axes.clear();
-        for (const Point<dim> &ascending : rule.get_points())
-          {
-            const auto lambda = barycentric_coordinates(ascending);
-            std::array<double, dim + 1> local{};
-            for (unsigned int v = 0; v <= dim; ++v)
-              local[order()[v]] = lambda[v];
-            points.emplace_back(local[1], local[2], local[3]);
-            axes.push_back(simplex_rule_jacobian(degree, ascending));
-          }
-        return {points, rule.get_weights()};
-      }
-
-      /// With derivatives along the edges from the first ascending vertex to
-      /// the others, from those along the axes of the reference cell.
-      CellGeometry::Jacobian
-      ascending(const CellGeometry::Jacobian &jacobian) const
-      {
-        if (!body.mesh.tetrahedra)
-          return jacobian;
-        const auto to_vertex = [&](const unsigned int v) {
-          return v == 0 ? Tensor<1, dim>() : jacobian[v - 1];
-        };
-        CellGeometry::Jacobian result;
-        for (unsigned int a = 0; a < dim; ++a)
-          result[a] = to_vertex(order()[a + 1]) - to_vertex(order()[0]);
-        return result;
-      }
-
-      void
-      set_nodes(const Body::CellIterator &cell,
-                const unsigned int        batch,
-                const unsigned int        lane)
-      {
-        space.get_nodes(body.index, cell, nodes);
-        for (unsigned int i = 0; i < nodes.size(); ++i)
-          {
-            unsigned int *to =
-              &batches.nodes[(std::size_t(batch) * nodes.size() + i) * width];
-            to[lane] = layout.global_to_local(dim * nodes[node_order[i]]);
-            if (lane == 0)
-              std::fill(to + 1, to + width, to[0]);
-          }
-      }
-
-      void
-      set_pressure_nodes(const Body::CellIterator &cell,
-                         const unsigned int        batch,
-                         const unsigned int        lane)
-      {
-        pressures->space.get_nodes(body.index, cell, nodes);
-        for (unsigned int i = 0; i < nodes.size(); ++i)
-          {
-            unsigned int *to =
-              &batches.pressure_nodes[(std::size_t(batch) * nodes.size() + i) *
-                                      width];
-            to[lane] =
-              pressures->layout.global_to_local(nodes[pressure_order[i]]);
-            if (lane == 0)
-              std::fill(to + 1, to + width, to[0]);
-          }
-      }
-
-      bool
-      set_metric(const Body::CellIterator &cell,
-                 const bool                affine,
-                 const unsigned int        batch,
-                 const unsigned int        lane)
-      {
-        Number    *to  = const_cast<Number *>(batches.metric_of(batch)) + lane;
-        const auto set = [&](const CellGeometry::Jacobian &jacobian,
-                             const double                  weight,
-                             const CellGeometry::Jacobian &along_axes) {
-          const double det = determinant(jacobian);
-          if (!(det > 0.))
-            return false;
-          const CellGeometry::Jacobian inverse =
-            std::sqrt(weight * det) * invert(along_axes);
-          for (unsigned int a = 0; a < dim; ++a)
-            for (unsigned int e = 0; e < dim; ++e, to += width)
-              *to = inverse[e][a];
-          return true;
-        };
-        if (affine)
-          {
-            const auto jacobian = *geometry.constant_jacobian(cell);
-            return set(jacobian, 1., ascending(jacobian));
-          }
-        const auto &jacobians = geometry.jacobians(cell);
-        for (unsigned int q = 0; q < quadrature.size(); ++q)
-          if (!set(jacobians[q],
-                   quadrature.weight(q),
-                   axes.empty() ? jacobians[q] :
-                                  axes[q] * ascending(jacobians[q])))
-            return false;
-        return true;
-      }
-
-      const NodalSpace                  &space;
-      const Body                        &body;
-      const unsigned int                 element;
-      const Utilities::MPI::Partitioner &layout;
-      const PressureNodes               *pressures; ///< of this body
-      const unsigned int                 degree;
-      std::vector<Tensor<2, dim>>        axes; ///< of the rule on tetrahedra
-      const Quadrature<dim>              quadrature;
-      CellGeometry                       geometry;
-      std::vector<unsigned int>          node_order, pressure_order;
-      std::vector<NodalSpace::Index>     nodes;
-    };
-  } // namespace
-
-  template <typename Number>
-  unsigned int
-  CellBatches<Number>::lanes(const unsigned int batch) const
-  {
-    constexpr unsigned int width = Batch<Number>::size;
-    return batch < n_affine ?
-             std::min(width, n_affine_cells - batch * width) :
-             std::min(width,
-                      n_cells - n_affine_cells - (batch - n_affine) * width);
-  }
-
-  template <typename Number>
-  const Number *
-  CellBatches<Number>::metric_of(const unsigned int batch) const
-  {
-    const std::size_t point = dim * dim * Batch<Number>::size;
-    return metric.data() +
-           (batch < n_affine ?
-              batch * point :
-              (n_affine + std::size_t(batch - n_affine) * n_points) * point);
-  }
-
   template <typename Number>
   MatrixFreeElasticity<Number>::MatrixFreeElasticity(
     const NodalSpace                  &space,
     const Utilities::MPI::Partitioner &layout,
-    const PressureNodes               *pressures)
+    const PressureNodes               *pressures,
+    const LawOfBody                   &laws)
   {
     std::string tangled;
     for (const Body *body : space.bodies())
       for (unsigned int element = 0; element < body->fe.size(); ++element)
         {
-          BatchBuilder<Number> builder(
-            space, *body, element, layout, pressures);
+          std::string problem;
+          groups.push_back(
+            make_cell_batches<Number>(space,
+                                      *body,
+                                      element,
+                                      layout,
+                                      pressures,
+                                      laws ? laws(*body) : nullptr,
+                                      problem));
           if (tangled.empty())
-            tangled = builder.build();
-          groups.push_back(std::move(builder.batches));
+            tangled = problem;
           std::unique_ptr<Kernel>    kernel;
           const CellBatches<Number> &cells = groups.back();
           if constexpr (std::is_same_v<Number, double>)
             if (!cells.pressure_nodes.empty())
               kernel = cells.tetrahedra ? make_mixed_simplex_kernel(cells) :
-                                          make_mixed_kernel(cells.degree);
+                                          make_mixed_kernel(cells);
           if (!kernel)
             kernel = cells.tetrahedra ? make_simplex_kernel(cells) :
-                                        make_kernel(cells.degree);
-          mixed.push_back(dynamic_cast<MixedKernel *>(kernel.get()));
+                                        make_kernel(cells);
           kernels.push_back(std::move(kernel));
         }
     throw_if_any(tangled, layout.get_mpi_communicator());
@@ -315,15 +64,46 @@ namespace mortise
   }
 
   template <typename Number>
+  PointHistory<Number>
+  MatrixFreeElasticity<Number>::no_history() const
+  {
+    PointHistory<Number> result(groups.size());
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      if (groups[g].nonlinear)
+        result[g].resize(groups[g].moduli.size() /
+                         NonlinearLaw<Number>::n_moduli *
+                         groups[g].nonlinear->n_history());
+    return result;
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::add_residual(const Number               *u,
+                                             const PointHistory<Number> &before,
+                                             PointHistory<Number>       &after,
+                                             Number *dst) const
+  {
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      kernels[g]->add_residual(
+        groups[g], u, before[g].data(), after[g].data(), dst);
+  }
+
+  template <typename Number>
+  void
+  MatrixFreeElasticity<Number>::linearise(const Number               *u,
+                                          const PointHistory<Number> &before)
+  {
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      kernels[g]->linearise(groups[g], u, before[g].data());
+  }
+
+  template <typename Number>
   void
   MatrixFreeElasticity<Number>::add_mixed_product(const Fields &src,
                                                   const Fields &dst) const
   {
     for (unsigned int g = 0; g < groups.size(); ++g)
-      if (mixed[g])
-        mixed[g]->add_mixed_product(groups[g], src, dst);
-      else
-        kernels[g]->add_product(groups[g], src.displacement, dst.displacement);
+      kernels[g]->add_mixed_product(groups[g], src, dst);
   }
 
   template <typename Number>
@@ -332,8 +112,7 @@ namespace mortise
                                                    Number       *dst) const
   {
     for (unsigned int g = 0; g < groups.size(); ++g)
-      if (mixed[g])
-        mixed[g]->add_pressure_force(groups[g], p, dst);
+      kernels[g]->add_pressure_force(groups[g], p, dst);
   }
 
   template <typename Number>
@@ -342,8 +121,7 @@ namespace mortise
                                                   Number       *dst) const
   {
     for (unsigned int g = 0; g < groups.size(); ++g)
-      if (mixed[g])
-        mixed[g]->add_pressure_norm(groups[g], p, dst);
+      kernels[g]->add_pressure_norm(groups[g], p, dst);
   }
 
   template <typename Number>
@@ -351,38 +129,18 @@ namespace mortise
   MatrixFreeElasticity<Number>::add_pressure_norm_diagonal(Number *dst) const
   {
     for (unsigned int g = 0; g < groups.size(); ++g)
-      if (mixed[g])
-        mixed[g]->add_pressure_norm_diagonal(groups[g], dst);
+      kernels[g]->add_pressure_norm_diagonal(groups[g], dst);
   }
 
   template <typename Number>
   std::unique_ptr<typename MatrixFreeElasticity<Number>::Kernel>
-  MatrixFreeElasticity<Number>::make_kernel(const unsigned int degree)
+  MatrixFreeElasticity<Number>::make_kernel(const CellBatches<Number> &cells)
   {
-    switch (degree)
-      {
-        case 1:
-          return std::make_unique<KernelOfSize<2>>();
-        case 2:
-          return std::make_unique<KernelOfSize<3>>();
-        case 3:
-          return std::make_unique<KernelOfSize<4>>();
-        case 4:
-          return std::make_unique<KernelOfSize<5>>();
-        case 5:
-          return std::make_unique<KernelOfSize<6>>();
-        case 6:
-          return std::make_unique<KernelOfSize<7>>();
-        case 7:
-          return std::make_unique<KernelOfSize<8>>();
-        default:
-          AssertThrow(degree == 8, ExcInternalError());
-          return std::make_unique<KernelOfSize<9>>();
-      }
+    return with_degree<1>(cells.degree, [&](const auto degree) {
+      return make_kernel_on<Hexahedra<Number, degree + 1>>(cells);
+    });
   }
 
-  template struct CellBatches<float>;
-  template struct CellBatches<double>;
   template class MatrixFreeElasticity<float>;
   template class MatrixFreeElasticity<double>;
 } // namespace mortise

@@ -1,33 +1,23 @@
-#include <mortise/operators/matrix_free/matrix_free_mixed_kernel_of_size.h>
+// The kernels behind MatrixFreeElasticity in mixed form on hexahedra.
+#include <mortise/operators/matrix_free/hexahedra.h>
+#include <mortise/operators/matrix_free/mixed_kernel_on.h>
 
 namespace mortise
 {
-  using namespace dealii;
-
   template <typename Number>
   std::unique_ptr<typename MatrixFreeElasticity<Number>::Kernel>
-  MatrixFreeElasticity<Number>::make_mixed_kernel(const unsigned int degree)
+  MatrixFreeElasticity<Number>::make_mixed_kernel(
+    const CellBatches<Number> &cells)
   {
-    switch (degree)
-      {
-        case 2:
-          return std::make_unique<MixedKernelOfSize<3>>();
-        case 3:
-          return std::make_unique<MixedKernelOfSize<4>>();
-        case 4:
-          return std::make_unique<MixedKernelOfSize<5>>();
-        case 5:
-          return std::make_unique<MixedKernelOfSize<6>>();
-        case 6:
-          return std::make_unique<MixedKernelOfSize<7>>();
-        case 7:
-          return std::make_unique<MixedKernelOfSize<8>>();
-        default:
-          AssertThrow(degree == 8, ExcInternalError());
-          return std::make_unique<MixedKernelOfSize<9>>();
-      }
+    return with_degree<2>(cells.degree, [&](const auto degree) {
+      constexpr int n = degree + 1;
+      return std::unique_ptr<Kernel>(
+        std::make_unique<
+          MixedKernelOn<Hexahedra<Number, n>, HexahedralPressures<Number, n>>>(
+          cells));
+    });
   }
 
   template std::unique_ptr<MatrixFreeElasticity<double>::Kernel>
-  MatrixFreeElasticity<double>::make_mixed_kernel(unsigned int degree);
+  MatrixFreeElasticity<double>::make_mixed_kernel(const CellBatches<double> &);
 } // namespace mortise

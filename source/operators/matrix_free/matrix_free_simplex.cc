@@ -1,7 +1,8 @@
-// See matrix_free_simplex_kernel.h.
+// See simplex_tables.h.
 #include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/body/elements/simplex_quadrature.h>
-#include <mortise/operators/matrix_free/matrix_free_simplex_kernel.h>
+#include <mortise/operators/matrix_free/nonlinear_kernel_on.h>
+#include <mortise/operators/matrix_free/simplices.h>
 
 #include <cmath>
 #include <map>
@@ -142,26 +143,9 @@ namespace mortise
   MatrixFreeElasticity<Number>::make_simplex_kernel(
     const CellBatches<Number> &cells)
   {
-    switch (cells.degree)
-      {
-        case 1:
-          return std::make_unique<SimplexKernel<1>>(cells);
-        case 2:
-          return std::make_unique<SimplexKernel<2>>(cells);
-        case 3:
-          return std::make_unique<SimplexKernel<3>>(cells);
-        case 4:
-          return std::make_unique<SimplexKernel<4>>(cells);
-        case 5:
-          return std::make_unique<SimplexKernel<5>>(cells);
-        case 6:
-          return std::make_unique<SimplexKernel<6>>(cells);
-        case 7:
-          return std::make_unique<SimplexKernel<7>>(cells);
-        default:
-          AssertThrow(cells.degree == 8, ExcInternalError());
-          return std::make_unique<SimplexKernel<8>>(cells);
-      }
+    return with_degree<1>(cells.degree, [&](const auto degree) {
+      return make_kernel_on<Simplices<Number, degree>>(cells);
+    });
   }
 
   template std::unique_ptr<MatrixFreeElasticity<float>::Kernel>

@@ -3,12 +3,9 @@
 // tetrahedra. It never resolves constraints and never communicates.
 #pragma once
 
-#include <deal.II/base/aligned_vector.h>
-#include <deal.II/base/partitioner.h>
-
 #include <deal.II/lac/full_matrix.h>
 
-#include <mortise/body/spaces/nodal_space.h>
+#include <mortise/operators/matrix_free/cell_batches.h>
 
 #include <functional>
 #include <memory>
@@ -17,58 +14,27 @@
 
 namespace mortise
 {
-  /// The cells of one body and degree, computed several at once.
+  /// What points remember, by group of cells, [batch][point][number][lane]; of
+  /// linear laws nothing.
   template <typename Number>
-  struct CellBatches
-  {
-    bool         tetrahedra = false;
-    unsigned int degree     = 1;
-    /// Per cell; points only of cells with a Jacobian that varies.
-    unsigned int     n_nodes = 0, n_points = 0;
-    PointLaw<Number> law;
-    unsigned int     n_cells = 0;
-    /// Batches with constant Jacobians come first.
-    unsigned int n_affine = 0, n_batches = 0;
-    unsigned int n_affine_cells = 0;
-    /// [batch][node][lane]: index of the first component. Nodes of hexahedra
-    /// are lexicographic, those of tetrahedra in the order of simplex_nodes().
-    /// Lanes without a cell repeat the first and have no metric.
-    dealii::AlignedVector<unsigned int> nodes;
-    /// The same of the pressures in mixed form, of one degree less, else empty:
-    /// indices.
-    dealii::AlignedVector<unsigned int> pressure_nodes;
-    double compressibility = 0., pressure_norm = 0.;
-    /// dxi_a/dx_e sqrt(|J|) as [batch][a][e][lane] on affine cells; after these
-    /// dxi_a/dx_e sqrt(w |J|) as [batch][point][a][e][lane]. On tetrahedra xi
-    /// are the barycentric coordinates of the second to last ascending vertex,
-    /// or on curved ones those of simplex_rule().
-    dealii::AlignedVector<Number> metric;
-
-    /// Cells of a batch.
-    unsigned int
-    lanes(unsigned int batch) const;
-
-    const Number *
-    metric_of(unsigned int batch) const;
-  };
-
-  /// The pressures that belong to a space of displacements.
-  struct PressureNodes
-  {
-    const NodalSpace                          &space;
-    const dealii::Utilities::MPI::Partitioner &layout; ///< node n has index n
-  };
+  using PointHistory = std::vector<dealii::AlignedVector<Number>>;
 
   template <typename Number>
   class MatrixFreeElasticity
   {
   public:
+    using LawOfBody =
+      std::function<std::shared_ptr<const NonlinearLaw<Number>>(const Body &)>;
+
     /// @p layout: where the components 3 n + c of node n stand in vectors; owned
     /// and relevant ones; @p pressures: what the products in mixed form need.
+    /// @p laws: null for bodies whose law is linear, and for all of them if none
+    /// is given; K is the tangent of others where they were last linearised.
     /// Collective; throws InputError for a tangled cell.
     MatrixFreeElasticity(const NodalSpace                          &space,
                          const dealii::Utilities::MPI::Partitioner &layout,
-                         const PressureNodes *pressures = nullptr);
+                         const PressureNodes *pressures = nullptr,
+                         const LawOfBody     &laws      = {});
     ~MatrixFreeElasticity();
 
     /// dst += K src, both local with ghost entries, contributions of owned
@@ -79,6 +45,23 @@ namespace mortise
     /// dst += diag(K), as above.
     void
     add_diagonal(Number *dst) const;
+
+    /// History of points that nothing happened to.
+    PointHistory<Number>
+    no_history() const;
+
+    /// dst += f(u), the internal force f_i = int sigma : grad N_i with the
+    /// stress of u after @p before; K u of linear laws. @p after: the history up
+    /// to u, as large as @p before.
+    void
+    add_residual(const Number               *u,
+                 const PointHistory<Number> &before,
+                 PointHistory<Number>       &after,
+                 Number                     *dst) const;
+
+    /// Has K = df/du at u from here on.
+    void
+    linearise(const Number *u, const PointHistory<Number> &before);
 
     /// Of displacements and pressures; the same vector may not stand twice.
     struct Fields
@@ -153,16 +136,13 @@ namespace mortise
     }
 
   private:
-    class Kernel;      ///< of one degree
-    class MixedKernel; ///< what it can do besides in mixed form
-    template <int n>
-    class KernelOfSize;
-    template <int n>
-    class MixedKernelOfSize;
-    template <int degree>
-    class SimplexKernel;
-    template <int degree>
-    class MixedSimplexKernel;
+    class Kernel; ///< of one degree
+    template <typename Shape>
+    class KernelOn;
+    template <typename Shape>
+    class NonlinearKernelOn;
+    template <typename Shape, typename Pressures>
+    class MixedKernelOn;
 
     /// Of all lanes of a batch of group @p g.
     std::vector<CellMatrix>
@@ -178,10 +158,13 @@ namespace mortise
                        unsigned int                      batch,
                        const std::vector<CellFunctions> &functions) const;
 
+    template <typename Shape>
     static std::unique_ptr<Kernel>
-    make_kernel(unsigned int degree);
+    make_kernel_on(const CellBatches<Number> &cells);
     static std::unique_ptr<Kernel>
-    make_mixed_kernel(unsigned int degree);
+    make_kernel(const CellBatches<Number> &cells);
+    static std::unique_ptr<Kernel>
+    make_mixed_kernel(const CellBatches<Number> &cells);
     static std::unique_ptr<Kernel>
     make_simplex_kernel(const CellBatches<Number> &cells);
     static std::unique_ptr<Kernel>
@@ -189,6 +172,5 @@ namespace mortise
 
     std::vector<CellBatches<Number>>     groups;
     std::vector<std::unique_ptr<Kernel>> kernels; ///< by group
-    std::vector<MixedKernel *>           mixed;   ///< the same ones, or null
   };
 } // namespace mortise

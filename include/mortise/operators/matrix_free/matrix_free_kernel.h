@@ -4,26 +4,10 @@
 
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>
 
+#include <type_traits>
+
 namespace mortise
 {
-  /// Least degree on tetrahedra at which sum factorisation beats dense matrices
-  /// on curved cells; where deal.II's symmetric rules end.
-  constexpr unsigned int sum_factorised_from = 6;
-
-  /// The points of curved tetrahedra: exact up to twice the degree, so that of
-  /// stiffness_quadrature(); in single precision, which serves preconditioners
-  /// alone, one degree less where sum factorisation does not need more, still
-  /// exact on affine cells.
-  template <typename Number>
-  dealii::Quadrature<dim>
-  simplex_rule(unsigned int degree);
-
-  /// The coordinates that the kernel of simplex_rule() differentiates along:
-  /// dx_b/dy_a as [a][b] at the point @p x of the reference tetrahedron, y being
-  /// the collapsed ones (CollapsedKernel) or x themselves.
-  dealii::Tensor<2, dim>
-  simplex_rule_jacobian(unsigned int degree, const dealii::Point<dim> &x);
-
   template <typename Number>
   class MatrixFreeElasticity<Number>::Kernel
   {
@@ -35,27 +19,53 @@ namespace mortise
                 Number                    *dst) = 0;
     virtual void
     add_diagonal(const CellBatches<Number> &cells, Number *dst) = 0;
-  };
 
-  template <typename Number>
-  class MatrixFreeElasticity<Number>::MixedKernel
-  {
-  public:
-    virtual ~MixedKernel() = default;
+    /// Of linear laws, unless the kernel has others.
+    virtual void
+    add_residual(const CellBatches<Number> &cells,
+                 const Number              *u,
+                 const Number *,
+                 Number *,
+                 Number *dst)
+    {
+      add_product(cells, u, dst);
+    }
+
+    virtual void
+    linearise(CellBatches<Number> &, const Number *, const Number *)
+    {}
+
+    /// Of displacements alone, unless the kernel has pressures.
     virtual void
     add_mixed_product(const CellBatches<Number> &cells,
                       const Fields              &src,
-                      const Fields              &dst) = 0;
+                      const Fields              &dst)
+    {
+      add_product(cells, src.displacement, dst.displacement);
+    }
+
     virtual void
-    add_pressure_force(const CellBatches<Number> &cells,
-                       const Number              *p,
-                       Number                    *dst) = 0;
+    add_pressure_force(const CellBatches<Number> &, const Number *, Number *)
+    {}
+
     virtual void
-    add_pressure_norm(const CellBatches<Number> &cells,
-                      const Number              *p,
-                      Number                    *dst) = 0;
+    add_pressure_norm(const CellBatches<Number> &, const Number *, Number *)
+    {}
+
     virtual void
-    add_pressure_norm_diagonal(const CellBatches<Number> &cells,
-                               Number                    *dst) = 0;
+    add_pressure_norm_diagonal(const CellBatches<Number> &, Number *)
+    {}
   };
+
+  /// make(degree), the degree as a constant from @p first to max_degree.
+  template <int first, typename Make>
+  auto
+  with_degree(const unsigned int degree, const Make &make)
+  {
+    if constexpr (first < max_degree)
+      if (degree != first)
+        return with_degree<first + 1>(degree, make);
+    AssertThrow(degree == first, dealii::ExcInternalError());
+    return make(std::integral_constant<int, first>());
+  }
 } // namespace mortise

@@ -3,6 +3,7 @@
 // kernels include it.
 #pragma once
 
+#include <mortise/base/batch.h>
 #include <mortise/material/law.h>
 
 namespace mortise
@@ -47,23 +48,75 @@ namespace mortise
           s[c][0] * G[a][0] + s[c][1] * G[a][1] + s[c][2] * G[a][2];
   }
 
-  /// What the component c of a function alone contributes to its diagonal by
-  /// its derivatives with respect to xi_i and xi_j, both terms for i != j:
-  /// sum_ef C_cecf G_ie G_jf, @p G as the rows of the metric.
-  template <typename Law, typename V>
-  inline __attribute__((always_inline)) V
-  diagonal_coefficient(const Law         &law,
-                       const unsigned int c,
-                       const unsigned int i,
-                       const unsigned int j,
-                       const V           *G)
+  /// A tangent at one point, see NonlinearLaw::tangent().
+  template <typename Number>
+  struct TangentLaw
   {
-    V h[3][3] = {}, s[3][3];
-    for (unsigned int e = 0; e < 3; ++e)
-      h[c][e] = G[3 * i + e];
-    law.tangent(Undeformed(), h, s);
-    const V sum =
-      s[c][0] * G[3 * j] + s[c][1] * G[3 * j + 1] + s[c][2] * G[3 * j + 2];
-    return i == j ? sum : sum + sum;
+    const typename Batch<Number>::Vector *moduli;
+
+    template <typename State, typename V>
+    inline __attribute__((always_inline)) void
+    tangent(const State &, const V (&h)[3][3], V (&s)[3][3]) const
+    {
+      const V  strain[6] = {h[0][0],
+                            h[1][1],
+                            h[2][2],
+                            h[1][2] + h[2][1],
+                            h[2][0] + h[0][2],
+                            h[0][1] + h[1][0]};
+      V        sum[6]    = {};
+      unsigned k         = 0;
+#pragma GCC unroll 6
+      for (unsigned int i = 0; i < 6; ++i)
+#pragma GCC unroll 6
+        for (unsigned int j = i; j < 6; ++j, ++k)
+          {
+            sum[i] += moduli[k] * strain[j];
+            if (j > i)
+              sum[j] += moduli[k] * strain[i];
+          }
+      for (unsigned int c = 0; c < 3; ++c)
+        {
+          const unsigned int a = (c + 1) % 3, b = (c + 2) % 3;
+          s[c][c] = sum[c];
+          s[a][b] = s[b][a] = sum[3 + c];
+        }
+    }
+  };
+
+  /// det(G) of a metric.
+  template <typename V>
+  inline __attribute__((always_inline)) V
+  determinant_of(const V (&G)[3][3])
+  {
+    return G[0][0] * (G[1][1] * G[2][2] - G[1][2] * G[2][1]) -
+           G[0][1] * (G[1][0] * G[2][2] - G[1][2] * G[2][0]) +
+           G[0][2] * (G[1][0] * G[2][1] - G[1][1] * G[2][0]);
+  }
+
+  /// What the components of a function alone contribute to its diagonal by its
+  /// derivatives with respect to xi_i and xi_j, i <= j, both terms for i != j:
+  /// sum_ef C_cecf G_ie G_jf at (6 c + (i, j)) stride.
+  template <typename Law, typename V>
+  __attribute__((noinline)) void
+  diagonal_coefficients(const Law &law,
+                        const V (&G)[3][3],
+                        const int stride,
+                        V        *result)
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          V h[3][3] = {}, s[3][3];
+          for (unsigned int e = 0; e < 3; ++e)
+            h[c][e] = G[i][e];
+          law.tangent(Undeformed(), h, s);
+          for (unsigned int j = i; j < 3; ++j, result += stride)
+            {
+              const V sum =
+                s[c][0] * G[j][0] + s[c][1] * G[j][1] + s[c][2] * G[j][2];
+              *result = i == j ? sum : sum + sum;
+            }
+        }
   }
 } // namespace mortise

@@ -4,22 +4,13 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <mortise/base/register_width.h>
+#include <mortise/base/batch.h>
 
 #include <array>
 #include <cstring>
 
 namespace mortise
 {
-  /// As many numbers as the processor computes together.
-  template <typename Number>
-  struct Batch
-  {
-    static constexpr unsigned int size = register_width / sizeof(Number);
-    typedef Number                Vector
-      __attribute__((vector_size(register_width), may_alias));
-  };
-
   /// The least number not below @p n that fills whole batches.
   template <typename Number>
   constexpr std::size_t

@@ -1,0 +1,194 @@
+// The kernels behind MatrixFreeElasticity, for any shape of cells: what is done
+// with the values at the points. Only sources of kernels include this.
+//
+// A shape of one degree (Hexahedra, Simplices) has
+//
+//     n_nodes, max_points()       of a cell
+//     evaluate(affine, u, g)      gradients with respect to xi at all points,
+//     as
+//                                 g[3 c + a][point], from values u[c][node],
+//                                 which may be overwritten
+//     integrate(affine, g, u)     its transpose
+//     n_points(affine)            affine: std::true_type or std::false_type
+//     get_metric(affine, metric, q, G)   sqrt(w |J|) dxi_a/dx_e as G[a][e] at
+//                                 point q > 0 after that at q - 1
+//     root(affine, G, q)          sqrt(w |J|)
+//     Squares                     made of it, with apply(affine, a, u): u[c][k]
+//                                 = sum_q a[c][(i, j)][q] dN_k/dxi_i
+//                                 dN_k/dxi_j, i <= j; a may be overwritten
+#pragma once
+
+#include <mortise/operators/matrix_free/matrix_free_kernel.h>
+#include <mortise/operators/matrix_free/node_access.h>
+#include <mortise/operators/matrix_free/point_kernel.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  template <typename Number>
+  template <typename Shape>
+  class MatrixFreeElasticity<Number>::KernelOn
+    : public MatrixFreeElasticity<Number>::Kernel
+  {
+  public:
+    using V                = typename Batch<Number>::Vector;
+    static constexpr int N = Shape::n_nodes;
+
+    explicit KernelOn(const CellBatches<Number> &cells)
+      : shape(cells)
+      , scratch(dim * (N + dim * shape.max_points()) * Batch<Number>::size)
+    {}
+
+    void
+    add_product(const CellBatches<Number> &cells,
+                const Number              *src,
+                Number                    *dst) override
+    {
+      multiply(*this, cells, src, dst);
+    }
+
+    void
+    add_diagonal(const CellBatches<Number> &cells, Number *dst) override
+    {
+      sum_diagonal(*this, cells, dst);
+    }
+
+    /// visit(law, affine, number of points, point, metric).
+    template <typename Visit>
+    void
+    at_laws(const CellBatches<Number> &cells,
+            const unsigned int         batch,
+            const Visit               &visit) const
+    {
+      std::visit(
+        [&](const auto law) {
+          at_points(cells,
+                    batch,
+                    [=](const auto affine, const auto n, const int q, auto &G) {
+                      visit(law, affine, n, q, G);
+                    });
+        },
+        cells.law);
+    }
+
+  protected:
+    /// The product with the tangents of self.at_laws().
+    template <typename Self>
+    void
+    multiply(const Self                &self,
+             const CellBatches<Number> &cells,
+             const Number              *src,
+             Number                    *dst)
+    {
+      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+        {
+          V *g = gradients(cells, batch, src);
+          self.at_laws(
+            cells,
+            batch,
+            [=](const auto &law, auto, const auto n, const int q, auto &G) {
+              V h[dim][dim], s[dim][dim];
+              gradient_at(g + q, n, G, h);
+              law.tangent(Undeformed(), h, s);
+              set_stress(s, G, n, g + q);
+            });
+          add_forces(cells, batch, dst);
+        }
+    }
+
+    template <typename Self>
+    void
+    sum_diagonal(const Self                &self,
+                 const CellBatches<Number> &cells,
+                 Number                    *dst)
+    {
+      constexpr unsigned int        n_pairs = 6; // of axes
+      const typename Shape::Squares squares(shape);
+      dealii::AlignedVector<Number> room(
+        std::size_t(dim * n_pairs) * shape.max_points() * Batch<Number>::size);
+      V *a        = reinterpret_cast<V *>(room.data()),
+        *diagonal = reinterpret_cast<V *>(scratch.data());
+      for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
+        {
+          self.at_laws(
+            cells,
+            batch,
+            [=](const auto &law, auto, const auto n, const int q, auto &G) {
+              diagonal_coefficients(law, G, n, a + q);
+            });
+          squares.apply(batch < cells.n_affine, a, diagonal);
+          scatter_add<N>(diagonal, nodes_of(cells, batch), dst);
+        }
+    }
+
+    static const unsigned int *
+    nodes_of(const CellBatches<Number> &cells, const unsigned int batch)
+    {
+      return &cells.nodes[std::size_t(batch) * N * Batch<Number>::size];
+    }
+
+    /// Where gradients are, or what is tested with those of v.
+    V *
+    gradients()
+    {
+      return reinterpret_cast<V *>(scratch.data()) + dim * N;
+    }
+
+    V *
+    gradients(const CellBatches<Number> &cells,
+              const unsigned int         batch,
+              const Number              *src)
+    {
+      V *u = reinterpret_cast<V *>(scratch.data());
+      gather<N>(src, nodes_of(cells, batch), u);
+      shape.evaluate(batch < cells.n_affine, u, gradients());
+      return gradients();
+    }
+
+    /// From where gradients are.
+    void
+    add_forces(const CellBatches<Number> &cells,
+               const unsigned int         batch,
+               Number                    *dst)
+    {
+      V *u = reinterpret_cast<V *>(scratch.data());
+      shape.integrate(batch < cells.n_affine, gradients(), u);
+      scatter_add<N>(u, nodes_of(cells, batch), dst);
+    }
+
+    /// visit(affine, number of points, point, metric); passed by value, so that
+    /// what it holds stays in registers.
+    template <typename Visit>
+    void
+    at_points(const CellBatches<Number> &cells,
+              const unsigned int         batch,
+              const Visit               &visit) const
+    {
+      if (batch < cells.n_affine)
+        at_points(std::true_type(), cells, batch, visit);
+      else
+        at_points(std::false_type(), cells, batch, visit);
+    }
+
+    template <bool affine, typename Visit>
+    __attribute__((noinline)) void
+    at_points(const std::bool_constant<affine> is_affine,
+              const CellBatches<Number>       &cells,
+              const unsigned int               batch,
+              const Visit                      visit) const
+    {
+      const V   *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      const auto n      = shape.n_points(is_affine);
+      V          G[dim][dim];
+      for (int q = 0; q < n; ++q)
+        {
+          shape.get_metric(is_affine, metric, q, G);
+          visit(is_affine, n, q, G);
+        }
+    }
+
+    Shape                         shape;
+    dealii::AlignedVector<Number> scratch; ///< values at nodes, gradients
+  };
+} // namespace mortise

@@ -1,0 +1,377 @@
+// Proves the seam of laws that are not linear, on affine and curved hexahedra
+// and tetrahedra: Hooke's and an orthotropic law give the internal force, the
+// product and the diagonal of the kernels for linear laws; of a law that is
+// cubic in the strain and hardens, the product with the tangent is the
+// derivative of the internal force by differences, which are exact for it, and
+// symmetric, and the matrices of cells and the diagonal are those of the
+// product; histories belong to their points. The same on every number of ranks.
+#include <deal.II/lac/la_parallel_vector.h>
+
+#include <mortise/operators/matrix_free/matrix_free_elasticity.h>
+
+#include <cmath>
+
+#include "../scenes/scene.h"
+
+namespace mortise::testing
+{
+  using namespace dealii;
+
+  using Law = NonlinearLaw<double>;
+  using V   = Law::V;
+
+  /// One of the laws that kernels are compiled for.
+  class LinearLaw : public Law
+  {
+  public:
+    explicit LinearLaw(const Material &material)
+      : law(material.displacement_law())
+    {}
+
+    unsigned int
+    n_history() const override
+    {
+      return 0;
+    }
+
+    void
+    stress(const V (&h)[3][3], const V *, V *, V (&s)[3][3]) const override
+    {
+      std::visit([&](const auto &any) { any.stress(h, s); }, law);
+    }
+
+    void
+    tangent(const V (&)[3][3], const V *, V *C) const override
+    {
+      const Moduli moduli =
+        std::visit([](const auto &any) { return mortise::moduli(any); }, law);
+      constexpr unsigned int index[6][2] = {
+        {0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}};
+      for (unsigned int i = 0; i < 6; ++i)
+        for (unsigned int j = i; j < 6; ++j)
+          *C++ =
+            V{} + moduli[index[i][0]][index[i][1]][index[j][0]][index[j][1]];
+    }
+
+  private:
+    const PointLaw<double> law;
+  };
+
+  /// s = lambda tr(e) I + 2 (1 + beta e:e + alpha) e with the strain e, after
+  /// which alpha is larger by e:e.
+  class CubicLaw : public Law
+  {
+  public:
+    explicit CubicLaw(const double beta)
+      : beta(beta)
+    {}
+
+    unsigned int
+    n_history() const override
+    {
+      return 1;
+    }
+
+    void
+    stress(const V (&h)[3][3],
+           const V *before,
+           V       *after,
+           V (&s)[3][3]) const override
+    {
+      V e[3][3], square = {};
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            e[c][d] = (h[c][d] + h[d][c]) / 2.;
+            square += e[c][d] * e[c][d];
+          }
+      for (unsigned int c = 0; c < 3; ++c)
+        for (unsigned int d = 0; d < 3; ++d)
+          s[c][d] = 2. * (1. + beta * square + before[0]) * e[c][d];
+      for (unsigned int c = 0; c < 3; ++c)
+        s[c][c] += lambda * (h[0][0] + h[1][1] + h[2][2]);
+      after[0] = before[0] + square;
+    }
+
+    void
+    tangent(const V (&h)[3][3], const V *before, V *C) const override
+    {
+      const V e[6]   = {h[0][0],
+                        h[1][1],
+                        h[2][2],
+                        (h[1][2] + h[2][1]) / 2.,
+                        (h[2][0] + h[0][2]) / 2.,
+                        (h[0][1] + h[1][0]) / 2.};
+      V       square = {};
+      for (unsigned int i = 0; i < 6; ++i)
+        square += (i < 3 ? 1. : 2.) * e[i] * e[i];
+      for (unsigned int i = 0; i < 6; ++i)
+        for (unsigned int j = i; j < 6; ++j, ++C)
+          {
+            *C = 4. * beta * e[i] * e[j];
+            if (j < 3)
+              *C += lambda;
+            if (i == j)
+              *C += (i < 3 ? 2. : 1.) * (1. + beta * square + before[0]);
+          }
+    }
+
+  private:
+    static constexpr double lambda = 1.5;
+    const double            beta;
+  };
+
+  using Field = LinearAlgebra::distributed::Vector<double>;
+
+  struct Scene
+  {
+    Scene(const std::string &kind, const unsigned int degree, const Material &m)
+      : body("body", 0, m)
+    {
+      MeshParameters mesh;
+      if (kind.find("tetrahedra") != std::string::npos)
+        mesh.cells = "tetrahedra";
+      if (kind.find("curved") == 0)
+        {
+          mesh.source       = "shell octant";
+          mesh.extent       = {1., 2.};
+          mesh.subdivisions = {1, 1};
+        }
+      else
+        {
+          mesh.source       = "box";
+          mesh.extent       = {0., 0., 0., 1., 2., 3.};
+          mesh.subdivisions = {3, 1, 1};
+          mesh.rotate       = {{20., 30., 40.}};
+        }
+      body.create_mesh(mesh, MPI_COMM_WORLD, "");
+      body.create_space(degree, {}, "");
+      space = std::make_unique<NodalSpace>(
+        std::vector<const Body *>{&body},
+        [](const Body &, const unsigned int p) { return p; },
+        MPI_COMM_WORLD);
+      layout = std::make_shared<const Utilities::MPI::Partitioner>(
+        displacement_indices(space->owned_nodes()),
+        displacement_indices(space->relevant_nodes()),
+        MPI_COMM_WORLD);
+    }
+
+    MatrixFreeElasticity<double>
+    stiffness(const std::shared_ptr<const Law> &law = nullptr) const
+    {
+      return {*space, *layout, nullptr, [&](const Body &) { return law; }};
+    }
+
+    Field
+    random_field(const unsigned int seed) const
+    {
+      Field result(layout);
+      for (const auto i : layout->locally_owned_range())
+        {
+          const double x =
+            std::sin(12.9898 * (i + 1.) + 78.233 * seed) * 43758.5;
+          result(i) = 0.1 * (x - std::floor(x) - 0.5);
+        }
+      result.update_ghost_values();
+      return result;
+    }
+
+    Body                                               body;
+    std::unique_ptr<NodalSpace>                        space;
+    std::shared_ptr<const Utilities::MPI::Partitioner> layout;
+  };
+
+  using Operator = MatrixFreeElasticity<double>;
+  using History  = PointHistory<double>;
+
+  template <typename Add>
+  Field
+  sum_of(const Scene &scene, const Add &add)
+  {
+    Field result(scene.layout);
+    add(result.begin());
+    result.compress(VectorOperation::add);
+    return result;
+  }
+
+  Field
+  product(const Scene &scene, const Operator &K, const Field &u)
+  {
+    return sum_of(scene, [&](double *dst) { K.add_product(u.begin(), dst); });
+  }
+
+  Field
+  diagonal(const Scene &scene, const Operator &K)
+  {
+    return sum_of(scene, [&](double *dst) { K.add_diagonal(dst); });
+  }
+
+  struct Response
+  {
+    Field   force;
+    History after;
+  };
+
+  Response
+  respond(const Scene    &scene,
+          const Operator &K,
+          const Field    &u,
+          const History  &before)
+  {
+    History after = before;
+    Field   force = sum_of(scene, [&](double *dst) {
+      K.add_residual(u.begin(), before, after, dst);
+    });
+    return {force, after};
+  }
+
+  double
+  difference(Field a, const Field &b)
+  {
+    a.zero_out_ghost_values();
+    a -= b;
+    return a.l2_norm() / b.l2_norm();
+  }
+
+  void
+  check_linear(const std::string &name,
+               const std::string &kind,
+               const unsigned int p,
+               const Material    &material)
+  {
+    const Scene    scene(kind, p, material);
+    const Field    u      = scene.random_field(1);
+    const Operator linear = scene.stiffness();
+    Operator       K = scene.stiffness(std::make_shared<LinearLaw>(material));
+    const History  none = K.no_history();
+    K.linearise(u.begin(), none);
+    const Field expected = product(scene, linear, u);
+    verdict(name + ", force",
+            difference(respond(scene, K, u, none).force, expected),
+            1e-12);
+    verdict(name + ", product",
+            difference(product(scene, K, u), expected),
+            1e-12);
+    verdict(name + ", diagonal",
+            difference(diagonal(scene, K), diagonal(scene, linear)),
+            1e-12);
+    verdict(name + ", force by the linear kernel",
+            difference(respond(scene, linear, u, linear.no_history()).force,
+                       expected),
+            1e-15);
+  }
+
+  /// df(u)/du w, exact for forces that are cubic in u.
+  Field
+  derivative(const Scene    &scene,
+             const Operator &K,
+             const Field    &u,
+             const Field    &w,
+             const History  &before)
+  {
+    const auto central = [&](const double step) {
+      Field up = u, down = u;
+      for (const auto &[at, sign] : {std::pair(&up, 1.), std::pair(&down, -1.)})
+        {
+          at->zero_out_ghost_values();
+          at->add(sign * step, w);
+          at->update_ghost_values();
+        }
+      Field result = respond(scene, K, up, before).force;
+      result -= respond(scene, K, down, before).force;
+      result /= 2. * step;
+      return result;
+    };
+    Field result = central(0.5);
+    result *= 4. / 3.;
+    result.add(-1. / 3., central(1.));
+    return result;
+  }
+
+  /// w.Kw by the matrices of cells.
+  double
+  by_matrices(const Operator &K, const Field &w)
+  {
+    double sum = 0.;
+    K.for_each_cell_matrix([](const Operator::Cell &) { return true; },
+                           [&](const Operator::Cell       &cell,
+                               const Operator::CellMatrix &matrix) {
+                             const auto &at = cell.displacements;
+                             for (unsigned int i = 0; i < at.size(); ++i)
+                               for (unsigned int j = 0; j < at.size(); ++j)
+                                 sum += w.local_element(at[i]) *
+                                        matrix.mixed(i, j) *
+                                        w.local_element(at[j]);
+                           });
+    return Utilities::MPI::sum(sum, MPI_COMM_WORLD);
+  }
+
+  void
+  check_cubic(const std::string &name,
+              const std::string &kind,
+              const unsigned int p)
+  {
+    const Scene scene(kind, p, LinearElastic());
+    const Field u = scene.random_field(1), v = scene.random_field(2),
+                w = scene.random_field(3);
+    Operator K    = scene.stiffness(std::make_shared<CubicLaw>(2.));
+    // the strains of another field, at the same points
+    const History before = respond(scene, K, v, K.no_history()).after;
+    K.linearise(u.begin(), before);
+    const Field of_w = product(scene, K, w), of_v = product(scene, K, v);
+    verdict(name + ", tangent by differences",
+            difference(derivative(scene, K, u, w, before), of_w),
+            1e-11);
+    verdict(name + ", tangent symmetric",
+            std::fabs(of_w * v / (of_v * w) - 1.),
+            1e-10);
+    verdict(name + ", matrices of cells",
+            std::fabs(by_matrices(K, w) / (of_w * w) - 1.),
+            1e-11);
+    const Field of_u  = diagonal(scene, K);
+    double      worst = 0.;
+    for (types::global_dof_index i = 0; i < of_u.size();
+         i += of_u.size() / 7 + 1)
+      {
+        Field unit(scene.layout);
+        if (unit.in_local_range(i))
+          unit(i) = 1.;
+        unit.update_ghost_values();
+        const Field column = product(scene, K, unit);
+        if (unit.in_local_range(i))
+          worst = std::max(worst, std::fabs(column(i) / of_u(i) - 1.));
+      }
+    verdict(name + ", diagonal",
+            Utilities::MPI::max(worst, MPI_COMM_WORLD),
+            1e-11);
+    // hardening by the strain of the same points adds to beta
+    const Operator more = scene.stiffness(std::make_shared<CubicLaw>(3.));
+    const History  own  = respond(scene, K, u, K.no_history()).after;
+    verdict(name + ", history",
+            difference(respond(scene, K, u, own).force,
+                       respond(scene, more, u, more.no_history()).force),
+            1e-13);
+  }
+} // namespace mortise::testing
+
+int
+main(int argc, char **argv)
+{
+  using namespace mortise::testing;
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const mortise::Orthotropic               wood{{{10., 1., 0.5}},
+                                                {{0.35, 0.6, 0.02}},
+                                                {{0.7, 0.05, 0.8}},
+                                                {{20., -35., 70.}}};
+  for (const std::string kind : {"affine hexahedra",
+                                 "curved hexahedra",
+                                 "affine tetrahedra",
+                                 "curved tetrahedra"})
+    for (const unsigned int p : {1, 2, 3, 6})
+      {
+        const std::string name = kind + ", p = " + std::to_string(p) + ": ";
+        check_linear(name + "Hooke", kind, p, mortise::LinearElastic{2., 0.3});
+        check_linear(name + "orthotropic", kind, p, wood);
+        check_cubic(name + "cubic", kind, p);
+      }
+}
