@@ -14,7 +14,7 @@ namespace mortise
   constexpr unsigned int sum_factorised_from = 6;
 
   /// The points of curved tetrahedra: exact up to twice the degree, see
-  /// doc/tuning.md; in single precision, which serves preconditioners
+  /// doc/measurements/tuning.md; in single precision, which serves preconditioners
   /// alone, one degree less where sum factorisation does not need more, still
   /// exact on affine cells.
   template <typename Number>
