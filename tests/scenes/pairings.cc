@@ -10,17 +10,17 @@ using namespace mortise::testing;
 
 namespace
 {
-  struct Pairing
+  struct MeshPair
   {
     std::string slave, master;
   };
 
-  const std::vector<Pairing> pairings = {{"tetrahedra", "tetrahedra"},
-                                         {"tetrahedra", "hexahedra"},
-                                         {"hexahedra", "tetrahedra"}};
+  const std::vector<MeshPair> pairings = {{"tetrahedra", "tetrahedra"},
+                                          {"tetrahedra", "hexahedra"},
+                                          {"hexahedra", "tetrahedra"}};
 
   std::string
-  name(const Pairing &pairing)
+  name(const MeshPair &pairing)
   {
     return pairing.slave + " on " + pairing.master;
   }
@@ -28,7 +28,7 @@ namespace
   Settings
   cells(const std::string &slave_body,
         const std::string &master_body,
-        const Pairing     &pairing,
+        const MeshPair    &pairing,
         const unsigned int p_slave,
         const unsigned int p_master)
   {
@@ -67,7 +67,7 @@ namespace
   void
   check_patches()
   {
-    for (const Pairing &pairing : pairings)
+    for (const MeshPair &pairing : pairings)
       {
         for (unsigned int p = 1; p <= 6; ++p)
           check_patch(name(pairing) + ", degree " + std::to_string(p),
@@ -119,7 +119,7 @@ namespace
   }
 
   ErrorSummary
-  sphere_errors(const Pairing     &pairing,
+  sphere_errors(const MeshPair    &pairing,
                 const unsigned int p,
                 const unsigned int n)
   {
@@ -136,7 +136,9 @@ namespace
   }
 
   ErrorSummary
-  rim_errors(const Pairing &pairing, const unsigned int p, const unsigned int n)
+  rim_errors(const MeshPair    &pairing,
+             const unsigned int p,
+             const unsigned int n)
   {
     const std::string height = std::to_string(n / 2);
     const auto        across = [&](const unsigned int m) {
@@ -183,7 +185,7 @@ main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_patches();
-  for (const Pairing &pairing : pairings)
+  for (const MeshPair &pairing : pairings)
     {
       for (const unsigned int p : {1, 2, 3})
         {
