@@ -64,6 +64,8 @@ namespace mortise
             const double reached = residual.norm(all_r);
             if (!first && options.monitor)
               options.monitor(report.iterations, reached / rhs_norm);
+            if (!std::isfinite(reached))
+              break;
             precondition();
             const double rho = r * z; // estimates the energy of the error
             if (reached <= target &&

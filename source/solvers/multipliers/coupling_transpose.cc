@@ -18,8 +18,9 @@ namespace mortise
         for (unsigned int c = 0; c < dim; ++c)
           for (int i = 0; i < shared.n_rows && shared.first_row[c] >= 0; ++i)
             {
-              const auto    row  = scalar.global_row(shared.first_row[c] + i);
-              const double *from = &shared.values[i * shared.nodes.size()];
+              const auto    row = scalar.global_row(shared.first_row[c] + i);
+              const double *from =
+                shared.values.data() + i * shared.nodes.size();
               for (unsigned int k = 0; k < shared.nodes.size(); ++k)
                 if (const int displacement =
                       B.displacements[dim * shared.nodes[k] + c];
@@ -40,7 +41,7 @@ namespace mortise
     for (const int displacement : B.displacements)
       if (displacement >= 0)
         wanted.push_back(displacement);
-    const auto                       rows = transposed.fetch(wanted);
+    const auto rows = transposed.fetch(wanted);
     // those in front of the owned ones wrap around
     std::vector<SparseMatrix::Index> others;
     for (const auto column : rows.columns)

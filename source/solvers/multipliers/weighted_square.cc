@@ -112,7 +112,7 @@ namespace mortise
       double *
       values(const unsigned int e, const int node, const unsigned int component)
       {
-        return &result.values[begin[e]] +
+        return result.values.data() + begin[e] +
                (node - entities[e].first) * stride(e) +
                (alike[e] ? 0 : component * patterns[e].size());
       }
@@ -210,7 +210,7 @@ namespace mortise
             while (k < width && row_of(k) == r + k - first &&
                    transposed.group_of[r + k - first] == transposed.group_of[r])
               ++k;
-            const int *nodes   = &transposed.nodes[transposed.begin[r]];
+            const int *nodes   = transposed.nodes.data() + transposed.begin[r];
             const int  n_nodes = transposed.begin[r + 1] - transposed.begin[r];
             const int  skipped =
               std::lower_bound(nodes, nodes + n_nodes, entities[e].first) -
@@ -225,7 +225,7 @@ namespace mortise
                       n,
                       k - first,
                       1.,
-                      &transposed.values[transposed.begin[r]] + skipped,
+                      transposed.values.data() + transposed.begin[r] + skipped,
                       n_nodes,
                       shared.values.data() + first,
                       width,
