@@ -66,13 +66,14 @@ namespace mortise
     return solution;
   }
 
-  State
+  SolvedState
   SceneSolver::solve(const SceneData                 &data,
                      const std::vector<BodySolution> &start,
                      SceneLoad                       &load)
   {
-    State        next;
-    SolveReport &report = last_report;
+    SolvedState  result;
+    State       &next   = result.state;
+    SolveReport &report = result.report;
     preloads.begin(data, load);
     if (contact)
       report = contact->solve(load, next.solution);
@@ -111,17 +112,18 @@ namespace mortise
     if (contact)
       next.pressing = contact->active_places();
     next.shortenings = preloads.shortenings_by_interface();
-    return next;
+    return result;
   }
 
   void
-  SceneSolver::summarise(const SystemVector &solution,
+  SceneSolver::summarise(const SolveReport  &report,
+                         const SystemVector &solution,
                          StepSummary        &summary) const
   {
-    summary.solver = {last_report.method,
-                      last_report.preconditioner,
-                      last_report.iterations,
-                      last_report.relative_residual,
+    summary.solver = {report.method,
+                      report.preconditioner,
+                      report.iterations,
+                      report.relative_residual,
                       {},
                       {}};
     if (contact)

@@ -124,7 +124,7 @@ namespace mortise
     if (adaptivity)
       result.cycle = adaptivity->n_cycles() - 1;
     evaluate_step(evaluation, result);
-    equations->summarise(state.solution, result);
+    equations->summarise(report, state.solution, result);
     if (adaptivity)
       result.adaptivity = summary_of(*adaptivity,
                                      bodies,
@@ -146,7 +146,7 @@ namespace mortise
   {
     std::optional<SceneData>        data;
     std::optional<SceneLoad>        load;
-    State                           next;
+    SolvedState                     next;
     const std::vector<BodySolution> none;
     do
       {
@@ -158,14 +158,14 @@ namespace mortise
         load = equations->discretisation.load(*data);
         field_checks.throw_if_any(context.comm);
         check_loads(load->rhs);
-        next      = equations->solve(*data,
+        next = equations->solve(*data,
                                 adaptivity ? adaptivity->start(bodies) : none,
                                 *load);
-        next.time = steps.next();
-        report    = equations->report();
       }
-    while (!report.converged && steps.halve());
-    state = std::move(next);
+    while (!next.report.converged && steps.halve());
+    report     = std::move(next.report);
+    state      = std::move(next.state);
+    state.time = steps.next();
     const StepEvaluation evaluation(context,
                                     equations->discretisation,
                                     {*data,

@@ -44,11 +44,7 @@ namespace mortise
   void
   LinearSolver::update()
   {
-    selects = system.active.has_value();
-    update([this] {
-      residual = std::make_unique<ScaledResidual>(system);
-      return set_up();
-    });
+    update_numbers([this] { return set_up(); });
   }
 
   void
@@ -63,12 +59,16 @@ namespace mortise
   void
   LinearSolver::update_interfaces()
   {
-    if (!valid)
-      return update();
+    update_numbers([this] { return valid ? set_up_interfaces() : set_up(); });
+  }
+
+  void
+  LinearSolver::update_numbers(const std::function<bool()> &set_up_part)
+  {
     selects = system.active.has_value();
-    update([this] {
+    update([&] {
       residual = std::make_unique<ScaledResidual>(system);
-      return set_up_interfaces();
+      return set_up_part();
     });
   }
 

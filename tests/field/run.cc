@@ -6,6 +6,7 @@
 //   # expect exit 2
 //   # expect message "TEXT"                          the program prints TEXT
 //   # expect no message "TEXT"
+//   # expect no /JSON/POINTER                      summary.json has none
 //   # expect /JSON/POINTER = NUMBER within NUMBER    of summary.json, absolute
 //   # expect /JSON/POINTER = NUMBER relative NUMBER
 //   # expect /JSON/POINTER < NUMBER                  or >
@@ -105,6 +106,12 @@ namespace
                  "" :
                  "exit code " + std::to_string(outcome.exit_code);
       }
+    if (first == "no")
+      words >> second;
+    if (!second.empty() && second[0] == '/')
+      return outcome.summary.contains(nlohmann::json::json_pointer(second)) ?
+               "there is one" :
+               "";
     if (first == "message" || first == "no")
       {
         const std::size_t begin = line.find('"'), end = line.rfind('"');

@@ -53,21 +53,12 @@ namespace
   std::vector<BodySolution>
   moved(const Bodies &bodies, const Field &field)
   {
-    std::vector<BodySolution> result = zero_solutions(bodies);
-    for (const auto &body : bodies)
-      {
-        BodyVector &u = result[body->index].displacement;
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            for (const unsigned int v : cell->vertex_indices())
-              for (unsigned int c = 0; c < dim; ++c)
-                if (const auto dof =
-                      cell->vertex_dof_index(v, c, cell->active_fe_index());
-                    u.in_local_range(dof))
-                  u(dof) = field(body->index, cell->vertex(v))[c];
-        u.update_ghost_values();
-      }
-    return result;
+    return linear_displacements(bodies,
+                                [&](const unsigned int body,
+                                    const unsigned int c,
+                                    const Point<dim>  &x) {
+                                  return field(body, x)[c];
+                                });
   }
 
   mortise::Vector

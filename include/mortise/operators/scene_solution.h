@@ -24,6 +24,29 @@ namespace mortise
   std::vector<BodySolution>
   zero_solutions(const Bodies &bodies);
 
+  /// The displacements, by body, that are @p field(body, component, x) at vertices and linear
+  /// between them. Collective.
+  template <typename Field>
+  std::vector<BodySolution>
+  linear_displacements(const Bodies &bodies, const Field &field)
+  {
+    std::vector<BodySolution> result = zero_solutions(bodies);
+    for (const auto &body : bodies)
+      {
+        BodyVector &u = result[body->index].displacement;
+        for (const auto &cell : body->dof_handler.active_cell_iterators())
+          if (cell->is_locally_owned())
+            for (const unsigned int v : cell->vertex_indices())
+              for (unsigned int c = 0; c < dim; ++c)
+                if (const auto dof =
+                      cell->vertex_dof_index(v, c, cell->active_fe_index());
+                    u.in_local_range(dof))
+                  u(dof) = field(body->index, c, cell->vertex(v));
+        u.update_ghost_values();
+      }
+    return result;
+  }
+
   /// The solution by body: constraints distributed, what is prescribed added.
   /// Collective.
   std::vector<BodySolution>

@@ -14,6 +14,13 @@
 
 namespace mortise
 {
+  /// A step that was solved, without its time, and how.
+  struct SolvedState
+  {
+    State       state;
+    SolveReport report;
+  };
+
   class SceneSolver
   {
   public:
@@ -29,30 +36,18 @@ namespace mortise
     SystemVector
     resume(const SceneData &data, const SceneValues &values);
 
-    /// The next state, without its time, for @p load at that of @p data; shortenings of preloads become part of @p load.
+    /// For @p load at the time of @p data; shortenings of preloads become part of @p load.
     /// @p start, by body, may be empty. Collective; throws InputError.
-    State
+    SolvedState
     solve(const SceneData                 &data,
           const std::vector<BodySolution> &start,
           SceneLoad                       &load);
 
-    /// Of the last solve().
-    const SolveReport &
-    report() const
-    {
-      return last_report;
-    }
-
-    /// The next solve() is judged by this, too.
+    /// Add to @p summary how @p solution, of the last solve(), was found.
     void
-    add_report(const SolveReport &of_dual)
-    {
-      last_report = of_dual;
-    }
-
-    /// Add to @p summary how @p solution was found.
-    void
-    summarise(const SystemVector &solution, StepSummary &summary) const;
+    summarise(const SolveReport  &report,
+              const SystemVector &solution,
+              StepSummary        &summary) const;
 
     /// By owned multiplier of contact, else empty: neither pressure nor gap.
     std::vector<bool>
@@ -75,6 +70,5 @@ namespace mortise
   private:
     const RunContext            &run;
     std::unique_ptr<ContactStep> contact; ///< null without
-    SolveReport                  last_report;
   };
 } // namespace mortise

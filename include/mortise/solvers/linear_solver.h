@@ -109,6 +109,9 @@ namespace mortise
   private:
     void
     update(const std::function<bool()> &set_up_part);
+    /// The same with the residual, whose scales are made of numbers.
+    void
+    update_numbers(const std::function<bool()> &set_up_part);
     SolveReport
     solve(const SystemVector &rhs, SystemVector &x, bool is_zero);
 

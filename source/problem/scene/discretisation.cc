@@ -56,10 +56,12 @@ namespace mortise
   void
   Discretisation::take(std::unique_ptr<Pairing> made)
   {
-    const auto scope                 = run.timers.scope("coupling");
     pairing                          = std::move(made);
     const std::vector<Coupling> &all = pairing->all();
     system.owned_multiplier          = pairing->owned_multiplier();
+    if (all.empty())
+      return;
+    const auto scope = run.timers.scope("coupling");
     system.active.reset();
     interface_summaries.clear();
     if (system.owned_multiplier.size() > 0)
@@ -170,10 +172,7 @@ namespace mortise
     for (unsigned int i = 0; i < pairing->all().size(); ++i)
       if (const auto offset = data.offset(pairing->sides()[i]);
           offset && load.rhs.multiplier.size() > 0)
-        {
-          const Coupling &coupling = pairing->all()[i];
-          add_offset(coupling, offset, load.rhs.multiplier);
-        }
+        add_offset(pairing->all()[i], offset, load.rhs.multiplier);
     for (const Coupling &coupling : pairing->all())
       if (coupling.law.has_mesh_gap)
         for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)

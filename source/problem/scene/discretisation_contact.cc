@@ -5,6 +5,8 @@
 
 namespace mortise
 {
+  using namespace dealii;
+
   std::vector<bool>
   Discretisation::one_sided() const
   {
@@ -35,28 +37,13 @@ namespace mortise
   Discretisation::rigid_motion(const FreeMotions &free,
                                const unsigned int k) const
   {
-    std::vector<BodySolution> moved = zero_solutions(spaces.bodies);
-    for (const auto &body : spaces.bodies)
-      {
-        BodyVector   &u      = moved[body->index].displacement;
-        const Motion &motion = free.motions[k][body->index];
-        for (const auto &cell : body->dof_handler.active_cell_iterators())
-          if (cell->is_locally_owned())
-            for (const unsigned int v : cell->vertex_indices())
-              for (unsigned int c = 0; c < dim; ++c)
-                if (const auto dof =
-                      cell->vertex_dof_index(v, c, cell->active_fe_index());
-                    u.in_local_range(dof))
-                  {
-                    const Motion row =
-                      row_of(free.of_body[body->index], c, cell->vertex(v));
-                    u(dof) = std::inner_product(row.begin(),
-                                                row.end(),
-                                                motion.begin(),
-                                                0.);
-                  }
-        u.update_ghost_values();
-      }
+    const auto moved = linear_displacements(
+      spaces.bodies,
+      [&](const unsigned int body, const unsigned int c, const Point<dim> &x) {
+        const Motion  row    = row_of(free.of_body[body], c, x);
+        const Motion &motion = free.motions[k][body];
+        return std::inner_product(row.begin(), row.end(), motion.begin(), 0.);
+      });
     return mortise::system_vector(spaces.fields, system, {}, moved);
   }
 

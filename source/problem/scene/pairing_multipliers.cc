@@ -132,18 +132,11 @@ namespace mortise
           body, coupling, states[i], blocked_dofs(slave.body, taken));
         shared.take(i);
       }
-    types::global_dof_index mine = 0, first = 0, total = 0;
+    types::global_dof_index mine = 0;
     for (const Coupling &coupling : couplings)
       mine += coupling.multipliers->n_owned();
-    const auto counts = Utilities::MPI::all_gather(run.comm, mine);
-    for (unsigned int rank = 0; rank < counts.size(); ++rank)
-      {
-        if (rank < Utilities::MPI::this_mpi_process(run.comm))
-          first += counts[rank];
-        total += counts[rank];
-      }
-    owned = IndexSet(total);
-    owned.add_range(first, first + mine);
+    owned                 = owned_range(mine, run.comm);
+    const auto   first    = mine > 0 ? owned.nth_index_in_set(0) : 0;
     unsigned int n_before = 0;
     for (Coupling &coupling : couplings)
       {
