@@ -10,9 +10,8 @@
 #include <deal.II/base/point.h>
 
 #include <mortise/body/mesh/mesh_source.h>
-#include <mortise/contact/interface_law.h>
-#include <mortise/interface/search.h>
 #include <mortise/material/factory.h>
+#include <mortise/problem/input/interface_parameters.h>
 #include <mortise/problem/input/parameter_file.h>
 #include <mortise/problem/input/step_parameters.h>
 #include <mortise/solvers/solver_options.h>
@@ -70,38 +69,6 @@ namespace mortise
     std::optional<Components>  body_force;
     std::optional<std::string> temperature; ///< above that without strain
     std::map<std::string, BoundaryParameters> boundaries;
-  };
-
-  /// One side of an interface.
-  struct SideParameters
-  {
-    unsigned int             body = 0; ///< index into Parameters::bodies
-    std::vector<std::string> boundaries;
-  };
-
-  struct InterfaceParameters
-  {
-    std::string    name;
-    SideParameters slave; ///< carries the multiplier
-    SideParameters master;
-    Law            law              = Law::tie;
-    bool           ignores_mesh_gap = false; ///< of contact
-    std::string    multiplier       = "dual";
-    std::string    offset           = "0";
-    /// Of a tie: the normal force it carries; up to which time.
-    std::optional<std::string> preload;
-    std::optional<double>      preload_until;
-    /// For "spring" alone.
-    std::optional<std::string> normal_stiffness, tangential_stiffness;
-    /// Adaptivity sets the least one, by how far sides have moved.
-    SearchDistance search_distance;
-    unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
-
-    /// A support: nothing moves in place of the master, which is the slave's
-    /// boundary again; what Offset would be is the displacement.
-    bool                                is_support = false;
-    std::optional<dealii::Tensor<1, 3>> direction; ///< else the normal
-    std::string displacement_path; ///< of the parameter that asks for it
   };
 
   enum class ExactKind

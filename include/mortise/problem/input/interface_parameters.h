@@ -1,0 +1,46 @@
+// Subsection Interface of a parameter file.
+#pragma once
+
+#include <deal.II/base/tensor.h>
+
+#include <mortise/contact/interface_law.h>
+#include <mortise/interface/search.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mortise
+{
+  /// One side of an interface.
+  struct SideParameters
+  {
+    unsigned int             body = 0; ///< index into Parameters::bodies
+    std::vector<std::string> boundaries;
+  };
+
+  struct InterfaceParameters
+  {
+    std::string    name;
+    SideParameters slave; ///< carries the multiplier
+    SideParameters master;
+    Law            law              = Law::tie;
+    bool           ignores_mesh_gap = false; ///< of contact
+    std::string    multiplier       = "dual";
+    std::string    offset           = "0";
+    /// Of a tie: the normal force it carries; up to which time.
+    std::optional<std::string> preload;
+    std::optional<double>      preload_until;
+    /// For "spring" alone.
+    std::optional<std::string> normal_stiffness, tangential_stiffness;
+    /// Adaptivity sets the least one, by how far sides have moved.
+    SearchDistance search_distance;
+    unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
+
+    /// A support: nothing moves in place of the master, which is the slave's
+    /// boundary again; what Offset would be is the displacement.
+    bool                                is_support = false;
+    std::optional<dealii::Tensor<1, 3>> direction; ///< else the normal
+    std::string displacement_path; ///< of the parameter that asks for it
+  };
+} // namespace mortise
