@@ -4,6 +4,7 @@
 #include <mortise/adapt/residuals.h>
 #include <mortise/output/errors.h>
 #include <mortise/output/summary.h>
+#include <mortise/problem/results/boundary_forces.h>
 #include <mortise/problem/results/step_evaluation.h>
 
 #include <vector>
