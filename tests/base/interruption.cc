@@ -4,6 +4,7 @@
 #include <mortise/base/interruption.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <verdict.h>
 
 #include <csignal>
 #include <iostream>
@@ -12,12 +13,6 @@
 
 namespace
 {
-  void
-  verdict(const bool good, const std::string &what)
-  {
-    std::cout << (good ? "OK  " : "FAILED  ") << what << std::endl;
-  }
-
   /// Order n x n x n points, each beside six others: seconds.
   int
   order_grid(const idx_t n)

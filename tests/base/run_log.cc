@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/run_log.h>
+#include <verdict.h>
 
 #include <algorithm>
 #include <chrono>
@@ -18,11 +19,9 @@ namespace Ranks = dealii::Utilities::MPI;
 namespace
 {
   void
-  verdict(const bool fine, const std::string &what)
+  everywhere(const bool fine, const std::string &what)
   {
-    const bool all = Ranks::min(fine ? 1 : 0, MPI_COMM_WORLD) == 1;
-    if (Ranks::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cout << (all ? "OK  " : "FAILED ") << what << std::endl;
+    verdict(Ranks::min(fine ? 1 : 0, MPI_COMM_WORLD) == 1, what);
   }
 
   void
@@ -40,25 +39,26 @@ namespace
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     const auto walls = timers.walls(MPI_COMM_WORLD);
-    verdict(walls.size() == 4 && walls[0].first == "total" &&
-              walls[1].first == "b",
-            "names of all ranks in order of first use, total first");
+    everywhere(walls.size() == 4 && walls[0].first == "total" &&
+                 walls[1].first == "b",
+               "names of all ranks in order of first use, total first");
     double a = 0., b = 0., last = 0.;
     for (const auto &[name, seconds] : walls)
       (name == "a"              ? a :
        name == "b"              ? b :
        name == "last rank only" ? last :
                                   a) = seconds;
-    verdict(b == 1. + n && last == 5.,
-            "sums on a rank, maximum over the ranks");
-    verdict(timers.seconds("a") >= 0.02 &&
-              timers.total() >= timers.seconds("a"),
-            "a scope measures its life");
-    verdict(timers.seconds("never") == 0., "a name that was never entered");
+    everywhere(b == 1. + n && last == 5.,
+               "sums on a rank, maximum over the ranks");
+    everywhere(timers.seconds("a") >= 0.02 &&
+                 timers.total() >= timers.seconds("a"),
+               "a scope measures its life");
+    everywhere(timers.seconds("never") == 0., "a name that was never entered");
     const PeakMemory memory = peak_memory_mib(MPI_COMM_WORLD);
-    verdict(memory.max_rank > 1. && memory.sum_over_ranks >= memory.max_rank &&
-              memory.sum_over_ranks <= n * memory.max_rank,
-            "peak memory: sum and maximum over the ranks");
+    everywhere(memory.max_rank > 1. &&
+                 memory.sum_over_ranks >= memory.max_rank &&
+                 memory.sum_over_ranks <= n * memory.max_rank,
+               "peak memory: sum and maximum over the ranks");
   }
 
   void
@@ -79,19 +79,19 @@ namespace
                                  "  body    cells\n"
                                  "  a          96\n"
                                  "  longer      7\n";
-    verdict(out.str() == (prints ? expected : ""),
-            "lines as they should look, on rank 0 only");
-    verdict(log.warnings() == std::vector<std::string>{"once"},
-            "warnings are kept");
+    everywhere(out.str() == (prints ? expected : ""),
+               "lines as they should look, on rank 0 only");
+    everywhere(log.warnings() == std::vector<std::string>{"once"},
+               "warnings are kept");
 
     out.str("");
     {
       auto stage = log.stage(timers, "solve");
       stage.details("7 iterations");
     }
-    verdict((out.str().find("solve") != std::string::npos &&
-             out.str().find("7 iterations") != std::string::npos) == prints,
-            "a stage prints at its end");
+    everywhere((out.str().find("solve") != std::string::npos &&
+                out.str().find("7 iterations") != std::string::npos) == prints,
+               "a stage prints at its end");
     out.str("");
     try
       {
@@ -100,19 +100,20 @@ namespace
       }
     catch (const std::runtime_error &)
       {}
-    verdict(out.str().empty(), "a stage that ends by an error prints nothing");
+    everywhere(out.str().empty(),
+               "a stage that ends by an error prints nothing");
     {
       auto stage = log.stage(timers, "early");
       stage.done();
     }
     const std::string early = out.str();
-    verdict(std::count(early.begin(), early.end(), '\n') == (prints ? 1 : 0),
-            "a stage that was ended early prints once");
-    verdict(timers.seconds("fails") > 0. && timers.seconds("early") > 0.,
-            "stages enter the timers");
-    verdict(RunLog::number(0.000123456) == "0.0001235" &&
-              RunLog::number(96.) == "96",
-            "numbers for people");
+    everywhere(std::count(early.begin(), early.end(), '\n') == (prints ? 1 : 0),
+               "a stage that was ended early prints once");
+    everywhere(timers.seconds("fails") > 0. && timers.seconds("early") > 0.,
+               "stages enter the timers");
+    everywhere(RunLog::number(0.000123456) == "0.0001235" &&
+                 RunLog::number(96.) == "96",
+               "numbers for people");
   }
 } // namespace
 

@@ -3,7 +3,6 @@
 // found exactly inside, with hanging nodes, degrees drawn at random and any
 // number of ranks.
 
-#include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -21,8 +20,7 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/spaces/hp_constraints.h>
-
-#include <iostream>
+#include <verdict.h>
 
 #include "element_meshes.h"
 
@@ -155,8 +153,6 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream               out(std::cout,
-                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
   for (unsigned int p = 2; p <= 4; ++p)
     for (unsigned int seed = 1; seed <= 2; ++seed)
       {
@@ -167,9 +163,6 @@ main(int argc, char **argv)
         const std::string what =
           "p=" + std::to_string(p) + ".." + std::to_string(p + 2) + ", mesh " +
           std::to_string(seed) + ": harmonic polynomial is found, 1e-9";
-        if (error <= 1e-9)
-          out << "OK  " << what << std::endl;
-        else
-          out << "FAILED  " << what << ": got " << error << std::endl;
+        verdict(what, error, 1e-9);
       }
 }

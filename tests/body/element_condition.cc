@@ -15,6 +15,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <mortise/body/elements/fe_legendre.h>
+#include <verdict.h>
 
 #include <cstdio>
 #include <iostream>
@@ -76,13 +77,6 @@ main(int argc, char **argv)
       return 0;
     }
 
-  const auto verdict =
-    [](const std::string &what, const double got, const double allowed) {
-      if (got <= allowed)
-        std::cout << "OK  " << what << std::endl;
-      else
-        std::cout << "FAILED  " << what << ": got " << got << std::endl;
-    };
   for (unsigned int p = 2; p <= 5; ++p)
     {
       const Condition   legendre = condition(mortise::FE_Legendre(p));

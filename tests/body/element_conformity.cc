@@ -3,7 +3,6 @@
 // ranks included, for degrees drawn at random, and that polynomials of the
 // lowest degree are in the space.
 
-#include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -20,6 +19,7 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/spaces/hp_constraints.h>
+#include <verdict.h>
 
 #include <iostream>
 
@@ -208,17 +208,7 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                   comm = MPI_COMM_WORLD;
-  ConditionalOStream               out(std::cout,
-                         Utilities::MPI::this_mpi_process(comm) == 0);
   const bool serial = Utilities::MPI::n_mpi_processes(comm) == 1;
-
-  const auto verdict =
-    [&](const bool ok, const std::string &what, const double got) {
-      if (ok)
-        out << "OK  " << what << std::endl;
-      else
-        out << "FAILED  " << what << ": got " << got << std::endl;
-    };
 
   // Another first seed may be given, for longer searches than a test affords.
   std::mt19937 random(argc > 1 ? std::stoi(argv[1]) : 1);
@@ -239,8 +229,7 @@ main(int argc, char **argv)
               triangulation = std::make_unique<Triangulation<3>>();
             create_shape(shape, seed, *triangulation);
             if (!mortise::is_consistently_ordered(*triangulation))
-              out << "FAILED  " << shape << " is not ordered consistently"
-                  << std::endl;
+              verdict(false, shape + " is ordered consistently");
             refine_at_random(*triangulation, last <= 5 ? 2 : 1, seed);
             const unsigned int n      = last <= 4 ? 3 : 1;
             const Result       result = check(*triangulation, n, p, last, seed);

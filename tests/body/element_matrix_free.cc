@@ -2,7 +2,6 @@
 // FEValues, on meshes with hanging nodes, for one degree and mixed ones, and
 // that the operator does not depend on the ranks.
 
-#include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/quadrature_lib.h>
 
@@ -20,8 +19,7 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/spaces/hp_constraints.h>
-
-#include <iostream>
+#include <verdict.h>
 
 #include "element_meshes.h"
 
@@ -178,8 +176,6 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream               out(std::cout,
-                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
   for (const std::string shape : {"cube", "ball"})
     for (unsigned int p = 2; p <= 4; ++p)
       for (const unsigned int last : {p, p + 2})
@@ -191,9 +187,6 @@ main(int argc, char **argv)
           const std::string what  = shape + ", p=" + std::to_string(p) + ".." +
                                    std::to_string(last) +
                                    ": MatrixFree equals FEValues, 1e-13";
-          if (worst <= 1e-13)
-            out << "OK  " << what << std::endl;
-          else
-            out << "FAILED  " << what << ": got " << worst << std::endl;
+          verdict(what, worst, 1e-13);
         }
 }

@@ -6,6 +6,7 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <mortise/body/spaces/hp_constraints.h>
+#include <verdict.h>
 
 #include <iostream>
 
@@ -13,12 +14,6 @@
 
 using namespace dealii;
 using namespace element_test;
-
-void
-verdict(const std::string &what, const bool ok)
-{
-  std::cout << (ok ? "OK  " : "FAILED  ") << what << std::endl;
-}
 
 /// Whether the mesh is ordered consistently after an attempt to do so.
 bool
@@ -39,28 +34,28 @@ main()
     {
       Triangulation<3> triangulation;
       create_shape(shape, 3, triangulation);
-      verdict(shape + ": ordered after turning its cells",
-              mortise::is_consistently_ordered(triangulation));
+      verdict(mortise::is_consistently_ordered(triangulation),
+              shape + ": ordered after turning its cells");
     }
 
   Triangulation<3> cube, turned;
   GridGenerator::subdivided_hyper_cube(cube, 2);
-  verdict("a cube is ordered", mortise::is_consistently_ordered(cube));
+  verdict(mortise::is_consistently_ordered(cube), "a cube is ordered");
   auto [vertices, cells, faces] = GridTools::get_coarse_mesh_description(cube);
   std::mt19937 random(1);
   turn_cells(cells, random);
   turned.create_triangulation(vertices, cells, SubCellData());
-  verdict("a cube with turned cells is not",
-          !mortise::is_consistently_ordered(turned));
+  verdict(!mortise::is_consistently_ordered(turned),
+          "a cube with turned cells is not");
 
   // A quarter turn of the cross section before the ends are joined.
   Triangulation<3> strip;
   GridGenerator::moebius(strip, 8, 1, 1., 0.2);
-  verdict("a Moebius strip is not ordered",
-          !mortise::is_consistently_ordered(strip));
-  verdict("and cannot be", !can_be_ordered(strip));
+  verdict(!mortise::is_consistently_ordered(strip),
+          "a Moebius strip is not ordered");
+  verdict(!can_be_ordered(strip), "and cannot be");
   strip.refine_global(1);
   Triangulation<3> flat;
   GridGenerator::flatten_triangulation(strip, flat);
-  verdict("after one refinement it can", can_be_ordered(flat));
+  verdict(can_be_ordered(flat), "after one refinement it can");
 }

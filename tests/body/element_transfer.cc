@@ -2,7 +2,6 @@
 // SolutionTransfer keeps polynomials of the element's degree exactly, for one
 // degree and for mixed ones.
 
-#include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/distributed/solution_transfer.h>
@@ -17,8 +16,7 @@
 
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/spaces/hp_constraints.h>
-
-#include <iostream>
+#include <verdict.h>
 
 #include "element_meshes.h"
 
@@ -104,8 +102,6 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  ConditionalOStream               out(std::cout,
-                         Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0);
   for (unsigned int p = 1; p <= 4; ++p)
     for (const unsigned int last : {p, p + 2})
       {
@@ -113,9 +109,6 @@ main(int argc, char **argv)
         const std::string what =
           "p=" + std::to_string(p) + ".." + std::to_string(last) +
           ": polynomials survive refinement and coarsening, 1e-12";
-        if (error <= 1e-12)
-          out << "OK  " << what << std::endl;
-        else
-          out << "FAILED  " << what << ": got " << error << std::endl;
+        verdict(what, error, 1e-12);
       }
 }

@@ -2,54 +2,29 @@
 // checks anything.
 #pragma once
 
-#include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/mpi.h>
 
 #include <gmsh.h>
 #include <mortise/base/error.h>
 #include <mortise/body/mesh/mesh_file.h>
+#include <temporary_file.h>
+#include <verdict.h>
 
 #include <fstream>
-#include <iostream>
 #include <string>
 
 namespace gmsh_test
 {
-  class Report
-  {
-  public:
-    void
-    operator()(const bool         good,
-               const std::string &what,
-               const std::string &got = "")
-    {
-      out << (good ? "OK  " : "FAILED ") << what << (good ? "" : ": got " + got)
-          << std::endl;
-    }
-
-    dealii::ConditionalOStream out{std::cout,
-                                   dealii::Utilities::MPI::this_mpi_process(
-                                     MPI_COMM_WORLD) == 0};
-  };
-
-  /// A name for each number of ranks: tests of several run side by side.
-  inline std::string
-  own_name(const std::string &name)
-  {
-    return std::to_string(
-             dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) +
-           "_ranks_" + name;
-  }
-
   /// Rank 0 writes @p content; returns the name of the file.
   inline std::string
   write_file(const std::string &name, const std::string &content)
   {
+    const std::string file = temporary_file(name);
     MPI_Barrier(MPI_COMM_WORLD); // the file may have been in use
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::ofstream(own_name(name), std::ios::binary) << content;
+      std::ofstream(file, std::ios::binary) << content;
     MPI_Barrier(MPI_COMM_WORLD);
-    return own_name(name);
+    return file;
   }
 
   inline std::string
@@ -76,7 +51,7 @@ namespace gmsh_test
              const Format      &format)
   {
     const std::string geo = write_file(name + ".geo", geometry);
-    const std::string msh = own_name(name + ".msh");
+    const std::string msh = temporary_file(name + ".msh");
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         gmsh::initialize(0, nullptr, false);
@@ -110,27 +85,19 @@ namespace gmsh_test
   inline std::string
   message_of(const mortise::MeshParameters &q)
   {
-    try
-      {
-        mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
-      }
-    catch (const mortise::InputError &error)
-      {
-        return error.what();
-      }
-    return "(no error)";
+    return ::message_of(
+      [&] { mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD); });
   }
 
   inline void
-  refused(Report                        &report,
-          const std::string             &what,
+  refused(const std::string             &what,
           const mortise::MeshParameters &q,
           const std::string             &fragment)
   {
     const std::string message = message_of(q);
-    report(message.find("Mesh") == 0 &&
-             message.find(fragment) != std::string::npos,
-           "refused: " + what,
-           message);
+    verdict(message.find("Mesh") == 0 &&
+              message.find(fragment) != std::string::npos,
+            "refused: " + what,
+            message);
   }
 } // namespace gmsh_test

@@ -11,6 +11,7 @@
 
 #include <mortise/body/mesh/manifolds.h>
 #include <mortise/body/mesh/mesh_source.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <functional>
@@ -166,15 +167,6 @@ namespace
           (half == 0 ? under : 8. - under) * volume};
       }
     return result;
-  }
-
-  void
-  verdict(const bool good, const std::string &what, const double got)
-  {
-    std::cout << (good ? "OK  " : "FAILED ") << what;
-    if (!good)
-      std::cout << ": got " << got;
-    std::cout << std::endl;
   }
 
   /// Order between the two finest meshes that stand clear of rounding.

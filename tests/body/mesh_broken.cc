@@ -1,6 +1,8 @@
 // Every kind of broken mesh file is refused with a message that says what is
 // wrong and where, the same on all ranks, and nothing hangs or crashes.
 
+#include <verdict.h>
+
 #include <cmath>
 #include <limits>
 #include <random>
@@ -44,7 +46,7 @@ Physical Surface("low") = {5};
 
   /// A file cut anywhere is refused, or still has all that counts.
   void
-  check_cut_files(Report &report, const Format &format)
+  check_cut_files(const Format &format)
   {
     const std::string whole = read_file(write_mesh("broken_cut", cube, format));
     unsigned int      bad   = 0;
@@ -54,16 +56,16 @@ Physical Surface("low") = {5};
         message = message_of(broken(whole.substr(0, whole.size() * i / 20)));
         bad += message.find("Mesh: the mesh file '") != 0;
       }
-    report(bad == 0,
-           "refused: a file that ends early, version " +
-             std::to_string(format.version).substr(0, 3) +
-             (format.binary ? ", binary" : ", ASCII"),
-           std::to_string(bad) + " accepted; " + message);
+    verdict(bad == 0,
+            "refused: a file that ends early, version " +
+              std::to_string(format.version).substr(0, 3) +
+              (format.binary ? ", binary" : ", ASCII"),
+            std::to_string(bad) + " accepted; " + message);
   }
 
   /// Bytes overwritten at random are an error or a mesh, never a crash.
   void
-  check_garbage(Report &report, const Format &format)
+  check_garbage(const Format &format)
   {
     const std::string whole = read_file(write_mesh("broken_cut", cube, format));
     std::mt19937      random(7);
@@ -78,13 +80,13 @@ Physical Surface("low") = {5};
     std::string noise = "$MeshFormat\n4.1 1 8\n";
     while (noise.size() < 5000)
       noise += static_cast<char>(random() % 256);
-    refused(report, "binary garbage", broken(noise), "byte order");
+    refused("binary garbage", broken(noise), "byte order");
     const int one = 1;
     noise         = "$MeshFormat\n4.1 1 8\n" +
             std::string(reinterpret_cast<const char *>(&one), sizeof(int)) +
             "\n$EndMeshFormat\n$Nodes\n" + noise + "$EndNodes\n$Elements\n" +
             noise + "$EndElements\n";
-    refused(report, "garbage with the right words", broken(noise), "mesh file");
+    refused("garbage with the right words", broken(noise), "mesh file");
   }
 
   /// @p text with a number, a line or the end changed.
@@ -151,7 +153,7 @@ Physical Surface("low") = {5};
   /// Counts that do not agree with what follows are an error: none is taken on
   /// trust.
   void
-  check_lies(Report &report)
+  check_lies()
   {
     const std::string whole =
       read_file(write_mesh("broken_lies", cube, {4.1, false, 1, false, false}));
@@ -167,44 +169,34 @@ Physical Surface("low") = {5};
       return broken(text.substr(0, at) + number +
                     text.substr(text.find_first_of(" \n", at)));
     };
-    refused(report,
-            "fewer nodes in all than in the blocks",
+    refused("fewer nodes in all than in the blocks",
             changed(whole, "Nodes", 1, "1"),
             "nodes, the header of the section says 1");
-    refused(report,
-            "fewer elements in all than in the blocks",
+    refused("fewer elements in all than in the blocks",
             changed(whole, "Elements", 1, "1"),
             "elements, the header of the section says 1");
-    refused(report,
-            "a largest tag that is none",
+    refused("a largest tag that is none",
             changed(whole, "Nodes", 3, "2"),
             "the tag 3 is none of those that the header of the section tells; "
             "allowed: 1 to 2");
-    refused(report,
-            "a negative number of blocks",
+    refused("a negative number of blocks",
             changed(whole, "Elements", 0, "-1"),
             "there is the number -1 where things are counted");
-    refused(report,
-            "nodes beyond the end",
+    refused("nodes beyond the end",
             changed(whole_2, "Nodes", 0, "100000"),
             "in $Nodes, line ");
-    refused(report,
-            "an element more than there are",
+    refused("an element more than there are",
             changed(whole_2, "Elements", 0, "1000"),
             "in $Elements, line ");
     std::string text = whole;
     text.replace(text.find("$EndNodes"), 0, "$EndNodes\n");
-    refused(report,
-            "the end of a section twice",
-            broken(text),
-            "in $EndNodes, line ");
+    refused("the end of a section twice", broken(text), "in $EndNodes, line ");
     text = whole;
     text += whole.substr(whole.find("$Nodes"));
-    refused(report, "nodes twice", broken(text), "comes a second time");
+    refused("nodes twice", broken(text), "comes a second time");
     text = whole;
     text.replace(text.find("\n2 5 ", text.find("$Elements")), 4, "\n2 9");
-    refused(report,
-            "elements of an unknown surface",
+    refused("elements of an unknown surface",
             broken(text),
             "elements of the surface 9");
 
@@ -216,69 +208,59 @@ Physical Surface("low") = {5};
             message_of(broken(with_lies(one, random)));
           if (message != "(no error)" &&
               message.find("Mesh: the mesh file '") != 0)
-            report(false, "one message", message);
+            verdict(false, "one message", message);
         }
-    report(true, "300 files with one lie each");
+    verdict(true, "300 files with one lie each");
   }
 
   void
-  check_cells(Report &report)
+  check_cells()
   {
     const std::vector<std::string> corners = {
       "0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"};
     const std::string face = "2 2 7 1 1 2 3", first = "4 2 1 1 1 2 3 4",
                       second = "4 2 1 1 2 4 3 5"; // on the face 2 3 4
-    report(message_of(
-             broken(mesh_text(corners, {face, first, "4 2 1 1 2 3 4 5"}))) ==
-             "(no error)",
-           "two good tetrahedra");
-    refused(report,
-            "a tetrahedron of negative volume",
+    verdict(message_of(
+              broken(mesh_text(corners, {face, first, "4 2 1 1 2 3 4 5"}))) ==
+              "(no error)",
+            "two good tetrahedra");
+    refused("a tetrahedron of negative volume",
             broken(mesh_text(corners, {face, first, second})),
             "turned inside out (negative volume), at (0.5, 0.5, 0.5)");
-    report(message_of(
-             broken(mesh_text(corners, {face, "4 2 1 1 2 1 3 4", second}))) ==
-             "(no error)",
-           "a mesh that is numbered inside out as a whole");
-    refused(report,
-            "a tetrahedron without volume",
+    verdict(message_of(
+              broken(mesh_text(corners, {face, "4 2 1 1 2 1 3 4", second}))) ==
+              "(no error)",
+            "a mesh that is numbered inside out as a whole");
+    refused("a tetrahedron without volume",
             broken(
               mesh_text({"0 0 0", "1 0 0", "0 1 0", "1 1 0"}, {face, first})),
             "without volume");
-    refused(report,
-            "cells that overlap",
+    refused("cells that overlap",
             broken(
               mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "0 0 2", "0 0 3"},
                         {face, first, "4 2 1 1 1 2 3 5", "4 2 1 1 1 2 3 6"})),
             "3 cells at one face, near (0, 0, 0)");
-    refused(report,
-            "prisms",
+    refused("prisms",
             broken(
               mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 0 1", "0 1 1"},
                         {face, "6 2 1 1 1 2 3 4 5 6"})),
             "1 prisms");
-    refused(report,
-            "surfaces only",
+    refused("surfaces only",
             broken(mesh_text(corners, {face})),
             "no volume elements");
-    refused(report,
-            "no physical surface",
+    refused("no physical surface",
             broken(mesh_text(corners, {first})),
             "names no boundary; allowed: a mesh with physical surfaces");
-    refused(report,
-            "a physical surface elsewhere",
+    refused("a physical surface elsewhere",
             broken(mesh_text(corners, {"2 2 7 1 2 3 5", first})),
             "names no boundary of this part");
-    refused(report,
-            "a surface in two physical ones",
+    refused("a surface in two physical ones",
             broken(mesh_text(corners, {face, "2 2 8 1 1 2 3", first})),
             "in 2 physical surfaces, 7, 8");
-    refused(report,
-            "a face in two surfaces, each in a physical one",
+    refused("a face in two surfaces, each in a physical one",
             broken(mesh_text(corners, {face, "2 2 8 2 1 2 3", first})),
             "has a face at (0, 0, 0) in 2 physical surfaces, 7, 8");
-    refused(report,
-            "a file of third order",
+    refused("a file of third order",
             file_parameters(
               write_mesh("broken_third", cube, {4.1, false, 3, false, false})),
             "cells of order 3");
@@ -286,66 +268,60 @@ Physical Surface("low") = {5};
 
   /// Elements of physical surfaces that are no faces.
   void
-  check_surface_elements(Report &report)
+  check_surface_elements()
   {
     const std::vector<std::string> corners = {
       "0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1", "1 1 0", "1 0 1", "0 1 1"};
     const std::string face = "2 2 7 1 1 2 3", one = "4 2 1 1 1 2 3 4",
                       other = "4 2 2 2 2 3 4 5";
     refused(
-      report,
       "a surface element through the body",
       broken(mesh_text(corners, {face, "2 2 7 1 1 2 5", one, other})),
       "has the surface element 2 in the physical surface '7' between the "
       "nodes 1, 2, 5, the first at (0, 0, 0), which is a face of no cell");
-    refused(report,
-            "a quadrilateral on a face that is a triangle",
+    refused("a quadrilateral on a face that is a triangle",
             broken(mesh_text(corners, {face, "3 2 7 1 1 2 3 4", one, other})),
             "between the nodes 1, 2, 3, 4");
     const std::string cube    = "5 2 1 1 1 2 6 3 4 7 5 8";
     const std::string quad    = "3 2 7 1 1 2 6 3";
     const std::string between = "2 2 8 2 2 3 4"; // of two volumes
-    refused(report,
-            "a triangle on a face that is a quadrilateral",
+    refused("a triangle on a face that is a quadrilateral",
             broken(mesh_text(corners, {quad, "2 2 7 1 1 2 6", cube})),
             "between the nodes 1, 2, 6");
-    refused(report,
-            "a quadrilateral through a cell",
+    refused("a quadrilateral through a cell",
             broken(mesh_text(corners, {quad, "3 2 7 1 1 2 5 8", cube})),
             "between the nodes 1, 2, 5, 8");
-    report(message_of(broken(mesh_text(corners, {quad, cube}))) == "(no error)",
-           "a quadrilateral that is a face");
-    report(message_of(broken(
-             mesh_text(corners, {face, between, one, other}))) == "(no error)",
-           "a named surface within the body");
+    verdict(message_of(broken(mesh_text(corners, {quad, cube}))) ==
+              "(no error)",
+            "a quadrilateral that is a face");
+    verdict(message_of(broken(
+              mesh_text(corners, {face, between, one, other}))) == "(no error)",
+            "a named surface within the body");
     // volume 2 bridges the dent between the two cells of volume 1
     mortise::MeshParameters q = broken(mesh_text(
       {"0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1"},
       {face, "2 2 8 2 1 2 5", one, "4 2 1 1 2 3 4 5", "4 2 2 2 1 3 2 5"}));
     q.part                    = "1";
-    report(message_of(q) == "(no error)",
-           "a surface of another part between vertices of this one",
-           message_of(q));
+    verdict(message_of(q) == "(no error)",
+            "a surface of another part between vertices of this one",
+            message_of(q));
   }
 
   /// Coordinates that are no numbers, or too large or too small.
   void
-  check_coordinates(Report &report)
+  check_coordinates()
   {
     const std::vector<std::string> cells = {"2 2 7 1 1 2 3", "4 2 1 1 1 2 3 4"};
     for (const std::string x : {"inf", "-inf", "nan", "1e999"})
-      refused(report,
-              "the coordinate " + x,
+      refused("the coordinate " + x,
               broken(
                 mesh_text({"0 0 0", "1 0 0", "0 1 0", "0 " + x + " 1"}, cells)),
               "of node 4, which is not finite");
-    refused(report,
-            "the coordinate 1e200",
+    refused("the coordinate 1e200",
             broken(mesh_text({"0 0 0", "1 0 0", "0 1 1e200", "0 0 1"}, cells)),
             "has the coordinate z = 1e+200 of node 3; allowed: finite numbers "
             "of at most 1e+15");
-    refused(report,
-            "a body of size 1e-50",
+    refused("a body of size 1e-50",
             broken(mesh_text({"0 0 0", "1e-50 0 0", "0 1e-50 0", "0 0 1e-50"},
                              cells)),
             "has a body of size 1.73205e-50, from (0, 0, 0) to");
@@ -364,10 +340,9 @@ Physical Surface("low") = {5};
         const std::size_t nodes = whole.find("$Nodes"),
                           end   = whole.find("$EndNodes");
         const std::size_t at    = whole.rfind(from, end);
-        report(at != std::string::npos && at > nodes, "a node at (1, 1, 1)");
+        verdict(at != std::string::npos && at > nodes, "a node at (1, 1, 1)");
         whole.replace(at, from.size(), to);
-        refused(report,
-                std::string("an infinite coordinate in version 4.1, ") +
+        refused(std::string("an infinite coordinate in version 4.1, ") +
                   (binary ? "binary" : "ASCII"),
                 broken(whole),
                 "= inf of node ");
@@ -375,7 +350,7 @@ Physical Surface("low") = {5};
   }
 
   void
-  check_folded_cell(Report &report)
+  check_folded_cell()
   {
     std::vector<std::string>       nodes    = {"0 0 0",
                                                "1 0 0",
@@ -389,15 +364,13 @@ Physical Surface("low") = {5};
                                                ".5 0 .5"};
     const std::vector<std::string> elements = {"9 2 7 1 1 2 3 5 6 7",
                                                "11 2 1 1 1 2 3 4 5 6 7 8 9 10"};
-    report(message_of(broken(mesh_text(nodes, elements))) == "(no error)",
-           "a good cell of second order");
+    verdict(message_of(broken(mesh_text(nodes, elements))) == "(no error)",
+            "a good cell of second order");
     nodes[4] = ".9 0 0"; // the map doubles back before vertex 2
-    refused(report,
-            "a folded cell of second order",
+    refused("a folded cell of second order",
             broken(mesh_text(nodes, elements)),
             "its curved sides fold, near (");
     refused(
-      report,
       "what helps against it",
       broken(mesh_text(nodes, elements)),
       "(in gmsh: Mesh.HighOrderOptimize = 2 or a finer mesh; or first order, with Curved boundaries)");
@@ -426,57 +399,46 @@ Physical Surface("low") = {5};
   }
 
   void
-  check_coinciding_nodes(Report &report)
+  check_coinciding_nodes()
   {
     const std::string two = "has two nodes at (1, ";
-    refused(report, "a crack", broken(two_cubes(1, 1, 0, 0)), two);
-    refused(report,
-            "a crack named on one side",
-            broken(two_cubes(1, 1, 7, 0)),
-            two);
-    refused(report,
-            "a crack within one volume, with one name",
+    refused("a crack", broken(two_cubes(1, 1, 0, 0)), two);
+    refused("a crack named on one side", broken(two_cubes(1, 1, 7, 0)), two);
+    refused("a crack within one volume, with one name",
             broken(two_cubes(1, 1, 7, 7)),
             two);
-    refused(report,
-            "volumes that are apart without a name",
+    refused("volumes that are apart without a name",
             broken(two_cubes(1, 2, 0, 0)),
             two);
-    report(message_of(broken(two_cubes(1, 1, 7, 8))) == "(no error)",
-           "a crack with two names is one that was meant");
-    report(message_of(broken(two_cubes(1, 2, 7, 7))) == "(no error)",
-           "so is a named surface between two volumes");
+    verdict(message_of(broken(two_cubes(1, 1, 7, 8))) == "(no error)",
+            "a crack with two names is one that was meant");
+    verdict(message_of(broken(two_cubes(1, 2, 7, 7))) == "(no error)",
+            "so is a named surface between two volumes");
     mortise::MeshParameters q = broken(two_cubes(1, 2, 0, 0));
     q.part                    = "1";
-    report(message_of(q) == "(no error)", "each part alone has no crack");
+    verdict(message_of(q) == "(no error)", "each part alone has no crack");
   }
 
   void
-  check_geometries(Report &report)
+  check_geometries()
   {
-    refused(report,
-            "a geometry with an error",
+    refused("a geometry with an error",
             file_parameters(write_file("broken.geo", "Point(1) = {0, 0\n")),
             "cannot be meshed; gmsh says: ");
-    refused(report,
-            "a geometry without a volume",
+    refused("a geometry without a volume",
             file_parameters(write_file("broken.geo",
                                        "SetFactory(\"OpenCASCADE\");\n"
                                        "Rectangle(1) = {0, 0, 0, 1, 1};\n")),
             "no volume elements");
-    refused(report,
-            "CAD garbage",
+    refused("CAD garbage",
             file_parameters(write_file("broken.brep", "garbage\n")),
             "does not hold the words CASCADE Topology");
     mortise::MeshParameters q = file_parameters(write_file("broken.geo", cube));
     q.mesh_size               = -1.;
-    refused(report,
-            "a negative Mesh size",
-            q,
-            "Mesh size = -1; allowed: a positive");
+    refused("a negative Mesh size", q, "Mesh size = -1; allowed: a positive");
     q           = broken("");
     q.mesh_size = 1.;
-    refused(report, "Mesh size for a mesh", q, "allowed: nothing for a .msh");
+    refused("Mesh size for a mesh", q, "allowed: nothing for a .msh");
   }
 } // namespace
 
@@ -484,23 +446,21 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
   for (const double version : {2.2, 4.1})
     for (const bool binary : {false, true})
       {
         const Format format = {version, binary, 1, false, false};
-        check_cut_files(report, format);
-        check_garbage(report, format);
+        check_cut_files(format);
+        check_garbage(format);
       }
-  refused(report,
-          "a file whose name is too long",
+  refused("a file whose name is too long",
           file_parameters(std::string(100000, 'q') + ".msh"),
           "qqq.msh' cannot be read");
-  check_lies(report);
-  check_cells(report);
-  check_surface_elements(report);
-  check_coordinates(report);
-  check_folded_cell(report);
-  check_coinciding_nodes(report);
-  check_geometries(report);
+  check_lies();
+  check_cells();
+  check_surface_elements();
+  check_coordinates();
+  check_folded_cell();
+  check_coinciding_nodes();
+  check_geometries();
 }

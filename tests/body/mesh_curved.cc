@@ -14,6 +14,7 @@
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/body/mesh/curved_boundaries.h>
 #include <unistd.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <filesystem>
@@ -131,8 +132,7 @@ namespace
 
   /// Volume and distances fall at the rate of the degree.
   void
-  check_rates(Report            &report,
-              const std::string &what,
+  check_rates(const std::string &what,
               MeshParameters     q,
               const Distances   &distances,
               const double       exact,
@@ -148,18 +148,18 @@ namespace
         const double   e0     = std::abs(coarse.volume / exact - 1.),
                      e1       = std::abs(fine.volume / exact - 1.);
         if (std::getenv("VERBOSE") != nullptr)
-          report.out << what << " p " << p << " volume " << e0 << " " << e1
-                     << " rate " << std::log2(e0 / e1) << "  off " << coarse.off
-                     << " " << fine.off << " rate "
-                     << std::log2(coarse.off / fine.off) << std::endl;
+          std::cout << what << " p " << p << " volume " << e0 << " " << e1
+                    << " rate " << std::log2(e0 / e1) << "  off " << coarse.off
+                    << " " << fine.off << " rate "
+                    << std::log2(coarse.off / fine.off) << std::endl;
         const std::string at = what + ", degree " + std::to_string(p);
-        report(e1 < 4. * fine.off,
-               at + ": the volume is as exact as the boundary",
-               text(e1) + " " + text(fine.off));
-        report(coarse.off / fine.off > std::pow(2., p + 0.6) ||
-                 fine.off < 1e-13,
-               at + ": rate of distances above degree + 0.6",
-               text(coarse.off) + " " + text(fine.off));
+        verdict(e1 < 4. * fine.off,
+                at + ": the volume is as exact as the boundary",
+                text(e1) + " " + text(fine.off));
+        verdict(coarse.off / fine.off > std::pow(2., p + 0.6) ||
+                  fine.off < 1e-13,
+                at + ": rate of distances above degree + 0.6",
+                text(coarse.off) + " " + text(fine.off));
       }
   }
 
@@ -170,7 +170,7 @@ namespace
   }
 
   void
-  check_thick_sphere(Report &report, const std::string &shape)
+  check_thick_sphere(const std::string &shape)
   {
     MeshParameters q =
       file_parameters(shipped("thick_sphere_" + shape + ".geo"), "inner");
@@ -179,7 +179,6 @@ namespace
       q.mesh_size = 0.6;
     q.curved_boundaries = "inner inside: sphere; inner outside: sphere";
     check_rates(
-      report,
       "thick sphere, " + shape,
       q,
       {{"inner inside", [](const auto &x) { return off_sphere(x, 1.); }},
@@ -194,7 +193,7 @@ namespace
   /// Rims that are on two surfaces: an oblique plane through a cylinder, and
   /// one beside the centre of a sphere.
   void
-  check_rims(Report &report)
+  check_rims()
   {
     MeshParameters q    = file_parameters(write_file("curved_cut.geo", R"(
 SetFactory("OpenCASCADE");
@@ -211,8 +210,7 @@ Physical Surface("bottom") = {3};
 )"));
     q.curved_boundaries = "side: cylinder";
     q.rotate            = {{0., 0., 90.}};
-    check_rates(report,
-                "oblique cut",
+    check_rates("oblique cut",
                 q,
                 {{"side",
                   [](const auto &x) { return std::hypot(x[0], x[1]) - 1.; }},
@@ -237,8 +235,7 @@ Physical Surface("lid") = {2};
 )"));
     q.curved_boundaries = "round: sphere 1, 2, 3";
     const double h      = 1.5;
-    check_rates(report,
-                "cap of a sphere",
+    check_rates("cap of a sphere",
                 q,
                 {{"round",
                   [](const auto &x) {
@@ -251,9 +248,9 @@ Physical Surface("lid") = {2};
 
   /// A torus from its STEP file.
   void
-  check_step(Report &report)
+  check_step()
   {
-    const std::string step = own_name("curved_torus.step");
+    const std::string step = temporary_file("curved_torus.step");
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         std::cout.flush();
@@ -276,8 +273,7 @@ Physical Surface("lid") = {2};
     q.mesh_size         = 0.7;
     q.curved_boundaries = "1: step " + step;
     q.translate         = {{1., 0., 0.}};
-    check_rates(report,
-                "torus from STEP",
+    check_rates("torus from STEP",
                 q,
                 {{"1",
                   [](const auto &x) {
@@ -288,11 +284,11 @@ Physical Surface("lid") = {2};
                 numbers::PI * numbers::PI * 0.49,
                 3);
     q.curved_boundaries = "1: step nothing.step";
-    refused(report, "a STEP file that is missing", q, "'nothing.step' cannot");
+    refused("a STEP file that is missing", q, "'nothing.step' cannot");
   }
 
   void
-  check_fits(Report &report)
+  check_fits()
   {
     // two bores in one boundary, an axis in no special direction
     MeshParameters q    = file_parameters(write_file("curved_bores.geo", R"(
@@ -322,20 +318,20 @@ Physical Surface("end") = {1};
                          mesh.shapes.at(id)->distance(mesh.vertices[v]).value));
             ++n;
           }
-    report(mesh.shapes.size() == 1 && n > 100 && off < 1e-14,
-           "two bores of one name are fitted each on its own",
-           text(off));
+    verdict(mesh.shapes.size() == 1 && n > 100 && off < 1e-14,
+            "two bores of one name are fitted each on its own",
+            text(off));
     const std::string shape = mesh.shapes.at(id)->text();
-    report(shape.find("2 surfaces") == 0 &&
-             (shape.find("radius 0.7") != std::string::npos ||
-              shape.find("radius 0.9") != std::string::npos),
-           "radii",
-           shape);
+    verdict(shape.find("2 surfaces") == 0 &&
+              (shape.find("radius 0.7") != std::string::npos ||
+               shape.find("radius 0.9") != std::string::npos),
+            "radii",
+            shape);
 
     const auto wrong = [&](const std::string &entry,
                            const std::string &message) {
       q.curved_boundaries = entry;
-      refused(report, entry, q, message);
+      refused(entry, q, message);
     };
     wrong("bores: sphere", "off the sphere with centre");
     wrong("bores: cylinder 0, 0, 0, 0, 0, 1", "off the cylinder with axis");
@@ -356,10 +352,9 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
-  check_fits(report);
-  check_thick_sphere(report, "tet");
-  check_thick_sphere(report, "hex");
-  check_rims(report);
-  check_step(report);
+  check_fits();
+  check_thick_sphere("tet");
+  check_thick_sphere("hex");
+  check_rims();
+  check_step();
 }

@@ -7,9 +7,9 @@
 
 #include <mortise/base/error.h>
 #include <mortise/body/mesh/mesh_source.h>
+#include <verdict.h>
 
 #include <cmath>
-#include <fstream>
 #include <iostream>
 
 #include "gmsh_meshes.h"
@@ -19,7 +19,7 @@ using namespace dealii;
 
 namespace
 {
-  using gmsh_test::Report;
+  using gmsh_test::refused;
 
   /// Two hexahedra, 2 x 1 x 1, in version 2.2. Surfaces: x = 0 "glued face"
   /// (1), z = 0 "bottom" (7), x = 2 without a name (12), the rest in no
@@ -157,16 +157,8 @@ $EndElements
   MeshParameters
   file(const std::string &file_name, const std::string &content)
   {
-    const std::string name =
-      std::to_string(Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD)) +
-      "_ranks_" + file_name;
-    MPI_Barrier(MPI_COMM_WORLD); // the file may have been in use
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::ofstream(name) << content;
-    MPI_Barrier(MPI_COMM_WORLD);
-    MeshParameters q;
-    q.source    = "file";
-    q.file      = name;
+    MeshParameters q =
+      gmsh_test::file_parameters(gmsh_test::write_file(file_name, content));
     q.rotate    = {{0., 0., 90.}};
     q.translate = {{10., 0., 0.}};
     return q;
@@ -183,9 +175,7 @@ $EndElements
   }
 
   void
-  check_version(Report            &report,
-                const std::string &version,
-                const std::string &content)
+  check_version(const std::string &version, const std::string &content)
   {
     MeshParameters q = file("two_cells_" + version + ".msh", content);
     q.refinements    = 1;
@@ -193,14 +183,14 @@ $EndElements
     const Mesh  mesh  = create_mesh(q, MPI_COMM_WORLD);
     const auto &tria  = *mesh.triangulation;
     const auto &names = mesh.names;
-    report(names.boundaries ==
-               std::map<std::string, types::boundary_id>(
-                 {{"12", 12}, {"bottom", 7}, {"glued face", 1}}) &&
-             names.materials ==
-               std::map<types::material_id, std::string>({{3, "steel"}}) &&
-             boundary_names(q) ==
-               std::vector<std::string>({"12", "bottom", "glued face"}),
-           "version " + version + ": names");
+    verdict(names.boundaries ==
+                std::map<std::string, types::boundary_id>(
+                  {{"12", 12}, {"bottom", 7}, {"glued face", 1}}) &&
+              names.materials ==
+                std::map<types::material_id, std::string>({{3, "steel"}}) &&
+              boundary_names(q) ==
+                std::vector<std::string>({"12", "bottom", "glued face"}),
+            "version " + version + ": names");
     // x -> y, y -> -x, then 10 along x: bottom is at z = 0, the glued face at y
     // = 0.
     double bottom = 0., glued = 0.;
@@ -225,21 +215,21 @@ $EndElements
     bottom = Utilities::MPI::sum(bottom, MPI_COMM_WORLD);
     glued  = Utilities::MPI::sum(glued, MPI_COMM_WORLD);
     placed = Utilities::MPI::min(placed ? 1 : 0, MPI_COMM_WORLD) == 1;
-    report(placed && std::fabs(bottom - 2.) < 1e-13 &&
-             std::fabs(glued - 1.) < 1e-13,
-           "version " + version + ": boundaries in their moved places");
-    report(tria.n_global_active_cells() == 16,
-           "version " + version + ": cells");
+    verdict(placed && std::fabs(bottom - 2.) < 1e-13 &&
+              std::fabs(glued - 1.) < 1e-13,
+            "version " + version + ": boundaries in their moved places");
+    verdict(tria.n_global_active_cells() == 16,
+            "version " + version + ": cells");
   }
 
   void
-  check_ring(Report &report)
+  check_ring()
   {
     const Mesh mesh =
       create_mesh(file("twisted_ring.msh", twisted_ring()), MPI_COMM_WORLD);
     const auto &tria = *mesh.triangulation;
-    report(tria.n_global_active_cells() == 96 && consistently_ordered(tria),
-           "a twisted ring is refined once and then consistently ordered");
+    verdict(tria.n_global_active_cells() == 96 && consistently_ordered(tria),
+            "a twisted ring is refined once and then consistently ordered");
   }
 
   std::string
@@ -253,41 +243,31 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
-  check_version(report, "2.2", version_2);
-  check_version(report, "4.1", version_4);
-  check_ring(report);
+  check_version("2.2", version_2);
+  check_version("4.1", version_4);
+  check_ring();
 
   MeshParameters missing = file("bad.msh", "");
-  refused(report, "an empty file", missing, "bad.msh' is empty");
+  refused("an empty file", missing, "bad.msh' is empty");
   missing.file = "does_not_exist.msh";
-  refused(report,
-          "a missing file",
-          missing,
-          "'does_not_exist.msh' cannot be read");
+  refused("a missing file", missing, "'does_not_exist.msh' cannot be read");
   missing.file = ".";
-  refused(report, "a folder", missing, "'.' has a name of no known format");
+  refused("a folder", missing, "'.' has a name of no known format");
   missing.file = "mesh.stl";
-  refused(report, "another ending", missing, ".msh, .geo, .step, .stp, .brep");
+  refused("another ending", missing, ".msh, .geo, .step, .stp, .brep");
   missing.file = "";
-  refused(report, "no file name", missing, "File =");
-  refused(report,
-          "another format",
-          file("bad.msh", "solid cube\n"),
-          "$MeshFormat");
-  refused(report,
-          "an old version",
+  refused("no file name", missing, "File =");
+  refused("another format", file("bad.msh", "solid cube\n"), "$MeshFormat");
+  refused("an old version",
           file("bad.msh", replaced(version_2, "2.2 0 8", "2.1 0 8")),
           "format version 2.1; allowed: 2.2 or 4.1");
-  refused(report,
-          "both shapes",
+  refused("both shapes",
           file("bad.msh",
                replaced(version_2,
                         "6 5 2 3 1 2 3 6 5 8 9 12 11",
                         "6 4 2 3 1 2 3 6 9")),
           "cells of two shapes");
-  refused(report,
-          "no volume elements",
+  refused("no volume elements",
           file("bad.msh",
                replaced(replaced(replaced(version_2,
                                           "6 5 2 3 1 2 3 6 5 8 9 12 11\n",
@@ -297,31 +277,22 @@ main(int argc, char **argv)
                         "$Elements\n6",
                         "$Elements\n4")),
           "no volume elements");
-  refused(report,
-          "half a file",
+  refused("half a file",
           file("bad.msh", version_2.substr(0, version_2.size() / 2)),
           "is not a complete mesh: in $Nodes");
 
-  const auto message_of = [](const MeshParameters &q) {
-    try
-      {
-        create_mesh(q, MPI_COMM_WORLD, "Mesh");
-      }
-    catch (const InputError &error)
-      {
-        return std::string(error.what());
-      }
-    return std::string("(no error)");
+  const auto not_made = [](const std::string    &what,
+                           const MeshParameters &q,
+                           const std::string    &fragment) {
+    check_message("refused: " + what,
+                  [&] { create_mesh(q, MPI_COMM_WORLD, "Mesh"); },
+                  {fragment});
   };
-  std::string message = message_of(
-    file("bad.msh",
-         replaced(version_2, "2 3 6 5 8 9 12 11", "2 3 6 5 8 9 12 99")));
-  report(message.find("not a complete mesh") != std::string::npos,
-         "refused: an unknown node",
-         message);
-  message = message_of(
-    file("bad.msh", replaced(version_2, "12 2 1 1\n", "12 0.2 1 -3\n")));
-  report(message.find("inside out") != std::string::npos,
-         "refused: a cell turned inside out",
-         message);
+  not_made("an unknown node",
+           file("bad.msh",
+                replaced(version_2, "2 3 6 5 8 9 12 11", "2 3 6 5 8 9 12 99")),
+           "not a complete mesh");
+  not_made("a cell turned inside out",
+           file("bad.msh", replaced(version_2, "12 2 1 1\n", "12 0.2 1 -3\n")),
+           "inside out");
 }

@@ -10,6 +10,7 @@
 
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/body/mesh/vertex_order.h>
+#include <verdict.h>
 
 #include <cmath>
 
@@ -187,7 +188,7 @@ Physical Surface("zmax") = {a[0], b[0]};
   }
 
   void
-  check_apart(Report &report, const Format &format)
+  check_apart(const Format &format)
   {
     const std::string name = write_mesh("formats_apart", apart, format);
     const CoarseMesh  brick =
@@ -198,37 +199,35 @@ Physical Surface("zmax") = {a[0], b[0]};
       mortise::read_mesh_file(file_parameters(name, "corner"),
                               "Mesh",
                               MPI_COMM_WORLD);
-    report(names(brick) == "floor lid [brick]" &&
-             names(corner) == "floor slope [corner]",
-           text(format) + ": names of both parts",
-           names(brick) + names(corner));
-    report(brick.cells.size() == 8 && brick.cells[0].vertices.size() == 8 &&
-             corner.cells[0].vertices.size() == 4 &&
-             (format.order == 2) == (brick.geometry != nullptr),
-           text(format) + ": shapes");
-    report(std::abs(volume(brick) - 1.) < 1e-13 &&
-             std::abs(volume(corner) - 1. / 6.) < 1e-13,
-           text(format) + ": volumes",
-           text(volume(brick)) + " " + text(volume(corner)));
-    report(std::abs(area(brick, "lid") - 1.) < 1e-13 &&
-             std::abs(area(brick, "floor") - 1.) < 1e-13 &&
-             std::abs(area(corner, "floor") - 0.5) < 1e-13 &&
-             std::abs(area(corner, "slope") - std::sqrt(0.75)) < 1e-13,
-           text(format) + ": areas");
-    report(usable(brick) && usable(corner),
-           text(format) + ": the same on all ranks");
-    refused(report,
-            text(format) + ": two shapes without Part",
+    verdict(names(brick) == "floor lid [brick]" &&
+              names(corner) == "floor slope [corner]",
+            text(format) + ": names of both parts",
+            names(brick) + names(corner));
+    verdict(brick.cells.size() == 8 && brick.cells[0].vertices.size() == 8 &&
+              corner.cells[0].vertices.size() == 4 &&
+              (format.order == 2) == (brick.geometry != nullptr),
+            text(format) + ": shapes");
+    verdict(std::abs(volume(brick) - 1.) < 1e-13 &&
+              std::abs(volume(corner) - 1. / 6.) < 1e-13,
+            text(format) + ": volumes",
+            text(volume(brick)) + " " + text(volume(corner)));
+    verdict(std::abs(area(brick, "lid") - 1.) < 1e-13 &&
+              std::abs(area(brick, "floor") - 1.) < 1e-13 &&
+              std::abs(area(corner, "floor") - 0.5) < 1e-13 &&
+              std::abs(area(corner, "slope") - std::sqrt(0.75)) < 1e-13,
+            text(format) + ": areas");
+    verdict(usable(brick) && usable(corner),
+            text(format) + ": the same on all ranks");
+    refused(text(format) + ": two shapes without Part",
             file_parameters(name),
             "brick (hexahedra), corner (tetrahedra): cells of two shapes");
-    refused(report,
-            text(format) + ": an unknown part",
+    refused(text(format) + ": an unknown part",
             file_parameters(name, "bricks"),
             "no physical volume 'bricks', which Part names; it has: brick");
   }
 
   void
-  check_quarter(Report &report, const Format &format, const bool recombined)
+  check_quarter(const Format &format, const bool recombined)
   {
     const std::string what =
       text(format) + (recombined ? ", hexahedra" : ", tetrahedra");
@@ -244,11 +243,11 @@ Physical Surface("zmax") = {a[0], b[0]};
       mortise::read_mesh_file(file_parameters(name, "outer"),
                               "Mesh",
                               MPI_COMM_WORLD);
-    report(names(both) == "inside outside zmax zmin [inner][outer]" &&
-             names(inner) == "inside middle zmax zmin [inner]" &&
-             names(outer) == "middle outside zmax zmin [outer]",
-           what + ": a shared surface is a boundary of each part",
-           names(both) + names(inner) + names(outer));
+    verdict(names(both) == "inside outside zmax zmin [inner][outer]" &&
+              names(inner) == "inside middle zmax zmin [inner]" &&
+              names(outer) == "middle outside zmax zmin [outer]",
+            what + ": a shared surface is a boundary of each part",
+            names(both) + names(inner) + names(outer));
     // three chords of 30 degrees, or parabolas through their middles (which
     // gmsh places to ten digits)
     const double chord = 3. * std::sin(numbers::PI / 6.) / 2.;
@@ -258,26 +257,26 @@ Physical Surface("zmax") = {a[0], b[0]};
     const double error = std::abs(volume(inner) - 1.25 * disc) +
                          std::abs(volume(outer) - 1.75 * disc) +
                          std::abs(volume(both) - 3. * disc);
-    report(error < 1e-9,
-           what + ": volumes to 1e-9",
-           text(volume(inner)) + " for " + text(1.25 * disc));
-    report(std::abs(area(inner, "middle") - area(outer, "middle")) < 1e-14 &&
-             std::abs(area(inner, "middle") -
-                      9. * std::sin(numbers::PI / 12.)) < 1e-13,
-           what + ": area of the shared surface",
-           text(area(inner, "middle")));
-    report(usable(both) && usable(inner), what + ": the same on all ranks");
+    verdict(error < 1e-9,
+            what + ": volumes to 1e-9",
+            text(volume(inner)) + " for " + text(1.25 * disc));
+    verdict(std::abs(area(inner, "middle") - area(outer, "middle")) < 1e-14 &&
+              std::abs(area(inner, "middle") -
+                       9. * std::sin(numbers::PI / 12.)) < 1e-13,
+            what + ": area of the shared surface",
+            text(area(inner, "middle")));
+    verdict(usable(both) && usable(inner), what + ": the same on all ranks");
   }
 
   void
-  check_choice_of_cells(Report &report)
+  check_choice_of_cells()
   {
     mortise::MeshParameters q =
       file_parameters(write_mesh("formats_cells", quarter(false), Format()));
     q.cells = "hexahedra";
-    refused(report, "Cells of the other shape", q, "Cells = hexahedra");
+    refused("Cells of the other shape", q, "Cells = hexahedra");
     q.cells = "tetrahedra";
-    report(message_of(q) == "(no error)", "Cells of the same shape");
+    verdict(message_of(q) == "(no error)", "Cells of the same shape");
     q.translate           = {{1., 2., 3.}};
     q.rotate              = {{0., 0., 90.}};
     const CoarseMesh mesh = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
@@ -288,11 +287,11 @@ Physical Surface("zmax") = {a[0], b[0]};
         placed         = placed && x[0] < 1. + 1e-12 && x[1] > 2. - 1e-12 &&
                  x[2] > 3. - 1e-12 && r > 1. - 1e-12 && r < 2. + 1e-12;
       }
-    report(placed, "Rotate and Translate");
+    verdict(placed, "Rotate and Translate");
   }
 
   void
-  check_geometries(Report &report)
+  check_geometries()
   {
     const std::string       name = write_file("formats_meshed.geo",
                                         R"(DefineConstant[ mesh_size = 0.5 ];
@@ -310,18 +309,18 @@ Physical Surface("low") = {5};
         const CoarseMesh mesh =
           mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
         n[fine] = mesh.cells.size();
-        report(std::abs(volume(mesh) - 1.) < 1e-13 &&
-                 std::abs(area(mesh, "low") - 1.) < 1e-13 && usable(mesh),
-               ".geo with Mesh size = " + text(q.mesh_size));
+        verdict(std::abs(volume(mesh) - 1.) < 1e-13 &&
+                  std::abs(area(mesh, "low") - 1.) < 1e-13 && usable(mesh),
+                ".geo with Mesh size = " + text(q.mesh_size));
         const CoarseMesh again =
           mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
-        report(again.vertices == mesh.vertices, "the same in a second run");
+        verdict(again.vertices == mesh.vertices, "the same in a second run");
       }
-    report(n[1] > 4 * n[0],
-           "Mesh size changes the mesh",
-           std::to_string(n[0]) + " " + std::to_string(n[1]));
+    verdict(n[1] > 4 * n[0],
+            "Mesh size changes the mesh",
+            std::to_string(n[0]) + " " + std::to_string(n[1]));
 
-    const std::string brep = own_name("formats_box.brep");
+    const std::string brep = temporary_file("formats_box.brep");
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         gmsh::initialize(0, nullptr, false);
@@ -335,10 +334,10 @@ Physical Surface("low") = {5};
     q                     = file_parameters(brep);
     q.mesh_size           = 1.;
     const CoarseMesh mesh = mortise::read_mesh_file(q, "Mesh", MPI_COMM_WORLD);
-    report(std::abs(volume(mesh) - 6.) < 1e-12 && usable(mesh) &&
-             names(mesh) == "1 2 3 4 5 6 [1]",
-           ".brep: volume, and surfaces named by their tags",
-           text(volume(mesh)) + " " + names(mesh));
+    verdict(std::abs(volume(mesh) - 6.) < 1e-12 && usable(mesh) &&
+              names(mesh) == "1 2 3 4 5 6 [1]",
+            ".brep: volume, and surfaces named by their tags",
+            text(volume(mesh)) + " " + names(mesh));
   }
 } // namespace
 
@@ -346,7 +345,6 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
   for (const double version : {2.2, 4.1})
     for (const bool binary : {false, true})
       for (const unsigned int order : {1, 2})
@@ -355,13 +353,13 @@ main(int argc, char **argv)
           format.version = version;
           format.binary  = binary;
           format.order   = order;
-          check_apart(report, format);
-          check_quarter(report, format, false);
-          check_quarter(report, format, true);
+          check_apart(format);
+          check_quarter(format, false);
+          check_quarter(format, true);
           format.serendipity = true;
           if (order == 2)
-            check_quarter(report, format, true);
+            check_quarter(format, true);
         }
-  check_choice_of_cells(report);
-  check_geometries(report);
+  check_choice_of_cells();
+  check_geometries();
 }

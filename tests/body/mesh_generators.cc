@@ -12,6 +12,7 @@
 #include <mortise/base/error.h>
 #include <mortise/body/mesh/manifolds.h>
 #include <mortise/body/mesh/mesh_source.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <iostream>
@@ -22,21 +23,6 @@ using namespace dealii;
 namespace
 {
   constexpr double pi = numbers::PI;
-
-  class Report
-  {
-  public:
-    bool
-    operator()(const bool good, const std::string &what)
-    {
-      out << (good ? "OK  " : "FAILED ") << what << std::endl;
-      return good;
-    }
-
-    ConditionalOStream out{std::cout,
-                           Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) ==
-                             0};
-  };
 
   /// Volume, area of each boundary, and the smallest scaled Jacobian, by
   /// MappingQ of degree 8.
@@ -111,8 +97,7 @@ namespace
 
   /// @p areas: exact area by boundary name; materials: number of ids on the coarse mesh.
   void
-  check(Report                              &report,
-        const std::string                   &name,
+  check(const std::string                   &name,
         MeshParameters                       parameters,
         const double                         volume,
         const std::map<std::string, double> &areas,
@@ -150,16 +135,13 @@ namespace
       named = named &&
               std::binary_search(listed.begin(), listed.end(), boundary.first);
 
-    report(named && listed.size() == areas.size(),
-           name + ": names of the boundaries");
-    report(explained, name + ": material ids");
-    if (!report(std::fabs(m.volume / volume - 1.) < 1e-9,
-                name + ": volume to 1e-9"))
-      report.out << m.volume / volume - 1. << std::endl;
-    if (!report(error < 1e-8, name + ": areas to 1e-8"))
-      report.out << error << std::endl;
-    report(m.jacobian > 0.2, name + ": scaled Jacobians above 0.2");
-    report(consistently_ordered(tria), name + ": consistently ordered");
+    verdict(named && listed.size() == areas.size(),
+            name + ": names of the boundaries");
+    verdict(explained, name + ": material ids");
+    verdict(name + ": volume to 1e-9", std::fabs(m.volume / volume - 1.), 1e-9);
+    verdict(name + ": areas to 1e-8", error, 1e-8);
+    verdict(m.jacobian > 0.2, name + ": scaled Jacobians above 0.2");
+    verdict(consistently_ordered(tria), name + ": consistently ordered");
   }
 
   MeshParameters
@@ -179,11 +161,10 @@ namespace
   }
 
   void
-  check_straight(Report &report)
+  check_straight()
   {
     MeshParameters box = make("box", {1., 2., 3., 2., 4., 6.}, {3, 4, 2});
-    check(report,
-          "box",
+    check("box",
           box,
           6.,
           {{"xmin", 6.},
@@ -194,8 +175,7 @@ namespace
            {"zmax", 2.}},
           8);
     box.distort = 0.15;
-    check(report,
-          "distorted box",
+    check("distorted box",
           box,
           6.,
           {{"xmin", 6.},
@@ -208,8 +188,7 @@ namespace
     box.top_slope    = {{0.5, 0.25}};
     box.bottom_slope = {{0., -0.5}};
     // Heights at the corners: (0,0) 3, (1,0) 3.5, (0,2) 4.5, (1,2) 5.
-    check(report,
-          "inclined box",
+    check("inclined box",
           box,
           8.,
           {{"xmin", 7.5},
@@ -222,11 +201,10 @@ namespace
   }
 
   void
-  check_round(Report &report)
+  check_round()
   {
     const double side = pi * (2.25 - 1.) / 4.;
-    check(report,
-          "shell octant",
+    check("shell octant",
           make("shell octant", {1., 1.5}, {3, 2}),
           pi / 6. * (1.5 * 1.5 * 1.5 - 1.),
           {{"inside", pi / 2.},
@@ -235,8 +213,7 @@ namespace
            {"ymin", side},
            {"zmin", side}},
           3);
-    check(report,
-          "shell octant refined from 1",
+    check("shell octant refined from 1",
           make("shell octant", {1., 1.5}, {1, 1}, 2),
           pi / 6. * (1.5 * 1.5 * 1.5 - 1.),
           {{"inside", pi / 2.},
@@ -245,8 +222,7 @@ namespace
            {"ymin", side},
            {"zmin", side}},
           3);
-    check(report,
-          "cylinder sector",
+    check("cylinder sector",
           make("cylinder sector", {1., 1.5, 0.7}, {3, 2, 2}),
           side * 0.7,
           {{"inside", pi / 2. * 0.7},
@@ -260,7 +236,7 @@ namespace
 
   /// Volume under z = z_middle + F and side areas by a fine product rule.
   void
-  check_curved(Report &report, const std::string &surface)
+  check_curved(const std::string &surface)
   {
     MeshParameters q =
       make("curved block", {0., 1., 2., 2., 4., 3.}, {4, 6, 1});
@@ -300,8 +276,7 @@ namespace
                      (0.6 + shape.height(2. * s, 1. + 3. * side).value);
         }
     q.half = "lower";
-    check(report,
-          surface + ", lower",
+    check(surface + ", lower",
           q,
           under,
           {{"xmin", x[0]},
@@ -312,8 +287,7 @@ namespace
            {"interface", area}},
           1);
     q.half = "upper";
-    check(report,
-          surface + ", upper",
+    check(surface + ", upper",
           q,
           6. - under,
           {{"xmin", 3. - x[0]},
@@ -325,8 +299,7 @@ namespace
           1);
     q.half         = "both";
     q.subdivisions = {4, 6, 2, 1};
-    check(report,
-          surface + ", both",
+    check(surface + ", both",
           q,
           6.,
           {{"xmin", 3.},
@@ -339,7 +312,7 @@ namespace
   }
 
   void
-  check_refine_near(Report &report)
+  check_refine_near()
   {
     MeshParameters     q = make("shell octant", {1., 2.}, {2, 2});
     const Point<3>     p = motion(Point<3>(2., 0., 0.));
@@ -350,20 +323,21 @@ namespace
                     text.str().substr(0, text.str().find(", 0.3")) + ",1e-3,1";
     const Mesh  mesh = create_mesh(q, MPI_COMM_WORLD);
     const auto &tria = *mesh.triangulation;
-    report.out << "cells: " << tria.n_global_active_cells() << ", levels "
-               << tria.n_global_levels() << std::endl;
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
+      std::cout << "cells: " << tria.n_global_active_cells() << ", levels "
+                << tria.n_global_levels() << std::endl;
     double finest = 0.;
     for (const auto &cell : tria.active_cell_iterators())
       if (cell->is_locally_owned() && cell->level() == 3)
         finest = std::max(finest, cell->center().distance(p));
-    report(tria.n_global_levels() == 4 &&
-             Utilities::MPI::max(finest, MPI_COMM_WORLD) < 0.3,
-           "refined near the moved point");
+    verdict(tria.n_global_levels() == 4 &&
+              Utilities::MPI::max(finest, MPI_COMM_WORLD) < 0.3,
+            "refined near the moved point");
     const Measures m = measure(tria);
-    report(std::fabs(m.volume / (pi / 6. * 7.) - 1.) < 1e-7,
-           "locally refined shell: volume to 1e-7");
-    report(m.jacobian > 0.2,
-           "locally refined shell: scaled Jacobians above 0.2");
+    verdict(std::fabs(m.volume / (pi / 6. * 7.) - 1.) < 1e-7,
+            "locally refined shell: volume to 1e-7");
+    verdict(m.jacobian > 0.2,
+            "locally refined shell: scaled Jacobians above 0.2");
 
     q.refine_near = "0, 0, 0, 0.1, 1";
     bool refused  = false;
@@ -375,7 +349,7 @@ namespace
       {
         refused = true;
       }
-    report(refused, "a ball that meets no cell is refused");
+    verdict(refused, "a ball that meets no cell is refused");
   }
 } // namespace
 
@@ -383,10 +357,9 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
-  check_straight(report);
-  check_round(report);
+  check_straight();
+  check_round();
   for (const std::string surface : {"bump", "saddle", "wave"})
-    check_curved(report, surface);
-  check_refine_near(report);
+    check_curved(surface);
+  check_refine_near();
 }

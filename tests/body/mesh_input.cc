@@ -5,6 +5,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/body/mesh/mesh_source.h>
+#include <verdict.h>
 
 #include <functional>
 #include <iostream>
@@ -29,29 +30,16 @@ namespace
   void
   refused(const MeshParameters &q, const std::vector<std::string> &fragments)
   {
-    std::string first = "(no error)", second = "(no error)";
-    try
-      {
-        validate(q, "Body inner, Mesh");
-      }
-    catch (const InputError &error)
-      {
-        first = error.what();
-      }
-    try
-      {
-        create_mesh(q, MPI_COMM_WORLD, "Body inner, Mesh");
-      }
-    catch (const InputError &error)
-      {
-        second = error.what();
-      }
+    const std::string first =
+      message_of([&] { validate(q, "Body inner, Mesh"); });
+    const std::string second =
+      message_of([&] { create_mesh(q, MPI_COMM_WORLD, "Body inner, Mesh"); });
     bool good = first == second && first.find("Body inner, Mesh: ") == 0;
     for (const std::string &fragment : fragments)
       good = good && first.find(fragment) != std::string::npos;
-    std::cout << (good ? "OK  refused: " + first.substr(18) :
-                         "FAILED " + first + " / " + second)
-              << std::endl;
+    verdict(good,
+            "refused: " + (good ? first.substr(18) : first),
+            "\"" + second + "\"");
   }
 
   void

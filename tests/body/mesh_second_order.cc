@@ -10,6 +10,7 @@
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/fe_simplex_legendre.h>
 #include <mortise/body/elements/simplex_quadrature.h>
+#include <verdict.h>
 
 #include <array>
 #include <cmath>
@@ -164,42 +165,38 @@ Physical Surface("high") = {core[0]};
   }
 
   void
-  check(Report            &report,
-        const std::string &what,
-        MeshParameters     q,
-        const double       volume)
+  check(const std::string &what, MeshParameters q, const double volume)
   {
     const Measured     got = measure(q);
     std::ostringstream text;
     text << std::abs(got.volume / volume - 1.) << " " << got.bottom << " "
          << got.vertices;
-    report(std::abs(got.volume / volume - 1.) < 1e-13,
-           what + ": volume to 1e-13",
-           text.str());
-    report(got.bottom < 1e-13 && got.vertices < 1e-13,
-           what + ": points and vertices on the bent boundary to 1e-13",
-           text.str());
+    verdict(std::abs(got.volume / volume - 1.) < 1e-13,
+            what + ": volume to 1e-13",
+            text.str());
+    verdict(got.bottom < 1e-13 && got.vertices < 1e-13,
+            what + ": points and vertices on the bent boundary to 1e-13",
+            text.str());
   }
 
   void
-  check_shape(Report &report, const std::string &shape, const std::string &file)
+  check_shape(const std::string &shape, const std::string &file)
   {
     MeshParameters q = file_parameters(file);
-    check(report, shape, q, exact_volume());
+    check(shape, q, exact_volume());
     q.refinements = 1;
-    check(report, shape + ", refined", q, exact_volume());
+    check(shape + ", refined", q, exact_volume());
     q.refinements = 2;
-    check(report, shape + ", refined twice", q, exact_volume());
+    check(shape + ", refined twice", q, exact_volume());
     if (shape != "tetrahedra")
       {
         q.refinements = 1;
         q.refine_near = "0, 0, 0, 0.1, 2";
-        check(report, shape + ", refined near", q, exact_volume());
+        check(shape + ", refined near", q, exact_volume());
       }
     q.refine_near       = "";
     q.curved_boundaries = "low: sphere";
-    refused(report,
-            shape + " with Curved boundaries",
+    refused(shape + " with Curved boundaries",
             q,
             "is of second order, whose own curved geometry is kept");
   }
@@ -209,14 +206,11 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  Report                           report;
   // p4est permutes coarse cells, in another way for each of these
-  check_shape(report,
-              "3 x 3 x 1 hexahedra of 27 nodes",
+  check_shape("3 x 3 x 1 hexahedra of 27 nodes",
               bent_cube(true, false, {{3, 3, 1}}));
   // the map is of degree 2 in all, so that serendipity has it, too
-  check_shape(report,
-              "2 x 3 x 4 hexahedra of 20 nodes",
+  check_shape("2 x 3 x 4 hexahedra of 20 nodes",
               bent_cube(true, true, {{2, 3, 4}}));
-  check_shape(report, "tetrahedra", bent_cube(false, false, {{2, 3, 2}}));
+  check_shape("tetrahedra", bent_cube(false, false, {{2, 3, 2}}));
 }

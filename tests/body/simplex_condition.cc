@@ -16,6 +16,7 @@
 
 #include <mortise/body/elements/fe_simplex_legendre.h>
 #include <mortise/body/elements/simplex_quadrature.h>
+#include <verdict.h>
 
 #include <cstdio>
 #include <iostream>
@@ -119,15 +120,6 @@ interior_deviation(const FiniteElement<3> &fe, const FullMatrix<double> &mass)
     for (unsigned int j = fe.get_first_hex_index(); j < mass.m(); ++j)
       worst = std::max(worst, std::abs(mass(i, j) - (i == j ? 1. : 0.)));
   return worst;
-}
-
-void
-verdict(const std::string &what, const double got, const double allowed)
-{
-  if (got <= allowed)
-    std::cout << "OK  " << what << std::endl;
-  else
-    std::cout << "FAILED  " << what << ": got " << got << std::endl;
 }
 
 int

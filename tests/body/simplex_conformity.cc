@@ -4,7 +4,6 @@
 // with the minimum-rule constraints, and polynomials of the lowest degree are
 // in the space.
 
-#include <deal.II/base/conditional_ostream.h>
 #include <deal.II/base/function.h>
 
 #include <deal.II/dofs/dof_tools.h>
@@ -20,6 +19,7 @@
 
 #include <mortise/body/elements/simplex_elements.h>
 #include <mortise/body/spaces/hp_constraints.h>
+#include <verdict.h>
 
 #include <iostream>
 
@@ -253,17 +253,7 @@ main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const MPI_Comm                   comm = MPI_COMM_WORLD;
-  ConditionalOStream               out(std::cout,
-                         Utilities::MPI::this_mpi_process(comm) == 0);
   const bool serial = Utilities::MPI::n_mpi_processes(comm) == 1;
-
-  const auto verdict =
-    [&](const bool ok, const std::string &what, const double got) {
-      if (ok)
-        out << "OK  " << what << std::endl;
-      else
-        out << "FAILED  " << what << ": got " << got << std::endl;
-    };
 
   // Another first seed may be given, for longer searches than a test affords.
   std::mt19937 random(argc > 1 ? std::stoi(argv[1]) : 1);

@@ -9,6 +9,7 @@
 #include <mortise/body/elements/fe_simplex_legendre.h>
 #include <mortise/body/elements/simplex_mapping.h>
 #include <mortise/body/elements/simplex_quadrature.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <iostream>
@@ -102,15 +103,6 @@ largest_gap(const Mapping<3> &mapping, const Triangulation<3> &triangulation)
                                                                        there)));
       }
   return gap;
-}
-
-void
-verdict(const bool ok, const std::string &what, const double got)
-{
-  if (ok)
-    std::cout << "OK  " << what << std::endl;
-  else
-    std::cout << "FAILED  " << what << ": got " << got << std::endl;
 }
 
 /// Vertices stay where they are; where y is large points of lines pass each

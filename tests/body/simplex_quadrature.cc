@@ -3,6 +3,7 @@
 // close to a vertex.
 
 #include <mortise/body/elements/simplex_quadrature.h>
+#include <verdict.h>
 
 #include <algorithm>
 #include <cmath>
@@ -71,14 +72,10 @@ check(const unsigned int max_degree)
                                    std::to_string(degree) + ", " +
                                    (which == 0 ? "best" : "collapsed") + ", " +
                                    std::to_string(sizes[which]) + " points";
-          if (errors[which] <= 1e-12)
-            std::cout << "OK  " << what << ": exact, 1e-12" << std::endl;
-          else
-            std::cout << "FAILED  " << what << ": got " << errors[which]
-                      << std::endl;
+          verdict(what + ": exact, 1e-12", errors[which], 1e-12);
         }
       if (sizes[0] > sizes[1])
-        std::cout << "FAILED  the collapsed rule has less points" << std::endl;
+        verdict(false, "the collapsed rule has more points", sizes[1]);
     }
 }
 

@@ -16,6 +16,7 @@
 #include <mortise/body/elements/simplex_mapping.h>
 #include <mortise/body/elements/simplex_quadrature.h>
 #include <mortise/body/spaces/hp_constraints.h>
+#include <verdict.h>
 
 #include <iostream>
 
@@ -157,9 +158,9 @@ main(int argc, char **argv)
           std::cout << at << " L2 " << fine.l2 << " rate " << l2 << ", H1 "
                     << fine.h1 << " rate " << h1 << std::endl;
         else
-          std::cout << (l2 >= p + 0.75 ? "OK  " : "FAILED  ") << at
-                    << " L2: rate >= p + 0.75\n"
-                    << (h1 >= p - 0.25 ? "OK  " : "FAILED  ") << at
-                    << " H1: rate >= p - 0.25" << std::endl;
+          {
+            verdict(l2 >= p + 0.75, at + " L2: rate >= p + 0.75", l2);
+            verdict(h1 >= p - 0.25, at + " H1: rate >= p - 0.25", h1);
+          }
       }
 }

@@ -4,8 +4,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/body/body.h>
+#include <verdict.h>
 
-#include <iostream>
 #include <set>
 #include <sstream>
 
@@ -63,10 +63,9 @@ namespace
     once.create_space(3, {{1, 4}}, "");
     const bool same = describe(again) == describe(once);
     again.create_space(2, {}, "");
-    std::cout << (same ? "OK  " : "FAILED  ") << cells
-              << ": other degrees give the spaces of a new body\n"
-              << (describe(again) == first ? "OK  " : "FAILED  ") << cells
-              << ": the first degrees give the first spaces\n";
+    verdict(same, cells + ": other degrees give the spaces of a new body");
+    verdict(describe(again) == first,
+            cells + ": the first degrees give the first spaces");
     // the second ball is inside the first one
     const Ball wide{{1., 0., 0.}, 0.9, 3}, narrow{{1., 0., 0.}, 0.2, 4};
     again.create_space(2, {{1, 5}}, "", {wide, narrow});
@@ -80,8 +79,8 @@ namespace
                                               cell->material_id() == 1 ? 5u :
                                                                          2u);
       }
-    std::cout << (good && found.size() > 2 ? "OK  " : "FAILED  ") << cells
-              << ": the last ball that touches a cell gives its degree\n";
+    verdict(good && found.size() > 2,
+            cells + ": the last ball that touches a cell gives its degree");
   }
 } // namespace
 

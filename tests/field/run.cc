@@ -27,6 +27,8 @@
 #include <string>
 #include <vector>
 
+#include "../temporary_directory.h"
+
 namespace
 {
   struct Expectations
@@ -73,8 +75,6 @@ namespace
   Outcome
   run(const std::string &command, const std::filesystem::path &output)
   {
-    std::filesystem::remove_all(output);
-    std::filesystem::create_directories(output.parent_path());
     FILE *pipe = popen((command + " 2>&1").c_str(), "r");
     if (pipe == nullptr)
       throw std::runtime_error("cannot be started");
@@ -166,18 +166,18 @@ main(int argc, char **argv)
       std::cerr << "run MORTISE MPI_SCRIPT SCENE.prm" << std::endl;
       return 2;
     }
-  const std::filesystem::path scene  = argv[3],
-                              output = std::filesystem::absolute("field") /
-                                       scene.stem();
+  const std::filesystem::path scene = argv[3];
   try
     {
+      const TemporaryDirectory directory;
+      const std::string  output = directory.path + "/" + scene.stem().string();
       const Expectations expectations = read_expectations(scene);
       std::string command = "cd '" + scene.parent_path().string() + "' && ";
       if (expectations.ranks > 1)
         command += std::string("'") + argv[2] + "' " +
                    std::to_string(expectations.ranks) + " ";
       command += std::string("'") + argv[1] + "'" + expectations.options +
-                 " --output '" + output.string() + "' '" + scene.string() + "'";
+                 " --output '" + output + "' '" + scene.string() + "'";
       const Outcome outcome = run(command, output);
       bool          good    = true;
       for (const std::string &line : expectations.lines)

@@ -8,6 +8,7 @@
 
 #include <mortise/base/rigid_motion.h>
 #include <mortise/material/material.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <iostream>
@@ -19,16 +20,6 @@ using dealii::Tensor;
 
 namespace
 {
-  void
-  at_most(const std::string &what, const double got, const double allowed)
-  {
-    if (got <= allowed)
-      std::cout << "OK  " << what << ": " << allowed << std::endl;
-    else
-      std::cout << "FAILED " << what << ": got " << got << ", allowed "
-                << allowed << std::endl;
-  }
-
   const LinearElastic hooke{10., 0.3};
   const Orthotropic   wood{{{10., 1., 0.5}},
                            {{0.35, 0.6, 0.02}},
@@ -69,7 +60,7 @@ namespace
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         error = std::max(error, std::fabs(s[i][j] - difference[i][j]));
-    at_most(name + ": tangent against differences of the stress",
+    verdict(name + ": tangent against differences of the stress",
             error / difference.norm(),
             1e-11);
 
@@ -82,7 +73,7 @@ namespace
             asymmetry = std::max({asymmetry,
                                   std::fabs(C[i][a][j][b] - C[j][b][i][a]),
                                   std::fabs(C[i][a][j][b] - C[a][i][j][b])});
-    at_most(name + ": moduli symmetric", asymmetry, 1e-14);
+    verdict(name + ": moduli symmetric", asymmetry, 1e-14);
   }
 
   /// Several points at once in the type @p Number against one in double.
@@ -115,7 +106,7 @@ namespace
                              std::fabs(double(s[i][j][lane]) - expected[i][j]) /
                                expected.norm());
       }
-    at_most(name + ": several points at once", error, tolerance);
+    verdict(name + ": several points at once", error, tolerance);
   }
 
   /// Strains of the textbook under stresses along the axes of the material.
@@ -141,14 +132,14 @@ namespace
         gradient[k][k] = -ratio(i, k) / law.young_moduli[i];
         SymmetricTensor<2, 3> expected;
         expected[i][i] = 1.;
-        at_most(std::string("tension along ") + axes[i],
+        verdict(std::string("tension along ") + axes[i],
                 (material.stress(gradient) - expected).norm(),
                 1e-14);
         Tensor<2, 3> shear;
         shear[i][j] = 1. / law.shear_moduli[i];
         SymmetricTensor<2, 3> across;
         across[i][j] = 1.;
-        at_most(std::string("shear ") + axes[i] + axes[j],
+        verdict(std::string("shear ") + axes[i] + axes[j],
                 (material.stress(shear) - across).norm(),
                 1e-14);
       }
@@ -165,18 +156,18 @@ namespace
                             {{20., 30., 40.}}};
     const Tensor<2, 3> gradient = random_gradient();
     const auto         expected = Material(hooke).stress(gradient);
-    at_most("isotropic constants: Hooke's stress",
+    verdict("isotropic constants: Hooke's stress",
             (Material(same).stress(gradient) - expected).norm() /
               expected.norm(),
             1e-14);
     for (const LinearElastic &average :
          {same.averages().voigt, same.averages().reuss})
-      at_most("isotropic constants: averages",
+      verdict("isotropic constants: averages",
               std::fabs(average.young_modulus / E - 1.) +
                 std::fabs(average.poisson_ratio / nu - 1.),
               1e-13);
     const auto averages = wood.averages();
-    at_most("averages: Reuss below Voigt",
+    verdict("averages: Reuss below Voigt",
             averages.reuss.young_modulus / averages.voigt.young_modulus,
             0.5);
   }
@@ -193,10 +184,10 @@ namespace
     const Tensor<2, 3> expected =
       R * Tensor<2, 3>(Material(own).stress(gradient)) * transpose(R);
     const Tensor<2, 3> got = Material(wood).stress(R * gradient * transpose(R));
-    at_most("strain and axes turned together",
+    verdict("strain and axes turned together",
             (got - expected).norm() / expected.norm(),
             1e-14);
-    at_most("energy is the product of stress and strain",
+    verdict("energy is the product of stress and strain",
             std::fabs(
               Material(wood).twice_energy(gradient, 0.) /
                 (Material(wood).stress(gradient) * symmetrize(gradient)) -
@@ -213,9 +204,7 @@ namespace
                                      "";
     const bool        good =
       fragment.empty() ? got.empty() : got.find(fragment) != std::string::npos;
-    std::cout << (good ? "OK  " : "FAILED ")
-              << (fragment.empty() ? "accepted" : "refused: " + fragment)
-              << (good ? "" : ": got " + got) << std::endl;
+    verdict(good, fragment.empty() ? "accepted" : "refused: " + fragment, got);
   }
 
   void

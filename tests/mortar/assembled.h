@@ -1,7 +1,7 @@
 // A tied scene with its matrices, and two boxes for it. It never judges.
 #pragma once
 
-#include <scenes/scene.h>
+#include <verdict.h>
 
 #include <numeric>
 

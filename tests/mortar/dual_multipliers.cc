@@ -4,7 +4,7 @@
 // surfaces; as polynomials they do the same work. Held sides, hanging nodes,
 // mixed degrees, faces covered in part and distorted faces included.
 #include <mortise/mortar/nodal_block.h>
-#include <scenes/scene.h>
+#include <verdict.h>
 
 #include "multiplier_functions.h"
 

@@ -5,7 +5,7 @@
 // by component for symmetry planes; that they are continuous across hanging
 // nodes and mixed degrees; and which are left on faces that are covered in
 // part. The same on every number of ranks.
-#include <scenes/scene.h>
+#include <verdict.h>
 
 #include "multiplier_functions.h"
 

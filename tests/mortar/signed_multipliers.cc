@@ -5,7 +5,7 @@
 // of the degree that is left are among them, and multipliers come back from
 // values. Held sides, hanging nodes, several degrees and faces covered in part
 // included.
-#include <scenes/scene.h>
+#include <verdict.h>
 
 #include "tied_scene.h"
 

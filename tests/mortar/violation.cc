@@ -4,7 +4,7 @@
 // what springs give way, and under contact of overlaps, tension, and the less
 // of gap and pressure at one point. The same on any number of ranks.
 #include <mortise/mortar/violation.h>
-#include <scenes/scene.h>
+#include <verdict.h>
 
 #include "tied_scene.h"
 

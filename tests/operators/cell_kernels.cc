@@ -9,6 +9,7 @@
 #include <mortise/operators/cells/linear_cell_matrices.h>
 #include <mortise/operators/cells/load_kernel.h>
 #include <mortise/operators/scene_system.h>
+#include <verdict.h>
 
 #include "../scenes/scene.h"
 #include "reference_cell.h"

@@ -16,10 +16,10 @@
 #include <mortise/operators/levels/degree_transfer.h>
 #include <mortise/operators/matrix_free/simplex_tables.h>
 #include <mortise/operators/nodal_system.h>
+#include <mortise/operators/scene_system.h>
+#include <verdict.h>
 
 #include <cmath>
-
-#include "../scenes/scene.h"
 
 namespace mortise::testing
 {

@@ -12,6 +12,7 @@
 #include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_system.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <map>

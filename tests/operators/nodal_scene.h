@@ -6,10 +6,9 @@
 
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_solution.h>
+#include <verdict.h>
 
 #include <functional>
-
-#include "../scenes/scene.h"
 
 namespace mortise::testing
 {

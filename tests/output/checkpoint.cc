@@ -61,7 +61,7 @@ namespace
   void
   test_ranks(const Given &given, const Truth &truth)
   {
-    const std::string        directory = gmsh_test::own_name("checkpoint");
+    const std::string        directory = temporary_file("checkpoint");
     const std::string        file      = checkpoint_file_name(directory);
     const std::vector<Group> all       = groups();
     std::vector<std::unique_ptr<Scene>> scenes;
@@ -119,9 +119,6 @@ namespace
                                      MPI_COMM_WORLD);
                   }),
                   {"cannot write"});
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::filesystem::remove_all(directory);
     MPI_Comm fewer = all[1].comm;
     scenes.clear();
     MPI_Comm_free(&fewer);
@@ -197,7 +194,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const Given                      given = given_scene("checkpoint");
+  const Given                      given = given_scene();
   const Truth                      truth(given);
   test_ranks(given, truth);
   test_blocks(given, truth);

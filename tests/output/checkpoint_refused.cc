@@ -4,8 +4,6 @@
 
 #include <mortise/output/summary.h>
 
-#include <filesystem>
-
 #include "checkpoint_truth.h"
 
 using namespace mortise;
@@ -16,7 +14,7 @@ namespace
   const std::string &
   directory()
   {
-    static const std::string name = gmsh_test::own_name("checkpoint_refused");
+    static const std::string name = temporary_file("checkpoint");
     return name;
   }
 
@@ -259,8 +257,7 @@ namespace
             out << line << '\n';
           }
       }
-    return gmsh_test::write_file("checkpoint_refused_renumbered.msh",
-                                 out.str());
+    return gmsh_test::write_file("renumbered.msh", out.str());
   }
 
   /// The scene as @p change leaves it is refused.
@@ -396,7 +393,7 @@ int
 main(int argc, char **argv)
 {
   Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  const Given                      given = given_scene("checkpoint_refused");
+  const Given                      given = given_scene();
   const Scene                      scene(given, MPI_COMM_WORLD);
   write_checkpoint(directory(),
                    {},
@@ -412,7 +409,4 @@ main(int argc, char **argv)
   test_other_bodies(given);
   test_other_geometry(given);
   test_other_interfaces(given);
-  MPI_Barrier(MPI_COMM_WORLD);
-  if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    std::filesystem::remove_all(directory());
 }

@@ -3,12 +3,11 @@
 #pragma once
 
 #include <mortise/output/checkpoint.h>
+#include <verdict.h>
 
-#include <functional>
 #include <map>
 
 #include "../body/gmsh_meshes.h"
-#include "../scenes/scene.h"
 
 namespace mortise::testing
 {
@@ -84,7 +83,7 @@ namespace mortise::testing
 
   /// A cube of tetrahedra, or of 2 x 2 x 3 second-order hexahedra.
   inline std::string
-  gmsh_mesh(const std::string &test, const bool hexahedra)
+  gmsh_mesh(const bool hexahedra)
   {
     const std::string square = R"(
 Point(1) = {0, 0, 0, 0.5};
@@ -116,8 +115,7 @@ Physical Surface("side") = {out[2]};
     gmsh_test::Format format;
     format.version = 2.2;
     format.order   = hexahedra ? 2 : 1;
-    return gmsh_test::write_mesh(test +
-                                   (hexahedra ? "_hexahedra" : "_tetrahedra"),
+    return gmsh_test::write_mesh(hexahedra ? "hexahedra" : "tetrahedra",
                                  square + layers + names,
                                  format);
   }
@@ -143,7 +141,7 @@ Physical Surface("side") = {out[2]};
   };
 
   inline Given
-  given_scene(const std::string &test)
+  given_scene()
   {
     MeshParameters shell;
     shell.source       = "shell octant";
@@ -151,16 +149,14 @@ Physical Surface("side") = {out[2]};
     shell.subdivisions = {2, 1};
     shell.refine_near  = "0, 0, 1.5, 0.4, 1";
     MeshParameters cover;
-    cover.source       = "shell octant";
-    cover.extent       = {1.5, 2.};
-    cover.subdivisions = {2, 1};
-    cover.cells        = "tetrahedra";
-    MeshParameters tetrahedra =
-      gmsh_test::file_parameters(gmsh_mesh(test, false));
-    tetrahedra.translate = {{10., 0., 0.}};
-    MeshParameters hexahedra =
-      gmsh_test::file_parameters(gmsh_mesh(test, true));
-    hexahedra.translate = {{20., 0., 0.}};
+    cover.source              = "shell octant";
+    cover.extent              = {1.5, 2.};
+    cover.subdivisions        = {2, 1};
+    cover.cells               = "tetrahedra";
+    MeshParameters tetrahedra = gmsh_test::file_parameters(gmsh_mesh(false));
+    tetrahedra.translate      = {{10., 0., 0.}};
+    MeshParameters hexahedra  = gmsh_test::file_parameters(gmsh_mesh(true));
+    hexahedra.translate       = {{20., 0., 0.}};
     return {{{"inner", shell, 2, true, {{0, 2}, {1, 4}, {2, 3}}},
              {"outer", cover, 2, true, {{0, 3}, {1, 2}, {2, 4}}},
              {"block", tetrahedra, 3},
@@ -175,31 +171,4 @@ Physical Surface("side") = {out[2]};
              {"seam", block, "top", brick, "zmin"}}};
   }
 
-  inline std::string
-  message_of(const std::function<void()> &action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "(no error)";
-  }
-
-  /// On all ranks the same message, with all @p fragments.
-  inline void
-  check_message(const std::string              &what,
-                const std::string              &message,
-                const std::vector<std::string> &fragments)
-  {
-    bool good =
-      message == Utilities::MPI::broadcast(MPI_COMM_WORLD, message, 0);
-    for (const std::string &fragment : fragments)
-      good = good && message.find(fragment) != std::string::npos;
-    good = Utilities::MPI::min<int>(good, MPI_COMM_WORLD);
-    verdict(what + (good ? "" : ": \"" + message + "\""), !good, 0);
-  }
 } // namespace mortise::testing

@@ -6,7 +6,7 @@
 #include <mortar/tied_scene.h>
 #include <mortise/operators/body_volume.h>
 #include <mortise/output/extremes.h>
-#include <scenes/scene.h>
+#include <verdict.h>
 
 #include "polynomial_field.h"
 

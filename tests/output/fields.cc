@@ -10,8 +10,8 @@
 // one rank has. Files hold fields in single precision.
 #include <mortar/tied_scene.h>
 #include <mortise/output/fields.h>
-#include <scenes/scene.h>
-#include <unistd.h>
+#include <temporary_file.h>
+#include <verdict.h>
 
 #include <filesystem>
 
@@ -25,20 +25,6 @@ namespace mortise::testing
   using namespace dealii;
 
   constexpr double single = 3e-6;
-
-  /// The directory of this run, the same on all ranks.
-  std::string
-  directory()
-  {
-    static const std::string path = [] {
-      const auto pid = Utilities::MPI::broadcast(MPI_COMM_WORLD, int(getpid()));
-      const auto made = std::filesystem::temp_directory_path() /
-                        ("mortise_fields_" + std::to_string(pid));
-      std::filesystem::create_directories(made / "alone");
-      return made.string();
-    }();
-    return path;
-  }
 
   double
   pressure_at(const unsigned int p, const Point<dim> &x)
@@ -199,7 +185,7 @@ namespace mortise::testing
       FieldSelection all;
       all.displacement = all.stress = all.pressure = true;
       const std::string place =
-        directory() + (comm == MPI_COMM_SELF ? "/alone" : "");
+        temporary_file(comm == MPI_COMM_SELF ? "alone" : "");
       write_body_fields(body, solution, all, {}, place + "/body.vtu");
     }
 
@@ -222,8 +208,8 @@ namespace mortise::testing
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         const Written    one(mesh, p, by_region, mixed, degree, MPI_COMM_SELF);
-        const VtuContent file(directory() + "/body.vtu"),
-          alone(directory() + "/alone/body.vtu");
+        const VtuContent file(temporary_file("body.vtu")),
+          alone(temporary_file("alone/body.vtu"));
         const bool   tets     = body.mesh.tetrahedra;
         unsigned int n_points = 0;
         for (const auto &cell : one.body.dof_handler.active_cell_iterators())
@@ -344,9 +330,9 @@ namespace mortise::testing
                            multiplier_on_faces(scene.coupling(), lambda, comm),
                            {},
                            interpolate(*scene.bodies[0], Polynomial{1}),
-                           directory() +
-                             (comm == MPI_COMM_SELF ? "/alone" : "") +
-                             "/glue.vtu");
+                           temporary_file(comm == MPI_COMM_SELF ?
+                                            "alone/glue.vtu" :
+                                            "glue.vtu"));
   }
 
   void
@@ -359,8 +345,8 @@ namespace mortise::testing
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       {
         write_interface(tetrahedra, p, MPI_COMM_SELF);
-        const VtuContent file(directory() + "/glue.vtu"),
-          alone(directory() + "/alone/glue.vtu");
+        const VtuContent file(temporary_file("glue.vtu")),
+          alone(temporary_file("alone/glue.vtu"));
         check_shape(what,
                     file,
                     alone,
@@ -405,7 +391,7 @@ namespace mortise::testing
                            multiplier_on_faces(scene.coupling(), lambda, comm),
                            {},
                            interpolate(*scene.bodies[0], Polynomial{1}),
-                           directory() + "/part.vtu");
+                           temporary_file("part.vtu"));
   }
 
   void
@@ -417,7 +403,7 @@ namespace mortise::testing
         const std::string what =
           std::string(tetrahedra ? "triangles" : "quadrilaterals") +
           " covered in part, p = " + std::to_string(p);
-        const VtuContent file(directory() + "/part.vtu");
+        const VtuContent file(temporary_file("part.vtu"));
         const auto       got = surface_integrals(file, "traction");
         Tensor<1, dim>   force, moment;
         const QGauss<2>  gauss(3);
@@ -475,10 +461,10 @@ namespace mortise::testing
                           {interpolate(body, Polynomial{2}), {}},
                           selection,
                           {{"place", places(body)}},
-                          directory() + "/body.vtu");
+                          temporary_file("body.vtu"));
         if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
           {
-            const VtuContent  file(directory() + "/body.vtu");
+            const VtuContent  file(temporary_file("body.vtu"));
             const std::string what = tetrahedra ? "tetrahedra" : "hexahedra";
             verdict(what + ": only " + names,
                     joined(file.names) == names &&
@@ -508,6 +494,7 @@ main(int argc, char *argv[])
 {
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   using namespace mortise::testing;
+  std::filesystem::create_directories(temporary_file("alone"));
   check_bodies();
   for (const bool tetrahedra : {false, true})
     for (const unsigned int p : {1, 2, 3, 5})
@@ -524,6 +511,4 @@ main(int argc, char *argv[])
   selection.displacement = false;
   selection.pressure     = true;
   check_selection(selection, "pressure");
-  if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-    std::filesystem::remove_all(directory());
 }

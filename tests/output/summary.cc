@@ -5,7 +5,8 @@
 #include <mortise/base/error.h>
 #include <mortise/output/summary.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
+#include <temporary_file.h>
+#include <verdict.h>
 
 #include <filesystem>
 #include <fstream>
@@ -18,13 +19,6 @@ using Json = nlohmann::ordered_json;
 
 namespace
 {
-  void
-  verdict(const bool fine, const std::string &what, const std::string &got = "")
-  {
-    std::cout << (fine ? "OK  " : "FAILED ") << what
-              << (fine ? "" : ": got: " + got) << std::endl;
-  }
-
   /// The keys of @p json in order.
   std::string
   keys(const Json &json)
@@ -182,9 +176,8 @@ namespace
   test_file()
   {
     namespace fs        = std::filesystem;
-    const fs::path root = fs::temp_directory_path() /
-                          ("mortise_summary_" + std::to_string(getpid()));
-    const auto text = [&] {
+    const fs::path root = temporary_file("");
+    const auto     text = [&] {
       std::ostringstream all;
       all << std::ifstream(root / "a/b/summary.json").rdbuf();
       return all.str();
@@ -198,20 +191,13 @@ namespace
     verdict(text() == to_json(summary), "a file from before is replaced");
     verdict(std::distance(fs::directory_iterator(root / "a/b"), {}) == 1,
             "nothing else is left there");
-    try
-      {
-        write_summary(summary,
-                      (root / "a/b/summary.json").string(),
-                      MPI_COMM_WORLD);
-        verdict(false, "a directory that is a file", "no error");
-      }
-    catch (const InputError &e)
-      {
-        verdict(std::string(e.what()).find("cannot write") == 0,
-                "a directory that is a file",
-                e.what());
-      }
-    fs::remove_all(root);
+    check_message("a directory that is a file",
+                  [&] {
+                    write_summary(summary,
+                                  (root / "a/b/summary.json").string(),
+                                  MPI_COMM_WORLD);
+                  },
+                  {"cannot write"});
   }
 } // namespace
 

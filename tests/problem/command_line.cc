@@ -2,6 +2,7 @@
 // what is allowed.
 #include <mortise/base/error.h>
 #include <mortise/problem/input/command_line.h>
+#include <verdict.h>
 
 #include <iostream>
 #include <string>
@@ -12,13 +13,6 @@ using namespace mortise;
 namespace
 {
   using Action = CommandLine::Action;
-
-  void
-  verdict(const bool fine, const std::string &what, const std::string &got = "")
-  {
-    std::cout << (fine ? "OK  " : "FAILED ") << what
-              << (fine ? "" : ": got: " + got) << std::endl;
-  }
 
   void
   check_line(const std::string              &what,
@@ -39,19 +33,8 @@ namespace
               const std::vector<std::string> &arguments,
               const std::vector<std::string> &parts)
   {
-    try
-      {
-        parse_command_line(arguments);
-        verdict(false, what, "no error");
-      }
-    catch (const InputError &e)
-      {
-        const std::string message = e.what();
-        for (const std::string &part : parts)
-          if (message.find(part) == std::string::npos)
-            return verdict(false, what, message + " without " + part);
-        verdict(true, what);
-      }
+    check_message(
+      what, [&] { parse_command_line(arguments); }, parts);
   }
 } // namespace
 

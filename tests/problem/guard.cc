@@ -5,6 +5,7 @@
 #include <mortise/base/error.h>
 #include <mortise/problem/guard.h>
 #include <mortise/problem/input/parameters.h>
+#include <verdict.h>
 
 #include <functional>
 #include <iostream>
@@ -34,9 +35,7 @@ namespace
     const bool same = Ranks::min(got, MPI_COMM_WORLD) == code &&
                       Ranks::max(got, MPI_COMM_WORLD) == code;
     const bool fine = same && contains && speakers == (part.empty() ? 0 : 1);
-    if (Ranks::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::cout << (fine ? "OK  " : "FAILED ") << what
-                << (fine ? "" : ": got: " + text) << std::endl;
+    verdict(fine, what, text);
   }
 } // namespace
 

@@ -1,6 +1,7 @@
 // Proves which times a run goes to: planned ones exactly, halves of them where
 // steps fail, longer ones after easy steps, and the same after a restart.
 #include <mortise/problem/load_steps.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <iostream>
@@ -11,12 +12,6 @@ using namespace mortise;
 
 namespace
 {
-  void
-  verdict(const bool good, const std::string &what)
-  {
-    std::cout << (good ? "OK  " : "FAILED  ") << what << std::endl;
-  }
-
   StepParameters
   planned(const std::vector<double> &times)
   {

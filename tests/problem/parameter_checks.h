@@ -5,58 +5,14 @@
 #include <mortise/base/error.h>
 #include <mortise/problem/input/parameter_schema.h>
 #include <mortise/problem/input/parameters.h>
+#include <verdict.h>
 
-#include <exception>
-#include <functional>
-#include <iostream>
 #include <string>
 #include <vector>
 
 namespace parameter_checks
 {
   using namespace mortise;
-
-  inline void
-  verdict(const bool fine, const std::string &what, const std::string &got = "")
-  {
-    std::cout << (fine ? "OK  " : "FAILED ") << what;
-    if (!fine)
-      std::cout << ": got: " << got;
-    std::cout << std::endl;
-  }
-
-  inline std::string
-  message_of(const std::function<void()> &action)
-  {
-    try
-      {
-        action();
-        return "(no error)";
-      }
-    catch (const InputError &e)
-      {
-        return e.what();
-      }
-    catch (const std::exception &e)
-      {
-        return std::string("another kind of error: ") + e.what();
-      }
-  }
-
-  /// The message of @p action contains all @p parts.
-  inline void
-  check_message(const std::string              &what,
-                const std::function<void()>    &action,
-                const std::vector<std::string> &parts)
-  {
-    const std::string message = message_of(action);
-    for (const std::string &part : parts)
-      if (message.find(part) == std::string::npos)
-        return verdict(false,
-                       what,
-                       "\"" + message + "\" without \"" + part + "\"");
-    verdict(true, what);
-  }
 
   const std::string scene = R"(
 set Title      = Two cubes = one

@@ -3,7 +3,7 @@
 // directories are checked without being made.
 #include <deal.II/base/mpi.h>
 
-#include <unistd.h>
+#include <temporary_file.h>
 
 #include <filesystem>
 #include <fstream>
@@ -213,9 +213,7 @@ namespace
   test_directory()
   {
     namespace fs        = std::filesystem;
-    const fs::path root = fs::temp_directory_path() /
-                          ("mortise_parameters_" + std::to_string(getpid()));
-    fs::create_directory(root);
+    const fs::path root = temporary_file("");
     std::ofstream(root / "file") << "text";
     fs::create_symlink("nothing", root / "link");
     std::ofstream(root / "main.prm")
@@ -245,7 +243,6 @@ namespace
       read_parameters(main, {"Body a/Mesh/Refinements=2"}, MPI_COMM_WORLD);
     verdict(p.bodies[0].degree == 3 && p.bodies[0].mesh.refinements == 2,
             "a file with an included file beside it");
-    fs::remove_all(root);
   }
 } // namespace
 

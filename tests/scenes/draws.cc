@@ -5,11 +5,11 @@
 // interfaces where the multipliers that are left do not hold a body.
 //
 // With arguments (family, number, first seed, method, law, multiplier) it draws
-// as many scenes as asked for and reports each that is not exact.
+// as many scenes as asked for and reports each that is not exact; it prints a
+// scene that is the only one.
 #include <mortise/base/error.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <functional>
 #include <map>
 
@@ -91,7 +91,7 @@ namespace
         DrawnScene scene = families.at(family)(draws);
         set_law(law, multiplier, scene);
         if (report && n == 1)
-          std::ofstream("drawn_scene.prm") << scene.text();
+          std::cout << scene.text();
         for (const std::string &method : methods)
           {
             const auto [outcome, text] = run(scene, method);

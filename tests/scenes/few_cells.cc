@@ -2,6 +2,8 @@
 // are ranks: one tetrahedron tied to one hexahedron, or to a second
 // tetrahedron. Each rank solves the scene alone and compares with all ranks
 // together.
+#include <temporary_file.h>
+
 #include <fstream>
 
 #include "scene.h"
@@ -16,9 +18,7 @@ namespace
   std::string
   write_tetrahedron(const bool below)
   {
-    const int n = dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    const std::string name =
-      std::to_string(n) + "_ranks_one_" + (below ? "below" : "above") + ".msh";
+    const std::string name = temporary_file(below ? "below.msh" : "above.msh");
     if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
       std::ofstream(name)
         << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n"

@@ -21,17 +21,6 @@ namespace mortise::testing
             "Body upper/Mesh/Extent=" + second.str()};
   }
 
-  inline Settings
-  meshes(const std::string &lower,
-         const std::string &upper,
-         const unsigned int degree)
-  {
-    return {"Body lower/Mesh/Subdivisions=" + lower,
-            "Body upper/Mesh/Subdivisions=" + upper,
-            "Body lower/Degree=" + std::to_string(degree),
-            "Body upper/Degree=" + std::to_string(degree)};
-  }
-
   inline void
   check(const std::string &what,
         const Settings    &settings,

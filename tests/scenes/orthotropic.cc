@@ -45,12 +45,6 @@ namespace
             section + "Axes=" + numbers(law.axes)};
   }
 
-  Settings
-  both(const std::string &setting)
-  {
-    return {"Body lower/" + setting, "Body upper/" + setting};
-  }
-
   /// A displacement G x that has the same traction across z = const in both
   /// materials: the slope in z follows from the others.
   Settings

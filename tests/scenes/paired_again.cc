@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "scenes/active_sets.h"
-#include "verdict.h"
+#include <verdict.h>
 
 using namespace dealii;
 using namespace mortise;

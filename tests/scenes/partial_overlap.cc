@@ -35,18 +35,6 @@ namespace
            box("upper", upper, "", "xmin xmax ymin ymax zmax");
   }
 
-  Settings
-  meshes(const std::string &lower,
-         const std::string &upper,
-         const unsigned int degree)
-  {
-    return {"Body lower/Mesh/Subdivisions=" + lower,
-            "Body upper/Mesh/Subdivisions=" + upper,
-            "Body lower/Degree=" + std::to_string(degree),
-            "Body upper/Degree=" + std::to_string(degree),
-            "Solver/Tolerance=1e-13"};
-  }
-
   /// @p warning: the end of the one warning; empty: no warning.
   void
   check(const std::string &what,
@@ -57,7 +45,11 @@ namespace
   {
     std::vector<std::string> warnings;
     const StepSummary        step =
-      run_scene(text, settings, MPI_COMM_WORLD, &warnings).steps.back();
+      run_scene(text,
+                settings + Settings{"Solver/Tolerance=1e-13"},
+                MPI_COMM_WORLD,
+                &warnings)
+        .steps.back();
     exact_verdicts(what, *step.errors);
     const InterfaceSummary &interface = step.interfaces[0];
     verdict(what + ": covered fraction 1e-12",

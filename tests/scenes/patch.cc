@@ -14,10 +14,13 @@ namespace
     "0.05*y + 0.04*z + 0.01*x; -0.07*z + 0.02*x + 0.06*y";
 
   void
-  check(const std::string &what, const std::string &text, Settings settings)
+  check(const std::string &what,
+        const std::string &text,
+        const Settings    &settings)
   {
-    settings.emplace_back("Solver/Tolerance=1e-13");
-    const Summary      summary = run_scene(text, settings);
+    const Summary      summary = run_scene(text,
+                                      Settings{general} + settings +
+                                        Settings{"Solver/Tolerance=1e-13"});
     const StepSummary &step    = summary.steps.back();
     exact_verdicts(what, *step.errors);
     for (const InterfaceSummary &interface : step.interfaces)
@@ -33,17 +36,6 @@ namespace
       }
   }
 
-  Settings
-  meshes(const std::string &lower,
-         const std::string &upper,
-         const unsigned int degree)
-  {
-    return {general,
-            "Body lower/Mesh/Subdivisions=" + lower,
-            "Body upper/Mesh/Subdivisions=" + upper,
-            "Body lower/Degree=" + std::to_string(degree),
-            "Body upper/Degree=" + std::to_string(degree)};
-  }
 } // namespace
 
 int

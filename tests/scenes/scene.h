@@ -2,11 +2,11 @@
 // numbers.
 #pragma once
 
-#include <mortise/base/error.h>
-#include <mortise/problem/simulation.h>
+#include <mortise/output/summary.h>
+#include <mortise/problem/input/parameters.h>
+#include <verdict.h>
 
 #include <cmath>
-#include <iostream>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -14,38 +14,13 @@
 
 namespace mortise::testing
 {
-  /// Prints "OK  what" or "FAILED what: got, allowed"; rank 0 of the world
-  /// only.
-  inline void
-  verdict(const std::string &what, const double got, const double allowed)
-  {
-    if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-      return;
-    if (got <= allowed)
-      std::cout << "OK  " << what << std::endl;
-    else
-      std::cout << "FAILED  " << what << ": got " << got << ", allowed "
-                << allowed << std::endl;
-  }
-
   /// Run the scene of a parameter text, silently; nothing is written. @p warnings, if given, holds
   /// those of the run.
-  inline Summary
+  Summary
   run_scene(const std::string        &text,
             const Settings           &settings,
             const MPI_Comm            comm     = MPI_COMM_WORLD,
-            std::vector<std::string> *warnings = nullptr)
-  {
-    const Parameters parameters = parse_parameters(text, "test", settings);
-    validate(parameters);
-    std::ostringstream silence;
-    RunLog             log(silence, comm);
-    Simulation         simulation(parameters, log, comm);
-    simulation.compute();
-    if (warnings)
-      *warnings = log.warnings();
-    return simulation.result();
-  }
+            std::vector<std::string> *warnings = nullptr);
 
   /// Verdict: is the scene refused with @p expected in the message?
   inline void
@@ -54,16 +29,7 @@ namespace mortise::testing
                 const Settings    &settings,
                 const std::string &expected)
   {
-    std::string message;
-    try
-      {
-        run_scene(text, settings);
-      }
-    catch (const InputError &error)
-      {
-        message = error.what();
-      }
-    verdict(what, message.find(expected) == std::string::npos ? 1. : 0., 0.);
+    ::check_message(what, [&] { run_scene(text, settings); }, {expected});
   }
 
   /// Verdicts on the errors of a scene whose exact solution the elements hold.
@@ -80,6 +46,25 @@ namespace mortise::testing
   {
     a.insert(a.end(), b.begin(), b.end());
     return a;
+  }
+
+  /// Subdivisions of the bodies of two_boxes(), and their degree.
+  inline Settings
+  meshes(const std::string &lower,
+         const std::string &upper,
+         const unsigned int degree)
+  {
+    return {"Body lower/Mesh/Subdivisions=" + lower,
+            "Body upper/Mesh/Subdivisions=" + upper,
+            "Body lower/Degree=" + std::to_string(degree),
+            "Body upper/Degree=" + std::to_string(degree)};
+  }
+
+  /// @p setting of both of them.
+  inline Settings
+  both(const std::string &setting)
+  {
+    return {"Body lower/" + setting, "Body upper/" + setting};
   }
 
   /// log_2 of the ratio of two errors, over log_2 of the ratio of mesh sizes.

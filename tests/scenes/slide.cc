@@ -102,12 +102,6 @@ namespace
     verdict(what + ": force 1e-9", difference(q[2].second, {0., 0., p}), 1e-9);
   }
 
-  Settings
-  both(const std::string &setting)
-  {
-    return {"Body lower/" + setting, "Body upper/" + setting};
-  }
-
   void
   check_all_blocks()
   {

@@ -1,6 +1,8 @@
 // Proves that slivers cost no accuracy: edges that coincide or nearly do, and
 // faces of sizes 1 : 50, pass linear displacements to 1e-10 with either side as
 // the slave.
+#include <mortise/base/run_log.h>
+
 #include "linear_field.h"
 #include "scene.h"
 #include "scenes.h"
@@ -15,26 +17,17 @@ namespace
   const Settings swapped = {"Interface glue/Slave=upper: zmin",
                             "Interface glue/Master=lower: zmax"};
 
-  Settings
-  meshes(const std::string &lower,
-         const std::string &upper,
-         const unsigned int degree)
-  {
-    return field.displacement() +
-           Settings{"Body lower/Mesh/Subdivisions=" + lower,
-                    "Body upper/Mesh/Subdivisions=" + upper,
-                    "Body lower/Degree=" + std::to_string(degree),
-                    "Body upper/Degree=" + std::to_string(degree),
-                    "Solver/Method=direct",
-                    "Solver/Tolerance=1e-13"};
-  }
-
   void
   check(const std::string &what, const Settings &settings)
   {
     std::vector<std::string> warnings;
     const StepSummary        step =
-      run_scene(two_boxes(), settings, MPI_COMM_WORLD, &warnings).steps.back();
+      run_scene(two_boxes(),
+                field.displacement() + settings +
+                  Settings{"Solver/Method=direct", "Solver/Tolerance=1e-13"},
+                MPI_COMM_WORLD,
+                &warnings)
+        .steps.back();
     exact_verdicts(what, *step.errors);
     const InterfaceSummary &interface = step.interfaces[0];
     verdict(what + ": coverage 1e-12",

@@ -5,10 +5,11 @@
 //
 // Two cubes on top of each other, Poisson's ratio zero, pulled by p: the
 // displacement of the top is p / E_lower + p / E_upper.
+#include <scenes/scene.h>
+
 #include <cmath>
 #include <iostream>
 
-#include "scenes/scene.h"
 #include "scenes/scenes.h"
 
 using namespace mortise;

@@ -3,7 +3,8 @@
 // degree and with several in each body, the solution without a matrix is that
 // of the factorised one, and that multigrid needs hardly more iterations for
 // it, on every number of ranks.
-#include "scenes/scene.h"
+#include <scenes/scene.h>
+
 #include "scenes/scenes.h"
 
 using namespace mortise;

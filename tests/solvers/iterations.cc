@@ -4,7 +4,8 @@
 // 1e-8 on tetrahedra, whatever the contrast of moduli and the ranks, and at
 // most 10 on hexahedra with a stiff, fine slave, where single precision is too
 // little for the multipliers.
-#include "scenes/scene.h"
+#include <scenes/scene.h>
+
 #include "scenes/scenes.h"
 
 using namespace mortise;

@@ -4,7 +4,8 @@
 // those of the direct solver, with hanging nodes and on tetrahedra, too; that a
 // cube held on five sides, where pressures find little to press against, does
 // not need many more (31 with a mass matrix alone, 47 on tetrahedra).
-#include "scenes/scene.h"
+#include <scenes/scene.h>
+
 #include "scenes/scenes.h"
 
 using namespace mortise;

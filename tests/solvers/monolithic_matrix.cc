@@ -3,11 +3,11 @@
 // hanging nodes, several degrees, mixed form, ties, what slides, springs, and a
 // part of the multipliers.
 #include <mortise/solvers/factorisation/monolithic_matrix.h>
+#include <scenes/scene.h>
 
 #include <cmath>
 
 #include "scenes/active_sets.h"
-#include "scenes/scene.h"
 
 using namespace mortise;
 using namespace mortise::testing;
@@ -82,7 +82,7 @@ namespace
           largest = std::max(largest, std::abs(product[next]));
         }
     largest = dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
-    mortise::testing::verdict(name + ", 1e-13", error / largest, 1e-13);
+    verdict(name + ", 1e-13", error / largest, 1e-13);
   }
 } // namespace
 

@@ -3,7 +3,8 @@
 // 20 % for degrees 2 to 8, whatever the shape of the cells, the contrast of the
 // moduli, the side of the slave and Poisson's ratio up to 0.49, on every number
 // of ranks, and that the errors are those of the direct solver.
-#include "scenes/scene.h"
+#include <scenes/scene.h>
+
 #include "scenes/scenes.h"
 
 using namespace mortise;

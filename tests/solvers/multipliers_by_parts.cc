@@ -2,7 +2,8 @@
 // exactly and take as many iterations as those that all ranks know, and that
 // they are gathered where a stiff slave is finer than its master and parts do
 // not suffice.
-#include "scenes/scene.h"
+#include <scenes/scene.h>
+
 #include "scenes/scenes.h"
 
 using namespace mortise;

@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/solvers/newton.h>
+#include <verdict.h>
 
 #include <cmath>
 #include <iostream>
@@ -14,19 +15,6 @@ using namespace mortise;
 
 namespace
 {
-  void
-  verdict(const bool         good,
-          const std::string &what,
-          const double       got,
-          const double       expected)
-  {
-    if (good)
-      std::cout << "OK  " << what << std::endl;
-    else
-      std::cout << "FAILED  " << what << ": got " << got << ", expected "
-                << expected << std::endl;
-  }
-
   /// A(x)_i = f(x_i), each unknown for itself.
   struct Scalars
   {
@@ -92,11 +80,10 @@ namespace
     double             error   = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       error = std::max(error, std::fabs(x.displacement.begin()[i] - exact[i]));
-    verdict(report.converged && error < 1e-12, "cubic: solved", error, 1e-12);
+    verdict(report.converged && error < 1e-12, "cubic: solved", error);
     verdict(report.linear_iterations == 3 * report.iterations,
             "cubic: linear iterations are counted",
-            report.linear_iterations,
-            3. * report.iterations);
+            report.linear_iterations);
     // |r_{k+1}| / |r_k|^2 stays bounded at the end
     const auto  &n = s.norms;
     unsigned int k = 0;
@@ -104,7 +91,7 @@ namespace
       ++k;
     const double order =
       std::log(n[k] / n[k - 1]) / std::log(n[k - 1] / n[k - 2]);
-    verdict(order > 1.7, "cubic: order of convergence above 1.7", -order, -1.7);
+    verdict(order > 1.7, "cubic: order of convergence above 1.7", -order);
   }
 
   void
@@ -121,8 +108,7 @@ namespace
     verdict(report.converged && !report.easy &&
               std::fabs(x.displacement.begin()[0] - std::tan(0.1)) < 1e-9,
             "arc tangent: solved with halved increments",
-            std::fabs(x.displacement.begin()[0] - std::tan(0.1)),
-            1e-9);
+            std::fabs(x.displacement.begin()[0] - std::tan(0.1)));
     NewtonOptions none;
     none.max_halvings        = 0;
     x                        = s.start(3.);
@@ -130,8 +116,7 @@ namespace
     verdict(!stuck.converged && x.displacement.begin()[0] == 3. &&
               x.displacement.begin()[1] == 3.,
             "arc tangent: without halving the iterate stays",
-            x.displacement.begin()[0],
-            3.);
+            x.displacement.begin()[0]);
   }
 
   void
@@ -147,8 +132,7 @@ namespace
     verdict(!report.converged && report.relative_residual >= 1. &&
               report.relative_residual <= 2.,
             "no solution: not converged, not worse than the start",
-            report.relative_residual,
-            2.);
+            report.relative_residual);
     s.b     = {4.};
     s.fails = true;
     x       = s.start(1.);
@@ -156,12 +140,11 @@ namespace
     verdict(!report.converged && report.iterations == 0 &&
               x.displacement.begin()[0] == 1.,
             "a linear solve that fails moves nothing",
-            x.displacement.begin()[0],
-            1.);
+            x.displacement.begin()[0]);
     s.fails = false;
     s.b     = {std::nan("")};
     report  = solve_newton(s.problem(), NewtonOptions(), x);
-    verdict(!report.converged, "not a number: not converged", 0., 0.);
+    verdict(!report.converged, "not a number: not converged");
   }
 } // namespace
 
