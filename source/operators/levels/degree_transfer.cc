@@ -60,9 +60,7 @@ namespace mortise
       V u[dim * N], a[dim * M], b[n * m * m], d[n * n * m];
       for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
         {
-          gather<M>(coarse,
-                    &coarse_cells.nodes[std::size_t(batch) * M * width],
-                    a);
+          gather<M>(coarse, coarse_cells.nodes_of(batch), a);
           for (unsigned int c = 0; c < dim; ++c)
             {
               apply_along<0, false, m, m, m>(up, a + c * M, b);
@@ -70,9 +68,7 @@ namespace mortise
               apply_along<2, false, n, n, m>(up, d, u + c * N);
             }
           clear_idle_lanes(fine_cells, batch, u);
-          scatter_add<N>(u,
-                         &fine_cells.nodes[std::size_t(batch) * N * width],
-                         fine);
+          scatter_add<N>(u, fine_cells.nodes_of(batch), fine);
         }
     }
 
@@ -85,7 +81,7 @@ namespace mortise
       V u[dim * N], a[dim * M], b[n * n * m], d[n * m * m];
       for (unsigned int batch = 0; batch < fine_cells.n_batches; ++batch)
         {
-          gather<N>(fine, &fine_cells.nodes[std::size_t(batch) * N * width], u);
+          gather<N>(fine, fine_cells.nodes_of(batch), u);
           clear_idle_lanes(fine_cells, batch, u);
           for (unsigned int c = 0; c < dim; ++c)
             {
@@ -93,9 +89,7 @@ namespace mortise
               apply_along<1, false, n, n, m>(down, b, d);
               apply_along<0, false, n, m, m>(down, d, a + c * M);
             }
-          scatter_add<M>(a,
-                         &coarse_cells.nodes[std::size_t(batch) * M * width],
-                         coarse);
+          scatter_add<M>(a, coarse_cells.nodes_of(batch), coarse);
         }
     }
 
@@ -174,8 +168,7 @@ namespace mortise
                    const unsigned int         n_lanes,
                    const Visit               &visit)
     {
-      const unsigned int *nodes =
-        &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
+      const unsigned int *nodes = cells.nodes_of(batch);
       for (unsigned int i = 0; i < cells.n_nodes; ++i)
         for (unsigned int c = 0; c < dim; ++c)
           for (unsigned int l = 0; l < n_lanes; ++l)

@@ -78,6 +78,7 @@ namespace mortise
           batches.tetrahedra ?
             ascending_dof_indices(degree - 1, order()) :
             FETools::lexicographic_to_hierarchic_numbering<dim>(degree - 1);
+        batches.n_pressure_nodes = pressure_order.size();
       }
 
       /// What is wrong, if anything.
@@ -273,37 +274,21 @@ namespace mortise
   }
 
   template <typename Number>
-  CellBatches<Number>
-  make_cell_batches(const NodalSpace                           &space,
-                    const Body                                 &body,
-                    const unsigned int                          element,
-                    const Utilities::MPI::Partitioner          &layout,
-                    const PressureNodes                        *pressures,
-                    std::shared_ptr<const NonlinearLaw<Number>> law,
-                    std::string                                &tangled)
+  CellBatches<Number>::CellBatches(
+    const NodalSpace                           &space,
+    const Body                                 &body,
+    const unsigned int                          element,
+    const Utilities::MPI::Partitioner          &layout,
+    const PressureNodes                        *pressures,
+    std::shared_ptr<const NonlinearLaw<Number>> law,
+    std::string                                &tangled)
   {
     BatchBuilder<Number> builder(
       space, body, element, layout, pressures, std::move(law));
     tangled = builder.build();
-    return std::move(builder.batches);
+    *this   = std::move(builder.batches);
   }
 
   template struct CellBatches<float>;
   template struct CellBatches<double>;
-  template CellBatches<float>
-  make_cell_batches(const NodalSpace &,
-                    const Body &,
-                    unsigned int,
-                    const Utilities::MPI::Partitioner &,
-                    const PressureNodes *,
-                    std::shared_ptr<const NonlinearLaw<float>>,
-                    std::string &);
-  template CellBatches<double>
-  make_cell_batches(const NodalSpace &,
-                    const Body &,
-                    unsigned int,
-                    const Utilities::MPI::Partitioner &,
-                    const PressureNodes *,
-                    std::shared_ptr<const NonlinearLaw<double>>,
-                    std::string &);
 } // namespace mortise

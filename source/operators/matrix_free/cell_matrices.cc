@@ -11,15 +11,6 @@ namespace mortise
 
   namespace
   {
-    template <typename Number>
-    unsigned int
-    n_pressure_nodes(const CellBatches<Number> &cells)
-    {
-      return cells.n_batches == 0 ? 0 :
-                                    cells.pressure_nodes.size() /
-                                      (cells.n_batches * Batch<Number>::size);
-    }
-
     /// @p batch of @p cells alone, with vectors that have the values of each
     /// lane one after the other.
     template <typename Number>
@@ -27,19 +18,20 @@ namespace mortise
     single_batch(const CellBatches<Number> &cells, const unsigned int batch)
     {
       constexpr unsigned int width = Batch<Number>::size;
-      const unsigned int     n_p   = n_pressure_nodes(cells);
+      const unsigned int     n_p   = cells.n_pressure_nodes;
       CellBatches<Number>    one;
-      one.tetrahedra      = cells.tetrahedra;
-      one.degree          = cells.degree;
-      one.n_nodes         = cells.n_nodes;
-      one.n_points        = cells.n_points;
-      one.law             = cells.law;
-      one.compressibility = cells.compressibility;
-      one.pressure_norm   = cells.pressure_norm;
-      one.n_batches       = 1;
-      one.n_cells         = cells.lanes(batch);
-      one.n_affine        = batch < cells.n_affine ? 1 : 0;
-      one.n_affine_cells  = one.n_affine * one.n_cells;
+      one.tetrahedra       = cells.tetrahedra;
+      one.degree           = cells.degree;
+      one.n_nodes          = cells.n_nodes;
+      one.n_pressure_nodes = n_p;
+      one.n_points         = cells.n_points;
+      one.law              = cells.law;
+      one.compressibility  = cells.compressibility;
+      one.pressure_norm    = cells.pressure_norm;
+      one.n_batches        = 1;
+      one.n_cells          = cells.lanes(batch);
+      one.n_affine         = batch < cells.n_affine ? 1 : 0;
+      one.n_affine_cells   = one.n_affine * one.n_cells;
       one.nodes.resize(cells.n_nodes * width);
       one.pressure_nodes.resize(n_p * width);
       for (unsigned int lane = 0; lane < width; ++lane)
@@ -107,8 +99,8 @@ namespace mortise
                                                const unsigned int batch) const
   {
     const CellBatches<Number> one = single_batch(groups[g], batch);
-    const unsigned int n_u = dim * one.n_nodes, n_p = n_pressure_nodes(one);
-    std::vector<CellMatrix>           result(Batch<Number>::size);
+    const unsigned int      n_u = dim * one.n_nodes, n_p = one.n_pressure_nodes;
+    std::vector<CellMatrix> result(Batch<Number>::size);
     std::vector<FullMatrix<double> *> systems, norms;
     for (CellMatrix &cell : result)
       {
@@ -142,16 +134,15 @@ namespace mortise
   {
     constexpr unsigned int     width = Batch<Number>::size;
     const CellBatches<Number> &cells = groups[g];
-    const unsigned int         n_p   = n_pressure_nodes(cells);
+    const unsigned int         n_p   = cells.n_pressure_nodes;
     Cell                       result{cells, {}, {}};
-    const unsigned int        *nodes =
-      &cells.nodes[std::size_t(batch) * cells.n_nodes * width];
+    const unsigned int        *nodes = cells.nodes_of(batch);
     for (unsigned int i = 0; i < cells.n_nodes; ++i)
       for (unsigned int c = 0; c < dim; ++c)
         result.displacements.push_back(nodes[i * width + lane] + c);
     for (unsigned int k = 0; k < n_p; ++k)
       result.pressures.push_back(
-        cells.pressure_nodes[(std::size_t(batch) * n_p + k) * width + lane]);
+        cells.pressure_nodes_of(batch)[k * width + lane]);
     return result;
   }
 

@@ -19,14 +19,13 @@ namespace mortise
       for (unsigned int element = 0; element < body->fe.size(); ++element)
         {
           std::string problem;
-          groups.push_back(
-            make_cell_batches<Number>(space,
-                                      *body,
-                                      element,
-                                      layout,
-                                      pressures,
-                                      laws ? laws(*body) : nullptr,
-                                      problem));
+          groups.emplace_back(space,
+                              *body,
+                              element,
+                              layout,
+                              pressures,
+                              laws ? laws(*body) : nullptr,
+                              problem);
           if (tangled.empty())
             tangled = problem;
           std::unique_ptr<Kernel>    kernel;

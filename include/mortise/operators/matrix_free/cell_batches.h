@@ -12,14 +12,34 @@
 
 namespace mortise
 {
+  /// The pressures that belong to a space of displacements.
+  struct PressureNodes
+  {
+    const NodalSpace                          &space;
+    const dealii::Utilities::MPI::Partitioner &layout; ///< node n has index n
+  };
+
   /// The cells of one body and degree, computed several at once.
   template <typename Number>
   struct CellBatches
   {
+    CellBatches() = default;
+
+    /// Of the owned cells with one element of a body; @p layout, @p pressures: as
+    /// for MatrixFreeElasticity; @p law: null if linear; @p tangled: what is
+    /// wrong with a cell, if anything.
+    CellBatches(const NodalSpace                           &space,
+                const Body                                 &body,
+                unsigned int                                element,
+                const dealii::Utilities::MPI::Partitioner  &layout,
+                const PressureNodes                        *pressures,
+                std::shared_ptr<const NonlinearLaw<Number>> law,
+                std::string                                &tangled);
+
     bool         tetrahedra = false;
     unsigned int degree     = 1;
     /// Per cell; points only of cells with a Jacobian that varies.
-    unsigned int     n_nodes = 0, n_points = 0;
+    unsigned int     n_nodes = 0, n_pressure_nodes = 0, n_points = 0;
     PointLaw<Number> law;
     unsigned int     n_cells = 0;
     /// Batches with constant Jacobians come first.
@@ -51,25 +71,18 @@ namespace mortise
 
     const Number *
     metric_of(unsigned int batch) const;
-  };
 
-  /// The pressures that belong to a space of displacements.
-  struct PressureNodes
-  {
-    const NodalSpace                          &space;
-    const dealii::Utilities::MPI::Partitioner &layout; ///< node n has index n
-  };
+    const unsigned int *
+    nodes_of(const unsigned int batch) const
+    {
+      return &nodes[std::size_t(batch) * n_nodes * Batch<Number>::size];
+    }
 
-  /// Of the owned cells with one element of a body; @p layout, @p pressures: as
-  /// for MatrixFreeElasticity; @p law: null if linear; @p tangled: what is
-  /// wrong with a cell, if anything.
-  template <typename Number>
-  CellBatches<Number>
-  make_cell_batches(const NodalSpace                           &space,
-                    const Body                                 &body,
-                    unsigned int                                element,
-                    const dealii::Utilities::MPI::Partitioner  &layout,
-                    const PressureNodes                        *pressures,
-                    std::shared_ptr<const NonlinearLaw<Number>> law,
-                    std::string                                &tangled);
+    const unsigned int *
+    pressure_nodes_of(const unsigned int batch) const
+    {
+      return &pressure_nodes[std::size_t(batch) * n_pressure_nodes *
+                             Batch<Number>::size];
+    }
+  };
 } // namespace mortise

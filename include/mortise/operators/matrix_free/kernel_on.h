@@ -54,7 +54,7 @@ namespace mortise
       sum_diagonal(*this, cells, dst);
     }
 
-    /// visit(law, affine, number of points, point, metric).
+    /// visit(law, point).
     template <typename Visit>
     void
     at_laws(const CellBatches<Number> &cells,
@@ -63,11 +63,7 @@ namespace mortise
     {
       std::visit(
         [&](const auto law) {
-          at_points(cells,
-                    batch,
-                    [=](const auto affine, const auto n, const int q, auto &G) {
-                      visit(law, affine, n, q, G);
-                    });
+          at_points(cells, batch, [=](const auto &at) { visit(law, at); });
         },
         cells.law);
     }
@@ -84,15 +80,12 @@ namespace mortise
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           V *g = gradients(cells, batch, src);
-          self.at_laws(
-            cells,
-            batch,
-            [=](const auto &law, auto, const auto n, const int q, auto &G) {
-              V h[dim][dim], s[dim][dim];
-              gradient_at(g + q, n, G, h);
-              law.tangent(Undeformed(), h, s);
-              set_stress(s, G, n, g + q);
-            });
+          self.at_laws(cells, batch, [=](const auto &law, const auto &at) {
+            V h[dim][dim], s[dim][dim];
+            gradient_at(g + at.q, at.n, at.G, h);
+            law.tangent(Undeformed(), h, s);
+            set_stress(s, at.G, at.n, g + at.q);
+          });
           add_forces(cells, batch, dst);
         }
     }
@@ -111,21 +104,12 @@ namespace mortise
         *diagonal = reinterpret_cast<V *>(scratch.data());
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
-          self.at_laws(
-            cells,
-            batch,
-            [=](const auto &law, auto, const auto n, const int q, auto &G) {
-              diagonal_coefficients(law, G, n, a + q);
-            });
+          self.at_laws(cells, batch, [=](const auto &law, const auto &at) {
+            diagonal_coefficients(law, at.G, at.n, a + at.q);
+          });
           squares.apply(batch < cells.n_affine, a, diagonal);
-          scatter_add<N>(diagonal, nodes_of(cells, batch), dst);
+          scatter_add<N>(diagonal, cells.nodes_of(batch), dst);
         }
-    }
-
-    static const unsigned int *
-    nodes_of(const CellBatches<Number> &cells, const unsigned int batch)
-    {
-      return &cells.nodes[std::size_t(batch) * N * Batch<Number>::size];
     }
 
     /// Where gradients are, or what is tested with those of v.
@@ -141,7 +125,7 @@ namespace mortise
               const Number              *src)
     {
       V *u = reinterpret_cast<V *>(scratch.data());
-      gather<N>(src, nodes_of(cells, batch), u);
+      gather<N>(src, cells.nodes_of(batch), u);
       shape.evaluate(batch < cells.n_affine, u, gradients());
       return gradients();
     }
@@ -154,11 +138,43 @@ namespace mortise
     {
       V *u = reinterpret_cast<V *>(scratch.data());
       shape.integrate(batch < cells.n_affine, gradients(), u);
-      scatter_add<N>(u, nodes_of(cells, batch), dst);
+      scatter_add<N>(u, cells.nodes_of(batch), dst);
     }
 
-    /// visit(affine, number of points, point, metric); passed by value, so that
-    /// what it holds stays in registers.
+    /// One of n points, as that of a batch.
+    template <bool affine>
+    struct Point
+    {
+      const Shape &shape;
+      decltype(std::declval<Shape>().n_points(std::bool_constant<affine>())) n;
+      int                                                                    q;
+      V G[dim][dim]; ///< metric
+
+      /// sqrt(w |J|)
+      V
+      root() const
+      {
+        return shape.root(affine, G, q);
+      }
+    };
+
+    /// visit(point), by value, so that what it holds stays in registers.
+    template <bool affine, typename Visit>
+    __attribute__((noinline)) void
+    at_points_of(const CellBatches<Number> &cells,
+                 const unsigned int         batch,
+                 const Visit                visit) const
+    {
+      const std::bool_constant<affine> is_affine;
+      const V *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
+      Point<affine> at{shape, shape.n_points(is_affine), 0, {}};
+      for (; at.q < at.n; ++at.q)
+        {
+          shape.get_metric(is_affine, metric, at.q, at.G);
+          visit(at);
+        }
+    }
+
     template <typename Visit>
     void
     at_points(const CellBatches<Number> &cells,
@@ -166,26 +182,9 @@ namespace mortise
               const Visit               &visit) const
     {
       if (batch < cells.n_affine)
-        at_points(std::true_type(), cells, batch, visit);
+        at_points_of<true>(cells, batch, visit);
       else
-        at_points(std::false_type(), cells, batch, visit);
-    }
-
-    template <bool affine, typename Visit>
-    __attribute__((noinline)) void
-    at_points(const std::bool_constant<affine> is_affine,
-              const CellBatches<Number>       &cells,
-              const unsigned int               batch,
-              const Visit                      visit) const
-    {
-      const V   *metric = reinterpret_cast<const V *>(cells.metric_of(batch));
-      const auto n      = shape.n_points(is_affine);
-      V          G[dim][dim];
-      for (int q = 0; q < n; ++q)
-        {
-          shape.get_metric(is_affine, metric, q, G);
-          visit(is_affine, n, q, G);
-        }
+        at_points_of<false>(cells, batch, visit);
     }
 
     Shape                         shape;

@@ -43,23 +43,17 @@ namespace mortise
         {
           V *g = this->gradients(cells, batch, src.displacement),
             *p = pressures(cells, batch, src.pressure);
-          this->at_points(cells,
-                          batch,
-                          [=, &shape = this->shape](const auto affine,
-                                                    const auto n,
-                                                    const int  q,
-                                                    auto      &G) {
-                            V h[dim][dim], s[dim][dim];
-                            gradient_at(g + q, n, G, h);
-                            law.tangent(Undeformed(), h, s);
-                            const V w        = shape.root(affine, G, q),
-                                    weighted = w * p[q];
-                            for (unsigned int c = 0; c < dim; ++c)
-                              s[c][c] -= weighted;
-                            set_stress(s, G, n, g + q);
-                            p[q] = -w * (h[0][0] + h[1][1] + h[2][2] +
-                                         compressibility * weighted);
-                          });
+          this->at_points(cells, batch, [=](const auto &at) {
+            V h[dim][dim], s[dim][dim];
+            gradient_at(g + at.q, at.n, at.G, h);
+            law.tangent(Undeformed(), h, s);
+            const V w = at.root(), weighted = w * p[at.q];
+            for (unsigned int c = 0; c < dim; ++c)
+              s[c][c] -= weighted;
+            set_stress(s, at.G, at.n, g + at.q);
+            p[at.q] =
+              -w * (h[0][0] + h[1][1] + h[2][2] + compressibility * weighted);
+          });
           this->add_forces(cells, batch, dst.displacement);
           add_tested(cells, batch, dst.pressure);
         }
@@ -74,18 +68,12 @@ namespace mortise
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           const V *values = pressures(cells, batch, p);
-          this->at_points(cells,
-                          batch,
-                          [=, &shape = this->shape](const auto affine,
-                                                    const auto n,
-                                                    const int  q,
-                                                    auto      &G) {
-                            const V weighted =
-                              -shape.root(affine, G, q) * values[q];
-                            for (unsigned int c = 0; c < dim; ++c)
-                              for (unsigned int a = 0; a < dim; ++a)
-                                g[(dim * c + a) * n + q] = weighted * G[a][c];
-                          });
+          this->at_points(cells, batch, [=](const auto &at) {
+            const V weighted = -at.root() * values[at.q];
+            for (unsigned int c = 0; c < dim; ++c)
+              for (unsigned int a = 0; a < dim; ++a)
+                g[(dim * c + a) * at.n + at.q] = weighted * at.G[a][c];
+          });
           this->add_forces(cells, batch, dst);
         }
     }
@@ -112,18 +100,11 @@ namespace mortise
           std::fill_n(values, shape_of_pressures.room, V{} + Number(1));
           multiply_by_norm(cells, batch, values);
           shape_of_pressures.squares(batch < cells.n_affine, values, at_nodes);
-          scatter_add<M, 1>(at_nodes, nodes_of(cells, batch), dst);
+          scatter_add<M, 1>(at_nodes, cells.pressure_nodes_of(batch), dst);
         }
     }
 
   private:
-    static const unsigned int *
-    nodes_of(const CellBatches<Number> &cells, const unsigned int batch)
-    {
-      return &cells
-                .pressure_nodes[std::size_t(batch) * M * Batch<Number>::size];
-    }
-
     V *
     at_nodes()
     {
@@ -141,7 +122,7 @@ namespace mortise
               const unsigned int         batch,
               const Number              *p)
     {
-      gather<M, 1>(p, nodes_of(cells, batch), at_nodes());
+      gather<M, 1>(p, cells.pressure_nodes_of(batch), at_nodes());
       shape_of_pressures.to_points(batch < cells.n_affine,
                                    at_nodes(),
                                    at_points_of_pressures());
@@ -157,7 +138,7 @@ namespace mortise
       shape_of_pressures.from_points(batch < cells.n_affine,
                                      at_points_of_pressures(),
                                      at_nodes());
-      scatter_add<M, 1>(at_nodes(), nodes_of(cells, batch), dst);
+      scatter_add<M, 1>(at_nodes(), cells.pressure_nodes_of(batch), dst);
     }
 
     void
@@ -165,15 +146,11 @@ namespace mortise
                      const unsigned int         batch,
                      V                         *p) const
     {
-      this->at_points(cells,
-                      batch,
-                      [       =,
-                       &shape = this->shape,
-                       factor = Number(cells.pressure_norm)](
-                        const auto affine, auto, const int q, auto &G) {
-                        const V w = shape.root(affine, G, q);
-                        p[q] *= factor * w * w;
-                      });
+      const Number factor = cells.pressure_norm;
+      this->at_points(cells, batch, [=](const auto &at) {
+        const V w = at.root();
+        p[at.q] *= factor * w * w;
+      });
     }
 
     Pressures                     shape_of_pressures;

@@ -38,15 +38,11 @@ namespace mortise
       const V *moduli =
         reinterpret_cast<const V *>(cells.moduli.data()) +
         std::size_t(batch) * cells.n_points * NonlinearLaw<Number>::n_moduli;
-      this->at_points(
-        std::false_type(),
-        cells,
-        batch,
-        [=](const auto affine, const auto n, const int q, auto &G) {
-          const TangentLaw<Number> law{moduli +
-                                       q * NonlinearLaw<Number>::n_moduli};
-          visit(law, affine, n, q, G);
-        });
+      this->template at_points_of<false>(cells, batch, [=](const auto &at) {
+        visit(TangentLaw<Number>{moduli +
+                                 at.q * NonlinearLaw<Number>::n_moduli},
+              at);
+      });
     }
 
     void
@@ -56,30 +52,24 @@ namespace mortise
                  Number                    *after,
                  Number                    *dst) override
     {
-      const NonlinearLaw<Number> &law       = *cells.nonlinear;
-      const unsigned int          n_history = law.n_history();
+      const unsigned int n_history = cells.nonlinear->n_history();
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           V *g = this->gradients(cells, batch, u);
           at_states(cells,
                     batch,
-                    [&](const std::size_t point,
-                        const V(&h)[dim][dim],
-                        const V     w,
-                        const auto  n,
-                        const int   q,
-                        const auto &G) {
+                    before,
+                    [&](const auto &at, const auto &state) {
                       V s[dim][dim];
-                      law.stress(h,
-                                 reinterpret_cast<const V *>(before) +
-                                   point * n_history,
-                                 reinterpret_cast<V *>(after) +
-                                   point * n_history,
-                                 s);
+                      cells.nonlinear->stress(state.h,
+                                              state.before,
+                                              reinterpret_cast<V *>(after) +
+                                                state.number * n_history,
+                                              s);
                       for (auto &row : s)
                         for (V &entry : row)
-                          entry *= w;
-                      set_stress(s, G, n, g + q);
+                          entry *= state.root;
+                      set_stress(s, at.G, at.n, g + at.q);
                     });
           this->add_forces(cells, batch, dst);
         }
@@ -90,53 +80,50 @@ namespace mortise
               const Number        *u,
               const Number        *before) override
     {
-      const NonlinearLaw<Number> &law       = *cells.nonlinear;
-      const unsigned int          n_history = law.n_history();
       V *moduli = reinterpret_cast<V *>(cells.moduli.data());
       for (unsigned int batch = 0; batch < cells.n_batches; ++batch)
         {
           this->gradients(cells, batch, u);
-          at_states(cells,
-                    batch,
-                    [&](const std::size_t point,
-                        const V(&h)[dim][dim],
-                        const V &,
-                        const auto &,
-                        const int,
-                        const auto &) {
-                      law.tangent(h,
-                                  reinterpret_cast<const V *>(before) +
-                                    point * n_history,
-                                  moduli + point * law.n_moduli);
-                    });
+          at_states(cells, batch, before, [&](const auto &, const auto &state) {
+            cells.nonlinear->tangent(state.h,
+                                     state.before,
+                                     moduli + state.number *
+                                                NonlinearLaw<Number>::n_moduli);
+          });
         }
     }
 
   private:
-    /// visit(point among all, h, sqrt(w |J|), number of points, point, metric)
-    /// from where gradients are.
+    struct State
+    {
+      std::size_t number; ///< among the points of all batches
+      V           root;   ///< sqrt(w |J|)
+      V           h[dim][dim];
+      const V    *before;
+    };
+
+    /// visit(point, state) from where gradients are.
     template <typename Visit>
     void
     at_states(const CellBatches<Number> &cells,
               const unsigned int         batch,
+              const Number              *before,
               const Visit               &visit)
     {
-      const V *g = this->gradients();
-      this->at_points(
-        std::false_type(),
-        cells,
-        batch,
-        [&](const auto affine, const auto n, const int q, auto &G) {
-          V h[dim][dim];
-          gradient_at(g + q, n, G, h);
-          const V w = this->shape.root(affine, G, q);
-          // lanes without a cell have no metric
-          const V divisor = w > 0 ? w : V{} + Number(1);
-          for (auto &row : h)
-            for (V &entry : row)
-              entry /= divisor;
-          visit(std::size_t(batch) * n + q, h, w, n, q, G);
-        });
+      const V           *g         = this->gradients();
+      const unsigned int n_history = cells.nonlinear->n_history();
+      this->template at_points_of<false>(cells, batch, [&](const auto &at) {
+        State state{std::size_t(batch) * at.n + at.q, at.root(), {}, nullptr};
+        state.before =
+          reinterpret_cast<const V *>(before) + state.number * n_history;
+        gradient_at(g + at.q, at.n, at.G, state.h);
+        // lanes without a cell have no metric
+        const V divisor = state.root > 0 ? state.root : V{} + Number(1);
+        for (auto &row : state.h)
+          for (V &entry : row)
+            entry /= divisor;
+        visit(at, state);
+      });
     }
   };
 

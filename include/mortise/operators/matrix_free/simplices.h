@@ -15,32 +15,35 @@
 
 namespace mortise
 {
-  template <typename Number>
-  class DenseGradients
+  /// Values at points from those at nodes, and the transpose.
+  template <typename Number, int n_components>
+  class DenseMap
   {
   public:
     using V = typename Batch<Number>::Vector;
 
-    /// @p gradients: row (axis, point).
-    explicit DenseGradients(const dealii::FullMatrix<double> &gradients)
-      : to_points(gradients)
-      , from_points(transposed(gradients))
+    DenseMap() = default;
+
+    /// @p values: row by point.
+    explicit DenseMap(const dealii::FullMatrix<double> &values)
+      : up(values)
+      , down(transposed(values))
     {}
 
     void
-    evaluate(const V *u, V *g) const
+    evaluate(const V *at_nodes, V *at_points) const
     {
-      to_points.apply(u, g);
+      up.template apply<n_components>(at_nodes, at_points);
     }
 
     void
-    integrate(const V *g, V *u) const
+    integrate(const V *at_points, V *at_nodes) const
     {
-      from_points.apply(g, u);
+      down.template apply<n_components>(at_points, at_nodes);
     }
 
   private:
-    DenseMatrix<Number> to_points, from_points;
+    DenseMatrix<Number> up, down;
   };
 
   template <typename Number, int degree>
@@ -164,11 +167,11 @@ namespace mortise
 
   private:
     using Curved = std::conditional_t<(degree < sum_factorised_from),
-                                      DenseGradients<Number>,
+                                      DenseMap<Number, dim>,
                                       CollapsedKernel<Number, degree>>;
 
     const int               n_curved;
-    DenseGradients<Number>  on_affine;
+    DenseMap<Number, dim>   on_affine;
     const bool              has_affine;
     std::unique_ptr<Curved> on_curved; ///< where there are such cells
     /// By point of these, sqrt(w |J|) over the determinant of the metric.
@@ -185,57 +188,45 @@ namespace mortise
 
     explicit SimplexPressures(const CellBatches<Number> &cells)
       : room(std::max<unsigned int>(n_nodes, cells.n_points))
-      , on_affine(pressure_coefficients(degree))
     {
+      set(true, pressure_coefficients(degree));
       if (cells.n_batches > cells.n_affine)
-        on_curved = Tables(
-          simplex_nodal_values(degree - 1,
-                               simplex_rule<Number>(degree).get_points()));
+        set(false,
+            simplex_nodal_values(degree - 1,
+                                 simplex_rule<Number>(degree).get_points()));
     }
 
     void
     to_points(const bool affine, const V *at_nodes, V *at_points) const
     {
-      tables(affine).up.template apply<1>(at_nodes, at_points);
+      maps[affine].evaluate(at_nodes, at_points);
     }
 
     void
     from_points(const bool affine, const V *at_points, V *at_nodes) const
     {
-      tables(affine).down.template apply<1>(at_points, at_nodes);
+      maps[affine].integrate(at_points, at_nodes);
     }
 
     void
     squares(const bool affine, const V *at_points, V *at_nodes) const
     {
-      tables(affine).squares.template apply<1>(at_points, at_nodes);
+      all_squares[affine].template apply<1>(at_points, at_nodes);
     }
 
   private:
-    struct Tables
+    /// @p values: entry (point, node).
+    void
+    set(const bool affine, const dealii::FullMatrix<double> &values)
     {
-      Tables() = default;
-
-      /// @p values: entry (point, node).
-      explicit Tables(const dealii::FullMatrix<double> &values)
-        : up(values)
-        , down(transposed(values))
-      {
-        dealii::FullMatrix<double> squared(transposed(values));
-        for (auto &entry : squared)
-          entry.value() = entry.value() * entry.value();
-        squares = DenseMatrix<Number>(squared);
-      }
-
-      DenseMatrix<Number> up, down, squares;
-    };
-
-    const Tables &
-    tables(const bool affine) const
-    {
-      return affine ? on_affine : on_curved;
+      maps[affine] = DenseMap<Number, 1>(values);
+      dealii::FullMatrix<double> squared(transposed(values));
+      for (auto &entry : squared)
+        entry.value() = entry.value() * entry.value();
+      all_squares[affine] = DenseMatrix<Number>(squared);
     }
 
-    Tables on_affine, on_curved;
+    DenseMap<Number, 1> maps[2]; ///< on curved cells, on affine ones
+    DenseMatrix<Number> all_squares[2];
   };
 } // namespace mortise
