@@ -1,81 +1,80 @@
 #include <mortise/solvers/newton.h>
 
-#include <cmath>
-
 namespace mortise
 {
   namespace
   {
-    /// A solution, its residual, and that one's norm.
-    struct Iterate
-    {
-      SystemVector &x;
-      SystemVector  r;
-      double        norm;
-    };
-
-    /// Move the iterate along @p dx until the residual falls. Returns how often the step was
-    /// halved, more than @p max_halvings if nothing helps; then it is where it was.
+    /// Shorten the increment from @p start to @p x until the residual falls below @p before; both are
+    /// updated. Returns how often it was halved, more than @p max_halvings if nothing helps; then x is
+    /// the start.
     unsigned int
-    search(const NonlinearProblem &problem,
-           const SystemVector     &dx,
-           const unsigned int      max_halvings,
-           Iterate                &at)
+    search(NonlinearProblem   &problem,
+           const unsigned int  max_halvings,
+           const SystemVector &start,
+           SystemVector       &x,
+           double             &before)
     {
       constexpr double decrease = 1e-4;
       double           length   = 1.;
-      add_scaled(at.x, length, dx);
       for (unsigned int halvings = 0; halvings <= max_halvings; ++halvings)
         {
-          problem.residual(at.x, at.r);
-          const double reached = problem.norm(at.r);
-          if (reached <= (1. - decrease * length) * at.norm)
+          const double reached = problem.residual(x);
+          if (reached <= (1. - decrease * length) * before)
             {
-              at.norm = reached;
+              before = reached;
               return halvings;
             }
           length *= 0.5;
-          add_scaled(at.x, -length, dx);
+          scale(x, 0.5);
+          add_scaled(x, 0.5, start);
         }
-      add_scaled(at.x, -length, dx);
-      problem.residual(at.x, at.r);
+      x = start;
+      problem.residual(x);
       return max_halvings + 1;
     }
   } // namespace
 
   NewtonReport
-  solve_newton(const NonlinearProblem &problem,
-               const NewtonOptions    &options,
-               SystemVector           &x)
+  solve_newton(NonlinearProblem    &problem,
+               const NewtonOptions &options,
+               SystemVector        &x)
   {
     constexpr unsigned int easy_iterations = 5;
-    const double           target          = options.tolerance * options.scale;
+    const bool             searches        = options.max_halvings > 0;
     NewtonReport           report;
-    Iterate                at{x, x, 0.};
-    SystemVector           dx = x;
-    problem.residual(x, at.r);
-    at.norm     = problem.norm(at.r);
-    report.easy = true;
+    report.residual = problem.residual(x);
+    report.easy     = true;
     // not a number is not converged
-    while (!(at.norm <= target) && report.iterations < options.max_iterations)
+    while (!(report.residual <= options.tolerance) &&
+           report.iterations < options.max_iterations)
       {
         problem.linearise(x);
-        scale(dx, 0.);
-        const SolveReport linear = problem.solve(at.r, dx);
-        report.linear_iterations += linear.iterations;
-        if (!linear.converged)
-          break;
-        const unsigned int halvings =
-          search(problem, dx, options.max_halvings, at);
+        const SystemVector start  = searches ? x : SystemVector();
+        const SolveReport  before = report.linear;
+        report.linear             = problem.solve(x);
+        report.linear_iterations += report.linear.iterations;
+        report.linear.setup_seconds += before.setup_seconds;
+        report.linear.solve_seconds += before.solve_seconds;
+        if (!report.linear.converged)
+          {
+            if (searches)
+              x = start;
+            break;
+          }
+        unsigned int halvings = 0;
+        if (searches)
+          halvings =
+            search(problem, options.max_halvings, start, x, report.residual);
+        else
+          report.residual = problem.residual(x);
         if (halvings > options.max_halvings)
           break;
         ++report.iterations;
         report.easy &= halvings == 0;
         if (options.monitor)
-          options.monitor(report.iterations, at.norm / options.scale);
+          options.monitor(report.iterations, report.residual);
       }
-    report.converged         = at.norm <= target;
-    report.relative_residual = at.norm / options.scale;
+    report.converged = report.residual <= options.tolerance;
     report.easy &= report.converged && report.iterations <= easy_iterations;
     return report;
   }

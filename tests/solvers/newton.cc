@@ -1,6 +1,7 @@
 // Proves that Newton's method converges quadratically, reaches the exact
 // solution from far away by halving increments, leaves the iterate where no
-// increment helps, and reports linear solves that fail.
+// increment helps, takes full increments where it is told so, and reports
+// linear solves that fail.
 #include <deal.II/base/mpi.h>
 
 #include <mortise/solvers/newton.h>
@@ -23,6 +24,7 @@ namespace
     std::vector<double>           slope;
     std::vector<double> norms; ///< of all residuals that were asked for
     bool                fails = false;
+    double              scale = 1.; ///< of residuals
 
     SystemVector
     start(const double value) const
@@ -33,35 +35,56 @@ namespace
       x.displacement = value;
       return x;
     }
-
-    NonlinearProblem
-    problem()
-    {
-      NonlinearProblem p;
-      p.residual = [this](const SystemVector &x, SystemVector &r) {
-        for (unsigned int i = 0; i < b.size(); ++i)
-          r.displacement.begin()[i] = b[i] - f(x.displacement.begin()[i]);
-      };
-      p.linearise = [this](const SystemVector &x) {
-        slope.clear();
-        for (unsigned int i = 0; i < b.size(); ++i)
-          slope.push_back(derivative(x.displacement.begin()[i]));
-      };
-      p.solve = [this](const SystemVector &r, SystemVector &dx) {
-        for (unsigned int i = 0; i < b.size(); ++i)
-          dx.displacement.begin()[i] = r.displacement.begin()[i] / slope[i];
-        SolveReport report;
-        report.converged  = !fails;
-        report.iterations = 3;
-        return report;
-      };
-      p.norm = [this](const SystemVector &r) {
-        norms.push_back(r.displacement.l2_norm());
-        return norms.back();
-      };
-      return p;
-    }
   };
+
+  class Problem : public NonlinearProblem
+  {
+  public:
+    explicit Problem(Scalars &s)
+      : s(s)
+    {}
+
+    double
+    residual(const SystemVector &x) override
+    {
+      r = x.displacement;
+      for (unsigned int i = 0; i < s.b.size(); ++i)
+        r.begin()[i] = s.b[i] - s.f(x.displacement.begin()[i]);
+      s.norms.push_back(r.l2_norm() / s.scale);
+      return s.norms.back();
+    }
+
+    void
+    linearise(const SystemVector &x) override
+    {
+      s.slope.clear();
+      for (unsigned int i = 0; i < s.b.size(); ++i)
+        s.slope.push_back(s.derivative(x.displacement.begin()[i]));
+    }
+
+    SolveReport
+    solve(SystemVector &x) override
+    {
+      for (unsigned int i = 0; i < s.b.size(); ++i)
+        x.displacement.begin()[i] += r.begin()[i] / s.slope[i];
+      SolveReport report;
+      report.converged     = !s.fails;
+      report.iterations    = 3;
+      report.solve_seconds = 2.;
+      return report;
+    }
+
+  private:
+    Scalars        &s;
+    mortise::Vector r;
+  };
+
+  NewtonReport
+  solve(Scalars &s, const NewtonOptions &options, SystemVector &x)
+  {
+    Problem problem(s);
+    return solve_newton(problem, options, x);
+  }
 
   void
   check_quadratic()
@@ -74,8 +97,8 @@ namespace
     SystemVector  x = s.start(0.5);
     NewtonOptions options;
     options.tolerance          = 1e-13;
-    options.scale              = 30.;
-    const NewtonReport report  = solve_newton(s.problem(), options, x);
+    s.scale                    = 30.;
+    const NewtonReport report  = solve(s, options, x);
     const double       exact[] = {1., 2., -3.};
     double             error   = 0.;
     for (unsigned int i = 0; i < 3; ++i)
@@ -104,19 +127,41 @@ namespace
                          {},
                          {}};
     SystemVector       x      = s.start(3.);
-    const NewtonReport report = solve_newton(s.problem(), NewtonOptions(), x);
+    const NewtonReport report = solve(s, NewtonOptions(), x);
     verdict(report.converged && !report.easy &&
               std::fabs(x.displacement.begin()[0] - std::tan(0.1)) < 1e-9,
             "arc tangent: solved with halved increments",
             std::fabs(x.displacement.begin()[0] - std::tan(0.1)));
     NewtonOptions none;
-    none.max_halvings        = 0;
+    none.max_halvings        = 1;
     x                        = s.start(3.);
-    const NewtonReport stuck = solve_newton(s.problem(), none, x);
+    const NewtonReport stuck = solve(s, none, x);
     verdict(!stuck.converged && x.displacement.begin()[0] == 3. &&
               x.displacement.begin()[1] == 3.,
-            "arc tangent: without halving the iterate stays",
+            "arc tangent: with one halving the iterate stays",
             x.displacement.begin()[0]);
+  }
+
+  void
+  check_full_increments()
+  {
+    // the residual rises from 4 to 27 on the way
+    Scalars s{[](const double x) { return x + 9. * std::max(x - 1., 0.); },
+              [](const double x) { return x > 1. ? 10. : 1.; },
+              {4.},
+              {},
+              {}};
+    NewtonOptions full;
+    full.max_halvings         = 0;
+    SystemVector       x      = s.start(0.);
+    const NewtonReport report = solve(s, full, x);
+    verdict(report.converged && report.iterations == 2 &&
+              std::fabs(x.displacement.begin()[0] - 1.3) < 1e-12,
+            "piecewise linear: solved in two full increments",
+            report.iterations);
+    verdict(report.linear.solve_seconds == 4. && report.linear.iterations == 3,
+            "piecewise linear: the last solve, with the seconds of all",
+            report.linear.solve_seconds);
   }
 
   void
@@ -128,22 +173,21 @@ namespace
                    {},
                    {}};
     SystemVector x      = s.start(1.);
-    NewtonReport report = solve_newton(s.problem(), NewtonOptions(), x);
-    verdict(!report.converged && report.relative_residual >= 1. &&
-              report.relative_residual <= 2.,
+    NewtonReport report = solve(s, NewtonOptions(), x);
+    verdict(!report.converged && report.residual >= 1. && report.residual <= 2.,
             "no solution: not converged, not worse than the start",
-            report.relative_residual);
+            report.residual);
     s.b     = {4.};
     s.fails = true;
     x       = s.start(1.);
-    report  = solve_newton(s.problem(), NewtonOptions(), x);
+    report  = solve(s, NewtonOptions(), x);
     verdict(!report.converged && report.iterations == 0 &&
               x.displacement.begin()[0] == 1.,
             "a linear solve that fails moves nothing",
             x.displacement.begin()[0]);
     s.fails = false;
     s.b     = {std::nan("")};
-    report  = solve_newton(s.problem(), NewtonOptions(), x);
+    report  = solve(s, NewtonOptions(), x);
     verdict(!report.converged, "not a number: not converged");
   }
 } // namespace
@@ -154,5 +198,6 @@ main(int argc, char **argv)
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   check_quadratic();
   check_search();
+  check_full_increments();
   check_failures();
 }

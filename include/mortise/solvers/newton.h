@@ -1,4 +1,6 @@
-// Newton's method for a system A(x) = b, by three contracts of the problem.
+// Newton's method for A(x) = b, where A may be piecewise smooth: with contact
+// the generalised derivative belongs to an active set, and the method is the
+// primal-dual active set strategy. Source: Hintermueller, Ito, Kunisch (2002).
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -8,26 +10,37 @@
 
 namespace mortise
 {
-  /// What Newton's method asks of a problem.
-  struct NonlinearProblem
+  /// A(x) = b, as Newton's method sees it. Collective.
+  class NonlinearProblem
   {
-    /// r = b - A(x).
-    std::function<void(const SystemVector &x, SystemVector &r)> residual;
-    /// The next solves take the derivative of A at x.
-    std::function<void(const SystemVector &x)> linearise;
-    /// dx = A'(x)^{-1} r, to a tolerance relative to r.
-    std::function<SolveReport(const SystemVector &r, SystemVector &dx)> solve;
-    /// Of a residual, free of units.
-    std::function<double(const SystemVector &r)> norm;
+  public:
+    virtual ~NonlinearProblem() = default;
+
+    /// Evaluate b - A(x); returns its size, free of units. With contact the
+    /// active set that follows from x is chosen, and the share of multipliers
+    /// that it changes is part of the size.
+    virtual double
+    residual(const SystemVector &x) = 0;
+
+    /// The next solve() takes a generalised derivative A' at @p x, which was
+    /// evaluated last.
+    virtual void
+    linearise(const SystemVector &x) = 0;
+
+    /// x += A'^{-1} (b - A(x)) for the x of linearise(), as exactly as the next
+    /// evaluation needs.
+    virtual SolveReport
+    solve(SystemVector &x) = 0;
   };
 
   struct NewtonOptions
   {
-    double       tolerance      = 1e-10; ///< |r| over scale
-    double       scale          = 1.;    ///< usually |b|
+    double       tolerance      = 1e-10; ///< of NonlinearProblem::residual()
     unsigned int max_iterations = 20;
-    unsigned int max_halvings   = 8; ///< of one increment
-    /// Called after each iteration with its number and |r| / scale.
+    /// Of one increment, where the residual does not fall; 0: increments are
+    /// taken in full, as piecewise linear problems want them.
+    unsigned int max_halvings = 8;
+    /// Called after each iteration with its number and the residual.
     std::function<void(unsigned int, double)> monitor;
   };
 
@@ -36,17 +49,17 @@ namespace mortise
     bool         converged         = false;
     unsigned int iterations        = 0;
     unsigned int linear_iterations = 0; ///< of all linear solves
-    double       relative_residual = 0.;
+    double       residual          = 0.;
+    SolveReport  linear; ///< of the last solve, with the seconds of all
     /// Few iterations, no increment halved: the next load step may be longer.
     bool easy = false;
   };
 
   /// Improve @p x. An increment that does not lower the residual (Armijo's
-  /// rule on |r|^2) is halved; where that does not help, or a linear solve
-  /// fails, x is the best iterate and the report not converged. Collective if
-  /// the contracts are.
+  /// rule on its square) is halved; where that does not help, or a linear solve
+  /// fails, x is the best iterate and the report not converged. Collective.
   NewtonReport
-  solve_newton(const NonlinearProblem &problem,
-               const NewtonOptions    &options,
-               SystemVector           &x);
+  solve_newton(NonlinearProblem    &problem,
+               const NewtonOptions &options,
+               SystemVector        &x);
 } // namespace mortise

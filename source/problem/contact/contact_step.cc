@@ -21,9 +21,9 @@ namespace mortise
     /// Of solves on the way to the set: doc/measurements/contact.md.
     constexpr double loose = 1e-2;
 
-    /// Likewise, the root of the energy of the error beside that of the
-    /// solution, as a multiple of the tolerance: where the first set may be
-    /// the last one, and on the way from a first set that is far from it.
+    /// The root of the energy of the error beside that of the solution, as a
+    /// multiple of the tolerance: where the first set may be the last one, and
+    /// on the way from a first set that is far from it.
     constexpr double loose_energy = 0.1, loosest_energy = 3.;
 
     /// As many as fields of load with factors of their own.
@@ -99,7 +99,11 @@ namespace mortise
     , first(std::move(start))
     , increments(max_increments)
     , unclear(discretisation.one_sided().size(), false)
-  {}
+  {
+    const std::vector<bool> contact = discretisation.one_sided();
+    n_contact                       = Utilities::MPI::sum<std::uint64_t>(
+      std::count(contact.begin(), contact.end(), true), run.comm);
+  }
 
   ActivePlaces
   ContactStep::active_places() const
@@ -126,9 +130,8 @@ namespace mortise
   {
     if (!run.parameters.steps.given())
       return;
-    if (!residual)
-      residual =
-        std::make_unique<ScaledResidual>(discretisation.linear_system());
+    if (!scaled)
+      scaled = std::make_unique<ScaledResidual>(discretisation.linear_system());
     SystemVector rhs = now.rhs, x = now.x;
     if (last)
       {
@@ -142,7 +145,7 @@ namespace mortise
         add_scaled(rhs, -1., last->rhs);
         add_scaled(x, -1., last->x);
       }
-    increments.add(rhs, x, *residual);
+    increments.add(rhs, x, *scaled);
     last = std::move(now);
   }
 
@@ -152,8 +155,8 @@ namespace mortise
     remember({load.rhs, x, first->nearest(places)});
   }
 
-  void
-  ContactStep::start(const SceneLoad &load, SystemVector &x)
+  std::vector<bool>
+  ContactStep::predict(const SceneLoad &load, SystemVector &x)
   {
     const std::vector<bool> contact = discretisation.one_sided();
     const std::vector<bool> all(contact.size(), true);
@@ -164,7 +167,7 @@ namespace mortise
         SystemVector rhs = load.rhs;
         add_scaled(rhs, -1., last->rhs);
         if (!increments.empty())
-          add_scaled(x, 1., increments.start(rhs, *residual));
+          add_scaled(x, 1., increments.start(rhs, *scaled));
       }
     double area = 0.;
     for (const Coupling &coupling : discretisation.interfaces().all())
@@ -186,166 +189,167 @@ namespace mortise
     const auto holds = [this](const std::vector<bool> &active) {
       return free_motions(active).empty();
     };
-    set.start_from(holds(pressing)             ? pressing :
-                   last && holds(last->active) ? last->active :
-                                                 all);
+    return holds(pressing)             ? pressing :
+           last && holds(last->active) ? last->active :
+                                         all;
   }
 
-  SolveReport
-  ContactStep::solve_set(SceneLoad    &load,
-                         const double  tolerance,
-                         SystemVector &x)
+  double
+  ContactStep::residual(const SystemVector &x)
+  {
+    if (sets == 0)
+      {
+        sets = 1; // the one that predict() chose
+        return 1.;
+      }
+    const double            asked   = run.parameters.solver.tolerance;
+    const bool              is_last = tolerance == asked;
+    const Vector            gaps    = discretisation.gaps(*load, x);
+    ActiveSet               next    = set;
+    const ActiveSet::Change change =
+      next.advance(x.multiplier.begin(),
+                   gaps.begin(),
+                   std::max(gaps.linfty_norm(), x.displacement.linfty_norm()),
+                   // what a linear solve leaves is no reason to turn
+                   std::max(least_accuracy, tolerance),
+                   [&](std::vector<bool> &turns) {
+                     if (extends && !is_last)
+                       edge.extend(set.active(), turns);
+                   });
+    unclear = next.undecided();
+    print(change);
+    // sets that close again may have opened beyond the edge
+    if (extends && extended && change.closed > 0)
+      ++overshoots;
+    extended = extended || change.opened > 0;
+    extends  = cold && overshoots < max_overshoots &&
+              !(extended && change.closed > 0) && !next.cycles();
+    if (is_last && !change.any())
+      return 0.;
+    if (is_last)
+      catch_bodies(x, next);
+    else if (!change.any() || next.cycles() ||
+             !free_motions(next.active()).empty())
+      {
+        // and ask again; what is open until the end costs more there
+        tolerance =
+          change.undecided > 0 ? std::max(asked, finer * tolerance) : asked;
+        set.start_from(set.active());
+        return tolerance;
+      }
+    set = std::move(next);
+    ++sets;
+    return double(change.opened + change.closed) / n_contact;
+  }
+
+  void
+  ContactStep::catch_bodies(const SystemVector &x, ActiveSet &next) const
+  {
+    if (free_motions(next.active()).empty())
+      return;
+    next.start_from(fall(discretisation, preloads, *load, x, next.active()));
+    if (const std::string free = free_motions(next.active()); !free.empty())
+      throw InputError("Contact is lost: where it pulls it opens, and what "
+                       "still presses holds no longer. " +
+                       free);
+  }
+
+  void
+  ContactStep::linearise(const SystemVector &)
   {
     discretisation.select(set.active());
-    const unsigned int most    = run.parameters.solver.max_iterations;
-    const bool         is_last = tolerance == run.parameters.solver.tolerance;
     // coarse levels go on with the ties that they saw, which costs next to no
     // iteration (doc/measurements/contact.md) as long as about as many hold
     const std::uint64_t n_active = set.n_active();
-    const bool          shows    = !is_shown || n_active > 2 * n_shown ||
-                       (is_last && 2 * n_active < n_shown);
+    shows =
+      !n_shown || n_active > 2 * *n_shown ||
+      (tolerance == run.parameters.solver.tolerance && 2 * n_active < *n_shown);
     if (shows)
       show();
     else
       solver.update_active();
-    const bool goes_on = x.displacement.size() > 0;
-    if (goes_on)
+  }
+
+  SolveReport
+  ContactStep::solve(SystemVector &x)
+  {
+    const unsigned int most = run.parameters.solver.max_iterations;
+    if (x.displacement.size() > 0)
       discretisation.linear_system().clear_inactive(x.multiplier);
-    const auto run_solver = [&](const unsigned int max_iterations) {
-      solver.set_limits(tolerance,
-                        is_last          ? SolverOptions().energy_share :
-                        cold && sets > 1 ? loosest_energy :
-                                           loose_energy,
-                        max_iterations);
-      return preloads.solve(goes_on, load, x);
-    };
-    if (shows)
-      return run_solver(most);
-    const SystemVector start = x;
-    const SolveReport  tried = run_solver(std::min(most, few_iterations));
-    if (tried.converged)
-      return tried;
-    show();
-    x                  = start;
-    SolveReport report = run_solver(most);
-    report.iterations += tried.iterations;
-    report.setup_seconds += tried.setup_seconds;
-    report.solve_seconds += tried.solve_seconds;
-    return report;
+    const SystemVector start = shows ? SystemVector() : x;
+    SolveReport        result =
+      solve_set(shows ? most : std::min(most, few_iterations), x);
+    if (!shows && !result.converged)
+      {
+        const SolveReport tried = result;
+        show();
+        x      = start;
+        result = solve_set(most, x);
+        result.iterations += tried.iterations;
+        result.setup_seconds += tried.setup_seconds;
+        result.solve_seconds += tried.solve_seconds;
+      }
+    iterations = result.iterations;
+    return result;
+  }
+
+  SolveReport
+  ContactStep::solve_set(const unsigned int max_iterations, SystemVector &x)
+  {
+    solver.set_limits(tolerance,
+                      tolerance == run.parameters.solver.tolerance ?
+                        SolverOptions().energy_share :
+                      cold && sets > 1 ? loosest_energy :
+                                         loose_energy,
+                      max_iterations);
+    return preloads.solve(x.displacement.size() > 0, *load, x);
   }
 
   void
   ContactStep::show()
   {
-    n_shown  = set.n_active();
-    is_shown = true;
+    n_shown = set.n_active();
     discretisation.show_active();
     solver.update();
   }
 
   void
-  ContactStep::print(const std::uint64_t      n_active,
-                     const ActiveSet::Change &change,
-                     const unsigned int       n_iterations) const
+  ContactStep::print(const ActiveSet::Change &change) const
   {
     run.log.line("  active set " + std::to_string(sets) + ": " +
-                 std::to_string(n_active) + " press, " +
+                 std::to_string(set.n_active()) + " press, " +
                  std::to_string(change.opened) + " open, " +
                  std::to_string(change.closed) + " close, " +
                  std::to_string(change.undecided) + " undecided, " +
-                 std::to_string(n_iterations) + " iterations" +
+                 std::to_string(iterations) + " iterations" +
                  (set.cycles() ? ", by the energy since sets came back" : ""));
   }
 
-  ContactStep::Next
-  ContactStep::advance(const SceneLoad    &load,
-                       const SystemVector &x,
-                       const double        tolerance,
-                       const bool          extends)
-  {
-    const Vector gaps = discretisation.gaps(load, x);
-    Next         next{set, {}, ""};
-    next.change =
-      next.set.advance(x.multiplier.begin(),
-                       gaps.begin(),
-                       std::max(gaps.linfty_norm(),
-                                x.displacement.linfty_norm()),
-                       // what a linear solve leaves is no reason to turn
-                       std::max(least_accuracy, tolerance),
-                       [&](std::vector<bool> &turns) {
-                         if (extends)
-                           edge.extend(set.active(), turns);
-                       });
-    unclear = next.set.undecided();
-    if (next.change.any())
-      next.free = free_motions(next.set.active());
-    return next;
-  }
-
   SolveReport
-  ContactStep::solve(SceneLoad &load, SystemVector &x)
+  ContactStep::solve(SceneLoad &of_step, SystemVector &x)
   {
     const double asked = run.parameters.solver.tolerance;
+    load               = &of_step;
     // a factorisation gives all digits at once
-    double tolerance = discretisation.choice().method == SolverMethod::direct ?
-                         asked :
-                         std::max(loose, asked);
+    tolerance = discretisation.choice().method == SolverMethod::direct ?
+                  asked :
+                  std::max(loose, asked);
     // from lower degrees and from step to step the edge is near already
-    cold = !first && !last;
-    start(load, x);
-    SolveReport  report;
-    double       setup_seconds = 0., solve_seconds = 0.;
-    bool         extends = cold, extended = false;
-    unsigned int overshoots = 0;
-    iterations              = 0;
-    sets                    = 1;
-    while (true)
-      {
-        report = solve_set(load, tolerance, x);
-        setup_seconds += report.setup_seconds;
-        solve_seconds += report.solve_seconds;
-        iterations += report.iterations;
-        is_settled       = sets <= max_sets;
-        report.converged = report.converged && is_settled;
-        if (!report.converged)
-          break;
-        Next next = advance(load, x, tolerance, extends && tolerance > asked);
-        print(set.n_active(), next.change, report.iterations);
-        // sets that close again may have opened beyond the edge
-        if (extends && extended && next.change.closed > 0)
-          ++overshoots;
-        extended = extended || next.change.opened > 0;
-        extends  = cold && overshoots < max_overshoots &&
-                  !(extended && next.change.closed > 0) && !next.set.cycles();
-        if (tolerance == asked && !next.change.any())
-          break;
-        if (tolerance == asked && !next.free.empty())
-          {
-            next.set.start_from(
-              fall(discretisation, preloads, load, x, next.set.active()));
-            next.free = free_motions(next.set.active());
-          }
-        if (tolerance == asked && !next.free.empty())
-          throw InputError("Contact is lost: where it pulls it opens, and what "
-                           "still presses holds no longer. " +
-                           next.free);
-        if (tolerance > asked &&
-            (!next.change.any() || !next.free.empty() || next.set.cycles()))
-          {
-            // and ask again; what is open until the end costs more there
-            tolerance = next.change.undecided > 0 ?
-                          std::max(asked, finer * tolerance) :
-                          asked;
-            set.start_from(set.active());
-            continue;
-          }
-        set = std::move(next.set);
-        ++sets;
-      }
+    cold       = !first && !last;
+    extends    = cold;
+    extended   = false;
+    overshoots = 0;
+    sets       = 0;
+    set.start_from(predict(of_step, x));
+    NewtonOptions options;
+    options.tolerance      = 0.;
+    options.max_iterations = max_sets;
+    options.max_halvings   = 0;
+    report                 = solve_newton(*this, options, x);
     if (report.converged)
-      remember({load.rhs, x, set.active()});
-    report.setup_seconds = setup_seconds;
-    report.solve_seconds = solve_seconds;
-    return report;
+      remember({of_step.rhs, x, set.active()});
+    SolveReport result = report.linear;
+    result.converged   = report.converged;
+    return result;
   }
 } // namespace mortise

@@ -1,5 +1,5 @@
-// One load step of a scene with contact: the active sets, each of which is a
-// linear system, and what they cost.
+// One load step of a scene with contact, as Newton's method sees it: an
+// evaluation chooses the active set, a linearisation is the system of that set.
 #pragma once
 
 #include <mortise/contact/active_set.h>
@@ -8,6 +8,7 @@
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/solvers/linear_solver.h>
+#include <mortise/solvers/newton.h>
 
 #include <cstdint>
 #include <memory>
@@ -17,7 +18,7 @@
 
 namespace mortise
 {
-  class ContactStep
+  class ContactStep : private NonlinearProblem
   {
   public:
     /// All must live on. @p start: what presses first, or pressed in the last step, if that is known. Collective.
@@ -52,25 +53,25 @@ namespace mortise
       return sets;
     }
 
-    /// Likewise: did the sets come to an end?
+    /// Of the last solve(): did the sets come to an end?
     bool
     settled() const
     {
-      return is_settled;
+      return report.converged || !report.linear.converged;
     }
 
-    /// Likewise, by owned multiplier: neither pressure nor gap.
+    /// Of the last solve(), by owned multiplier: neither pressure nor gap.
     const std::vector<bool> &
     undecided() const
     {
       return unclear;
     }
 
-    /// Likewise, of all sets.
+    /// Of the last solve(), of all sets.
     unsigned int
     linear_iterations() const
     {
-      return iterations;
+      return report.linear_iterations;
     }
 
   private:
@@ -81,10 +82,24 @@ namespace mortise
       std::vector<bool> active;
     };
 
-    /// Choose the first set, and where steps go on set @p x to what @p load
-    /// should come to.
+    /// Set @p x to what @p load should come to where steps go on; returns the set that
+    /// follows from it, the first one of the step.
+    std::vector<bool>
+    predict(const SceneLoad &load, SystemVector &x);
+    /// Choose the set that follows from @p x, and how exactly it is to be
+    /// solved; returns the share of multipliers that change.
+    double
+    residual(const SystemVector &x) override;
     void
-    start(const SceneLoad &load, SystemVector &x);
+    linearise(const SystemVector &x) override;
+    SolveReport
+    solve(SystemVector &x) override;
+    SolveReport
+    solve_set(unsigned int max_iterations, SystemVector &x);
+    /// Where @p next, which follows from @p x, leaves motions free, bodies fall until it does not.
+    /// Throws InputError where nothing stops them.
+    void
+    catch_bodies(const SystemVector &x, ActiveSet &next) const;
     /// For the start of the next step.
     void
     remember(Solved now);
@@ -93,23 +108,7 @@ namespace mortise
     std::string
     free_motions(const std::vector<bool> &active) const;
     void
-    print(std::uint64_t            n_active,
-          const ActiveSet::Change &change,
-          unsigned int             n_iterations) const;
-    struct Next
-    {
-      ActiveSet         set;
-      ActiveSet::Change change;
-      std::string       free; ///< motions that it leaves, in words
-    };
-    /// What follows from @p x. @p extends: up to where the edge of the contact is.
-    Next
-    advance(const SceneLoad    &load,
-            const SystemVector &x,
-            double              tolerance,
-            bool                extends);
-    SolveReport
-    solve_set(SceneLoad &load, double tolerance, SystemVector &x);
+    print(const ActiveSet::Change &change) const;
     /// Let preconditioners see the set.
     void
     show();
@@ -121,19 +120,28 @@ namespace mortise
     ActiveSet         set;
     MultiplierPlaces  places;
     ContactEdge       edge;
+    std::uint64_t     n_contact; ///< multipliers that may press only
 
     std::optional<ActivePlaces> first; ///< what presses in the first step
     std::optional<Solved>       last;  ///< with steps
     SuccessiveSolutions
          increments; ///< from step to step, with the set of the last one
     bool mixed_increment = false; ///< was the set of the last but one another?
-    std::unique_ptr<ScaledResidual> residual; ///< their product
+    std::unique_ptr<ScaledResidual> scaled; ///< their product
 
-    unsigned int      sets = 0, iterations = 0;
+    SceneLoad        *load = nullptr; ///< of solve()
+    NewtonReport      report;
+    double            tolerance  = 0.; ///< of the next linear solve
+    unsigned int      sets       = 0;
+    unsigned int      iterations = 0; ///< of the last set
     std::vector<bool> unclear;
-    bool              is_settled = true;
-    bool              is_shown   = false;
-    bool          cold = true; ///< does the first set of the step know little?
-    std::uint64_t n_shown = 0; ///< of the set that coarse levels see
+    /// Active multipliers of the set that coarse levels see.
+    std::optional<std::uint64_t> n_shown;
+    bool                         shows = false; ///< do they see the next one?
+    bool cold = true; ///< does the first set of the step know little?
+    /// Do sets that open go on up to where the edge of the contact is?
+    bool         extends    = false;
+    bool         extended   = false; ///< did one open?
+    unsigned int overshoots = 0;     ///< sets that closed again
   };
 } // namespace mortise
