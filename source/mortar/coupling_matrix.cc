@@ -22,6 +22,14 @@ namespace mortise
       }
   }
 
+  CouplingMatrix
+  CouplingMatrix::with_frames(SparseMatrix &&frames) const
+  {
+    CouplingMatrix result = *this;
+    result.frames_of_rows = std::move(frames);
+    return result;
+  }
+
   void
   CouplingMatrix::constrain(const std::vector<unsigned int> &given)
   {

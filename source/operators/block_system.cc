@@ -36,24 +36,12 @@ namespace mortise
       x.multiplier.add(factor, y.multiplier);
   }
 
-  void
-  BlockSystem::apply_stiffness(Vector &dst, const Vector &src) const
-  {
-    nodal->apply_stiffness(dst, src);
-  }
-
-  double
-  BlockSystem::stiffness_product(const Vector &u) const
-  {
-    Vector force(u);
-    apply_stiffness(force, u);
-    return force * u;
-  }
-
   double
   BlockSystem::energy_product(const SystemVector &x) const
   {
-    double result = stiffness_product(x.displacement);
+    Vector force(x.displacement);
+    nodal->apply_stiffness(force, x.displacement);
+    double result = force * x.displacement;
     if (has_springs())
       {
         Vector opening(x.multiplier);
@@ -75,15 +63,9 @@ namespace mortise
   }
 
   void
-  BlockSystem::add_pressure_force(Vector &dst, const Vector &p) const
-  {
-    nodal->add_pressure_force(dst, p);
-  }
-
-  void
   BlockSystem::add_multiplier_force(Vector &dst, const Vector &lambda) const
   {
-    coupling.Tvmult_add(dst, lambda);
+    forces().Tvmult_add(dst, lambda);
   }
 
   void
@@ -99,13 +81,13 @@ namespace mortise
   {
     nodal->apply_to_constrained(u, rhs);
     if (owned_multiplier.size() > 0)
-      coupling.vmult_free(rhs.multiplier, u);
+      constraint.vmult_free(rhs.multiplier, u);
   }
 
   void
   BlockSystem::apply_constraint(Vector &dst, const Vector &u) const
   {
-    coupling.vmult(dst, u);
+    constraint.vmult(dst, u);
     clear_inactive(dst);
   }
 
@@ -118,11 +100,5 @@ namespace mortise
     spring_compliance.vmult(opening, lambda);
     clear_inactive(opening);
     dst -= opening;
-  }
-
-  void
-  BlockSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
-  {
-    nodal->apply_pressure_norm(dst, p);
   }
 } // namespace mortise

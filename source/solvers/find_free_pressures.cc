@@ -99,7 +99,7 @@ namespace mortise
     result.state          = system.zero_vector();
     result.state.pressure = one;
     Vector force(result.state.displacement);
-    system.add_pressure_force(force, one);
+    system.nodal->add_pressure_force(force, one);
     // what a pressure on a free boundary would bring is h / L of this norm
     double norm = 0.;
     for (unsigned int i = 0; i < one.locally_owned_size(); ++i)

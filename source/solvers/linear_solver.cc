@@ -1,5 +1,6 @@
 #include <deal.II/base/timer.h>
 
+#include <mortise/base/error.h>
 #include <mortise/base/timers.h>
 #include <mortise/solvers/linear_solver.h>
 
@@ -75,6 +76,11 @@ namespace mortise
   void
   LinearSolver::update(const std::function<bool()> &set_up_part)
   {
+    if (needs_symmetry() && !system.is_symmetric())
+      throw InputError("Solver/Method = " + method +
+                       ": the multipliers of this scene act through other rows "
+                       "than those of the constraint, and the method needs a "
+                       "symmetric system; allowed: direct");
     announce_stage("solver_setup");
     const Timer timer;
     valid   = set_up_part();

@@ -49,7 +49,8 @@ namespace mortise
     invert(weight.pressure);
     if (!interface_present)
       return;
-    weight.multiplier = system.coupling.diagonal_of_square(weight.displacement);
+    weight.multiplier =
+      system.constraint.diagonal_of_square(weight.displacement);
     if (system.has_springs())
       {
         const auto opening = system.spring_compliance.diagonal();
@@ -73,7 +74,7 @@ namespace mortise
         r.pressure.sadd(-1., 1., rhs.pressure);
       }
     else
-      system.apply_stiffness(r.displacement, x.displacement);
+      system.nodal->apply_stiffness(r.displacement, x.displacement);
     if (interface_present)
       {
         system.add_multiplier_force(r.displacement, x.multiplier);
@@ -112,15 +113,19 @@ namespace mortise
     };
     if (interface_present)
       {
-        SparseMatrix B = system.coupling.expanded();
-        B.for_each_entry([](const auto, const auto, double &value) {
-          value = std::fabs(value);
-        });
+        const auto magnitudes = [](const CouplingMatrix &of) {
+          SparseMatrix result = of.expanded();
+          result.for_each_entry([](const auto, const auto, double &value) {
+            value = std::fabs(value);
+          });
+          return result;
+        };
         Vector u(x.displacement), lambda(x.multiplier);
         abs(u, x.displacement);
         abs(lambda, x.multiplier);
-        B.Tvmult_add(sizes.displacement.begin(), lambda.begin());
-        B.vmult(sizes.multiplier, u);
+        magnitudes(system.forces())
+          .Tvmult_add(sizes.displacement.begin(), lambda.begin());
+        magnitudes(system.constraint).vmult(sizes.multiplier, u);
         if (system.has_springs())
           {
             Vector opening(lambda); // entries of one sign are most of it

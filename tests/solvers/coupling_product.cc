@@ -29,7 +29,7 @@ namespace
           verdict(name + ": " + what, got, limit);
       };
     const CouplingProduct<Number> product(system,
-                                          CouplingRows(system.coupling));
+                                          CouplingRows(system.constraint));
     const auto                   &places = product.indices();
     const double                  n_places =
       Utilities::MPI::sum<double>(places.size(), MPI_COMM_WORLD);
@@ -70,18 +70,18 @@ namespace
       y(system.owned_multiplier, MPI_COMM_WORLD), expected(y), expected_u(u);
     for (const auto i : system.owned_displacement)
       u(i) = std::sin(1. + i);
-    system.coupling.vmult(y, u);
+    system.constraint.vmult(y, u);
     B.vmult(expected, u);
     B.Tvmult_add(expected_u.begin(), expected.begin());
     y -= expected;
     const double error = y.linfty_norm() / expected.linfty_norm();
     u                  = 0.;
-    system.coupling.Tvmult_add(u, expected);
+    system.constraint.Tvmult_add(u, expected);
     u -= expected_u;
     const double error_u = u.linfty_norm() / expected_u.linfty_norm();
-    const mortise::SparseMatrix same = system.coupling.expanded();
+    const mortise::SparseMatrix same = system.constraint.expanded();
     u                                = 2.;
-    const mortise::Vector squares    = system.coupling.diagonal_of_square(u);
+    const mortise::Vector squares    = system.constraint.diagonal_of_square(u);
     double                largest = 0., of_squares = 0.;
     for (unsigned int i = 0; i < B.n_rows(); ++i)
       {
@@ -125,7 +125,7 @@ namespace
     system.communicator       = MPI_COMM_WORLD;
     system.owned_displacement = line.owned_nodes(dim);
     system.owned_multiplier   = line.owned_rows();
-    system.coupling           = line.by_node();
+    system.constraint         = line.by_node();
     check_all(std::to_string(n_entities) + " entities",
               system,
               B,

@@ -156,7 +156,7 @@ namespace
                 difference(x.multiplier, exact.multiplier),
                 1e-7);
         mortise::Vector jump(x.multiplier);
-        scene.system().coupling.vmult(jump, x.displacement);
+        scene.system().constraint.vmult(jump, x.displacement);
         jump -= scene.rhs().multiplier;
         if (method == std::string("condensed"))
           verdict(name + ": constraint to rounding",

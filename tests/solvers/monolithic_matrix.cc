@@ -1,7 +1,8 @@
 // Proves that the matrix of the direct solver is the operator that residuals
 // are computed with, on every number of ranks: hexahedra and tetrahedra,
 // hanging nodes, several degrees, mixed form, ties, what slides, springs, and a
-// part of the multipliers.
+// part of the multipliers, forces through other rows than the constraint's. It
+// solves the last, which the iterative methods refuse.
 #include <mortise/solvers/factorisation/monolithic_matrix.h>
 #include <scenes/scene.h>
 
@@ -44,23 +45,40 @@ namespace
     return x;
   }
 
-  void
-  check(const std::string &name,
-        const std::string &text,
-        const Settings    &settings,
-        const bool         half = false)
+  enum Part
   {
-    EquationsOfScene   equations(text,
-                               settings + Settings{"Solver/Method=direct"},
-                               MPI_COMM_WORLD);
-    const BlockSystem &system = equations.discretisation.linear_system();
-    if (half)
-      {
-        std::vector<bool> active;
-        for (const auto i : system.owned_multiplier)
-          active.push_back(i % 2 == 0);
-        equations.discretisation.select(active);
-      }
+    all,
+    half
+  };
+
+  void
+  select_half(Discretisation &discretisation)
+  {
+    std::vector<bool> active;
+    for (const auto i : discretisation.linear_system().owned_multiplier)
+      active.push_back(i % 2 == 0);
+    discretisation.select(active);
+  }
+
+  /// Frames whose entries are the constraint's but for factors from 0.5 to 1.5.
+  void
+  act_through_others(Discretisation &discretisation)
+  {
+    const SparseMatrix &frames =
+      discretisation.linear_system().constraint.frames();
+    SparseMatrix others = frames;
+    others.for_each_entry(
+      [&](const unsigned int row, const auto column, double &value) {
+        value *= 1. + 0.5 * std::sin(3. * frames.global_row(row) +
+                                     7. * frames.global_column(column));
+      });
+    discretisation.act_through(std::move(others));
+  }
+
+  void
+  check(const std::string &name, const Discretisation &discretisation)
+  {
+    const BlockSystem   &system = discretisation.linear_system();
     const ScaledResidual residual(system);
     const SparseMatrix   matrix =
       monolithic_matrix(system, residual, MonolithicNumbering(system));
@@ -83,6 +101,60 @@ namespace
         }
     largest = dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
     verdict(name + ", 1e-13", error / largest, 1e-13);
+  }
+
+  EquationsOfScene
+  equations(const std::string &text, const Settings &settings)
+  {
+    return {text, settings + Settings{"Solver/Method=direct"}, MPI_COMM_WORLD};
+  }
+
+  void
+  check(const std::string &name,
+        const std::string &text,
+        const Settings    &settings,
+        const Part         part = all)
+  {
+    EquationsOfScene scene = equations(text, settings);
+    if (part == half)
+      select_half(scene.discretisation);
+    check(name, scene.discretisation);
+  }
+
+  /// Multipliers that act through rows which are not those of the constraint.
+  void
+  check_other_forces(const std::string &text, const Settings &settings)
+  {
+    EquationsOfScene   scene  = equations(text, settings);
+    const BlockSystem &system = scene.discretisation.linear_system();
+    act_through_others(scene.discretisation);
+    check("other forces", scene.discretisation);
+    SolverOptions options;
+    options.method           = SolverMethod::direct;
+    const auto        direct = make_linear_solver(system, options);
+    SystemVector      x;
+    const SolveReport report = direct->solve(scene.load.rhs, x);
+    verdict(report.converged && x.multiplier.l2_norm() > 0.,
+            "other forces: solved");
+    const ScaledResidual residual(system);
+    SystemVector         r = system.zero_vector();
+    residual.compute(scene.load.rhs, x, r);
+    verdict("other forces: equations, 1e-11",
+            residual.norm(r) / residual.norm(scene.load.rhs),
+            1e-11);
+    for (const auto &[method, name] :
+         {std::pair{SolverMethod::condensed, "condensed"},
+          std::pair{SolverMethod::saddle_point, "saddle point"}})
+      {
+        options.method    = method;
+        const auto solver = make_linear_solver(system, options);
+        check_message(std::string("other forces: refused by ") + name,
+                      [&, &solver = solver] { solver->update(); },
+                      {"Solver/Method = ",
+                       "symmetric system; allowed: direct"});
+      }
+    select_half(scene.discretisation);
+    check("other forces, a half", scene.discretisation);
   }
 } // namespace
 
@@ -117,11 +189,12 @@ main(int argc, char *argv[])
   check("slide, a half",
         sphere,
         p_2 + Settings{"Interface glue/Law=slide"},
-        true);
-  check("tie, a half", sphere, p_2, true);
+        half);
+  check("tie, a half", sphere, p_2, half);
   check("spring",
         sphere,
         p_2 + Settings{"Interface glue/Law=spring",
                        "Interface glue/Normal stiffness=20",
                        "Interface glue/Tangential stiffness=5"});
+  check_other_forces(sphere, p_2 + Settings{"Interface glue/Law=slide"});
 }

@@ -32,6 +32,10 @@ namespace mortise
                    const std::vector<Row> &rows,
                    SparseMatrix          &&frames);
 
+    /// The same B_c with other @p frames in place of R.
+    CouplingMatrix
+    with_frames(SparseMatrix &&frames) const;
+
     /// Drop the columns of owned displacements @p constrained. Collective.
     void
     constrain(const std::vector<unsigned int> &constrained);

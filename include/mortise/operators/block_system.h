@@ -66,7 +66,23 @@ namespace mortise
 
     /// B: rows are multipliers, columns displacements; columns of constrained
     /// dofs are zero. Empty when the scene has no interface.
-    CouplingMatrix coupling;
+    CouplingMatrix constraint;
+
+    /// The rows through which multipliers act on bodies, in place of B^T above,
+    /// as with friction; absent where they are those of the constraint.
+    std::optional<CouplingMatrix> force_rows;
+
+    const CouplingMatrix &
+    forces() const
+    {
+      return force_rows ? *force_rows : constraint;
+    }
+
+    bool
+    is_symmetric() const
+    {
+      return !force_rows;
+    }
 
     /// By owned multiplier: does its constraint hold? The others are zero.
     /// Nothing, on all ranks: all do.
@@ -81,14 +97,6 @@ namespace mortise
     {
       return owned_pressure.size() > 0;
     }
-
-    /// dst = K src. Collective.
-    void
-    apply_stiffness(Vector &dst, const Vector &src) const;
-
-    /// u . K u. Collective.
-    double
-    stiffness_product(const Vector &u) const;
 
     /// Twice the energy of what bodies and springs carry. Collective.
     double
@@ -107,11 +115,8 @@ namespace mortise
     void
     apply_to_constrained(const Vector &u, SystemVector &rhs) const;
 
-    /// dst += G^T p. Collective.
-    void
-    add_pressure_force(Vector &dst, const Vector &p) const;
-
-    /// dst += B^T lambda, the forces of the multipliers. Collective.
+    /// dst += B^T lambda, or what the force rows have; the forces of the
+    /// multipliers. Collective.
     void
     add_multiplier_force(Vector &dst, const Vector &lambda) const;
 
@@ -132,10 +137,6 @@ namespace mortise
     {
       return spring_compliance.m() > 0;
     }
-
-    /// dst = P p. Collective.
-    void
-    apply_pressure_norm(Vector &dst, const Vector &p) const;
 
     /// Zero; displacements and pressures on the layouts of the finest level.
     /// Collective.

@@ -74,6 +74,14 @@ namespace mortise
                  const SolverOptions &options,
                  const std::string   &method);
 
+    /// Does the method rely on BlockSystem::is_symmetric()? update() throws
+    /// InputError where that does not hold.
+    virtual bool
+    needs_symmetry() const
+    {
+      return true;
+    }
+
     /// False, on all ranks, when the system turned out not to be what the
     /// method needs; run() is not called then.
     virtual bool

@@ -127,7 +127,7 @@ namespace mortise
     if (solved.solution.multiplier.size() > 0)
       {
         borne += held.multiplier_forces(solved.solution.multiplier);
-        discretisation.linear_system().coupling.Tvmult_add_free(
+        discretisation.linear_system().forces().Tvmult_add_free(
           reactions, solved.solution.multiplier);
       }
     if (held.any_shared())
@@ -276,7 +276,7 @@ namespace mortise
                 if (shares.local_element(k) > 0.)
                   shares.local_element(k) /= n_boundaries.local_element(k);
               Vector seen(multiplier);
-              discretisation.linear_system().coupling.vmult_free(seen, shares);
+              discretisation.linear_system().forces().vmult_free(seen, shares);
               multiplier -= part_of(discretisation, seen, i);
             }
     }

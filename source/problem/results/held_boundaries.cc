@@ -107,7 +107,7 @@ namespace mortise
   HeldBoundaries::forces_of(const unsigned int i, const Vector &lambda) const
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
-    discretisation.linear_system().coupling.Tvmult_add_free(
+    discretisation.linear_system().forces().Tvmult_add_free(
       result, part_of(discretisation, lambda, i));
     return result;
   }
@@ -116,7 +116,7 @@ namespace mortise
   HeldBoundaries::multiplier_forces(const Vector &lambda) const
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
-    discretisation.linear_system().coupling.Tvmult_add_free(result, lambda);
+    discretisation.linear_system().forces().Tvmult_add_free(result, lambda);
     const auto &interfaces = discretisation.interfaces().sides();
     for (unsigned int i = 0; i < interfaces.size(); ++i)
       for (const SideParameters &side : sides_of(interfaces[i]))
@@ -133,7 +133,7 @@ namespace mortise
   HeldBoundaries::constraint(const LevelVector<double> &u,
                              Vector                    &multiplier) const
   {
-    const CouplingMatrix &B = discretisation.linear_system().coupling;
+    const CouplingMatrix &B = discretisation.linear_system().forces();
     B.vmult_free(multiplier, u);
     const auto &interfaces = discretisation.interfaces().sides();
     for (unsigned int i = 0; i < interfaces.size(); ++i)

@@ -63,17 +63,18 @@ namespace mortise
       return;
     const auto scope = run.timers.scope("coupling");
     system.active.reset();
+    system.force_rows.reset();
     interface_summaries.clear();
     if (system.owned_multiplier.size() > 0)
       {
         const CouplingPartition partition{system.owned_displacement,
                                           system.owned_multiplier,
                                           run.comm};
-        system.coupling =
+        system.constraint =
           assemble_by_node(all,
                            partition,
                            pairing->slide() || pairing->have_springs());
-        system.coupling.constrain(system.nodal->levels().front().constrained);
+        system.constraint.constrain(system.nodal->levels().front().constrained);
         if (pairing->have_springs())
           system.spring_compliance = assemble_compliance(all, partition);
       }
@@ -270,7 +271,7 @@ namespace mortise
       return;
     const ScaledResidual residual(system);
     const auto           dependent =
-      find_dependent_multipliers(system.coupling,
+      find_dependent_multipliers(system.constraint,
                                  residual.inverse_diagonal_u(),
                                  residual.inverse_diagonal_lambda(),
                                  system.spring_compliance);

@@ -23,7 +23,7 @@ namespace mortise
     if (system.owned_multiplier.size() == 0)
       return {}; // every displacement of both sides is prescribed
     Vector result(system.owned_multiplier, run.comm), moved(result);
-    system.coupling.vmult(moved, x.displacement); // of inactive ones, too
+    system.constraint.vmult(moved, x.displacement); // of inactive ones, too
     result = load.rhs.multiplier;
     result -= moved;
     for (const Coupling &coupling : pairing->all())

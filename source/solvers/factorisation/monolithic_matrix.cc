@@ -189,8 +189,8 @@ namespace mortise
       return result;
     }
 
-    /// Calls @p visit(i, columns, values, symmetric) for what is not K, G and C:
-    /// entries of the row i, and of the column if they are symmetric. @p B: expanded, without
+    /// Calls @p visit(i, columns, values, transposed) for what is not K, G and C:
+    /// entries of the row i, or of the column. @p B and @p forces: expanded, without
     /// rows where there are no multipliers.
     template <typename Visit>
     void
@@ -198,6 +198,7 @@ namespace mortise
                             const ScaledResidual &residual,
                             const Numbering      &numbering,
                             const SparseMatrix   &B,
+                            const SparseMatrix   &forces,
                             const Visit          &visit)
     {
       const auto visit_diagonal = [&](const Index i, const double value) {
@@ -207,7 +208,8 @@ namespace mortise
                                  const SparseMatrix &from,
                                  const unsigned int  local,
                                  const auto          field,
-                                 const double        factor) {
+                                 const double        factor,
+                                 const bool          transposed) {
         const auto         row = from.row(local);
         OwnExpansion       columns;
         FullMatrix<double> values(1, row.length, row.values);
@@ -218,7 +220,7 @@ namespace mortise
                         1.);
             columns.close();
           }
-        visit(i, columns, values, field == Numbering::displacement);
+        visit(i, columns, values, transposed);
       };
       for (unsigned int g = 0; g < system.free_pressures.size(); ++g)
         if (const int pinned = system.free_pressures.pinned(g); pinned >= 0)
@@ -237,10 +239,15 @@ namespace mortise
               -1. / residual.inverse_diagonal_lambda().local_element(local));
           if (!is_active)
             continue;
-          visit_row(k, B, local, Numbering::displacement, 1.);
+          visit_row(k, B, local, Numbering::displacement, 1., false);
+          visit_row(k, forces, local, Numbering::displacement, 1., true);
           if (system.has_springs())
-            visit_row(
-              k, system.spring_compliance, local, Numbering::multiplier, -1.);
+            visit_row(k,
+                      system.spring_compliance,
+                      local,
+                      Numbering::multiplier,
+                      -1.,
+                      false);
         }
     }
   } // namespace
@@ -250,10 +257,11 @@ namespace mortise
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering)
   {
-    const NodalSystem              &nodal = *system.nodal;
-    const SparseMatrix              B     = system.owned_multiplier.size() > 0 ?
-                                              system.coupling.expanded() :
-                                              SparseMatrix();
+    const NodalSystem &nodal = *system.nodal;
+    const bool         tied  = system.owned_multiplier.size() > 0;
+    const SparseMatrix B = tied ? system.constraint.expanded() : SparseMatrix();
+    const SparseMatrix other_forces =
+      system.is_symmetric() ? SparseMatrix() : system.forces().expanded();
     CellIndices                     cells(nodal, numbering);
     const AffineConstraints<double> constraints =
       monolithic_constraints(nodal, numbering, relevant_rows(cells, numbering));
@@ -264,13 +272,15 @@ namespace mortise
                               residual,
                               numbering,
                               B,
+                              system.is_symmetric() ? B : other_forces,
                               [&](const Index               i,
                                   const OwnExpansion       &columns,
                                   const FullMatrix<double> &values,
-                                  const bool                symmetric) {
-                                visit(one(i), columns, values, false);
-                                if (symmetric)
+                                  const bool                transposed) {
+                                if (transposed)
                                   visit(columns, one(i), values, true);
+                                else
+                                  visit(one(i), columns, values, false);
                               });
       // as the norm of residuals has it
       const double diagonal = 1.;

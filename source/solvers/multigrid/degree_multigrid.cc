@@ -61,7 +61,7 @@ namespace mortise
     {
       if (system.owned_multiplier.size() == 0)
         return {};
-      return find_weak_jumps(system.coupling,
+      return find_weak_jumps(system.constraint,
                              system.nodal->node_diagonal(),
                              system.has_springs() ?
                                system.spring_compliance.diagonal() :
@@ -120,7 +120,7 @@ namespace mortise
     {
       if (system.owned_multiplier.size() == 0)
         return;
-      const CouplingRows rows(system.coupling);
+      const CouplingRows rows(system.constraint);
       product = std::make_unique<CouplingProduct<float>>(system, rows);
       lifting = std::make_unique<Lifting>(system, rows, *product, max_gathered);
       valid   = lifting->is_valid() && valid;

@@ -30,8 +30,8 @@ namespace mortise
     for (const auto &leading : system.nodal->leading_displacements())
       weights.local_element(leading.index) = 0.;
     schur = weighted_square(rows, weights);
-    if (system.coupling.has_frames())
-      schur = in_frames(schur, system.coupling.frames());
+    if (system.constraint.has_frames())
+      schur = in_frames(schur, system.constraint.frames());
     if (system.has_springs())
       add(schur, system.spring_compliance);
     if (!system.active)

@@ -41,6 +41,16 @@ namespace mortise
       system.active = active;
     }
 
+    /// Let multipliers act on bodies through R' B_c, where the constraint is R
+    /// B_c, as friction
+    /// does: @p frames is R', see CouplingMatrix. LinearSolver::update() must follow.
+    /// Collective.
+    void
+    act_through(SparseMatrix &&frames)
+    {
+      system.force_rows = system.constraint.with_frames(std::move(frames));
+    }
+
     /// Let preconditioners see on coarse levels what is active now, where that
     /// is another set than when they last did. LinearSolver::update() must
     /// follow. Collective.

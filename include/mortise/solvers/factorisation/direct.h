@@ -16,6 +16,12 @@ namespace mortise
 
   private:
     bool
+    needs_symmetry() const override
+    {
+      return false;
+    }
+
+    bool
     set_up() override;
 
     void

@@ -48,9 +48,10 @@ namespace mortise
     dealii::IndexSet   owned_indices;
   };
 
-  /// [K G^T B^T; G -C 0; B 0 -S]. Rows and columns of what is prescribed or
-  /// hangs, and of multipliers that are not active, have their diagonal alone;
-  /// the diagonal of a pressure that stands for a free constant has the norm of
+  /// [K G^T B^T; G -C 0; B 0 -S], with BlockSystem::force_rows in place of B^T
+  /// where there are. Rows and columns of what is prescribed or hangs, and of
+  /// multipliers that are not active, have their diagonal alone; the diagonal
+  /// of a pressure that stands for a free constant has the norm of
   /// @p residual added. Collective.
   SparseMatrix
   monolithic_matrix(const BlockSystem         &system,

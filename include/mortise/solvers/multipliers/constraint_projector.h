@@ -14,7 +14,7 @@ namespace mortise
   class ConstraintProjector
   {
   public:
-    /// @p lifting must stay alive. @p rows: of system.coupling. Collective.
+    /// @p lifting must stay alive. @p rows: of system.constraint. Collective.
     ConstraintProjector(const BlockSystem  &system,
                         const CouplingRows &rows,
                         const Lifting      &lifting);

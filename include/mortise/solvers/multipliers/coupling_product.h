@@ -27,7 +27,7 @@ namespace mortise
   class CouplingProduct
   {
   public:
-    /// @p rows: of system.coupling. Collective.
+    /// @p rows: of system.constraint. Collective.
     CouplingProduct(const BlockSystem &system, const CouplingRows &rows);
 
     /// The owned displacements that multipliers of any rank move.
