@@ -4,10 +4,11 @@
 // is moved together, and what was there before where nothing moves.
 #include <deal.II/base/mpi.h>
 
+#include <verdict.h>
+
 #include <cmath>
 
 #include "scenes/active_sets.h"
-#include <verdict.h>
 
 using namespace dealii;
 using namespace mortise;
@@ -78,23 +79,20 @@ namespace
   }
 
   void
-  check_small(const std::string &what, const double got)
-  {
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      verdict(what, got, 1e-9);
-  }
-
-  void
-  check(const std::string &law, const bool tetrahedra)
+  check(const std::string &law,
+        const bool         tetrahedra,
+        const std::string &method,
+        const Settings    &settings = {})
   {
     const MPI_Comm    comm = MPI_COMM_WORLD;
-    const std::string of = law + (tetrahedra ? ", tetrahedra" : ", hexahedra");
-    constexpr double  shift = 0.3;
-    EquationsOfScene  scene(blocks(law, tetrahedra, 0.), {}, comm),
-      there(blocks(law, tetrahedra, shift), {}, comm);
+    const std::string of =
+      law + (tetrahedra ? ", tetrahedra" : ", hexahedra") + ", " + method;
+    constexpr double shift = 0.3;
+    EquationsOfScene scene(blocks(law, tetrahedra, 0.), settings, comm),
+      there(blocks(law, tetrahedra, shift), settings, comm);
     SolverOptions options;
     options.tolerance = 1e-12;
-    options.method    = SolverMethod::condensed;
+    options.method    = solver_method_from_name(method);
     const auto solver =
       make_linear_solver(scene.discretisation.linear_system(), options);
     const auto solver_there =
@@ -107,8 +105,9 @@ namespace
         return Tensor<1, dim>({body == 1 ? shift : 0., 0., 0.});
       }));
     solver->update_interfaces();
-    check_small(of + ": paired where the upper block has moved to",
-                difference(solve(scene, *solver), solve(there, *solver_there)));
+    verdict(of + ": paired where the upper block has moved to",
+            difference(solve(scene, *solver), solve(there, *solver_there)),
+            1e-9);
 
     // a rotation about the z axis and a translation
     const double angle = 0.7;
@@ -120,13 +119,15 @@ namespace
            3.});
       }));
     solver->update_interfaces();
-    check_small(of + ": paired where both have moved together",
-                difference(solve(scene, *solver), first));
+    verdict(of + ": paired where both have moved together",
+            difference(solve(scene, *solver), first),
+            1e-9);
 
     scene.discretisation.pair(zero_solutions(bodies));
     solver->update_interfaces();
-    check_small(of + ": paired where nothing has moved",
-                difference(solve(scene, *solver), first));
+    verdict(of + ": paired where nothing has moved",
+            difference(solve(scene, *solver), first),
+            1e-9);
   }
 } // namespace
 
@@ -136,5 +137,11 @@ main(int argc, char *argv[])
   const Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   for (const bool tetrahedra : {false, true})
     for (const std::string law : {"tie", "slide"})
-      check(law, tetrahedra);
+      check(law, tetrahedra, "condensed");
+  for (const std::string method : {"saddle point", "direct"})
+    check("slide", false, method);
+  check("tie",
+        false,
+        "saddle point",
+        {"Body lower/Formulation=mixed", "Body upper/Formulation=mixed"});
 }

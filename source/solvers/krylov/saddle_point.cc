@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mortise
 {
@@ -178,6 +179,15 @@ namespace mortise
         return valid = bulk.update_active();
       }
 
+      bool
+      update_interfaces()
+      {
+        scratch   = BlockVector(); // of as many multipliers as before
+        valid     = bulk.update_interfaces();
+        projector = valid ? bulk.projector() : nullptr;
+        return valid;
+      }
+
       std::string
       description() const
       {
@@ -234,8 +244,8 @@ namespace mortise
     Parts(const BlockSystem    &system,
           const ScaledResidual &residual,
           const SolverOptions  &options)
-      : matrix(system, residual)
-      , preconditioner(system, matrix, options)
+      : matrix(std::in_place, system, residual)
+      , preconditioner(system, *matrix, options)
     {}
 
     /// One call of GMRES for the scaled residual @p r, until it is @p goal; adds
@@ -247,8 +257,8 @@ namespace mortise
             const SolverOptions &options,
             SolveReport         &report) const;
 
-    const ScaledOperator matrix;
-    BlockPreconditioner  preconditioner;
+    std::optional<ScaledOperator> matrix;
+    BlockPreconditioner           preconditioner; ///< refers to the matrix
   };
 
   BlockVector
@@ -276,7 +286,7 @@ namespace mortise
       solver.connect(note);
       try
         {
-          solver.solve(matrix, x, r, preconditioner);
+          solver.solve(*matrix, x, r, preconditioner);
         }
       catch (const SolverControl::NoConvergence &)
         {}
@@ -285,7 +295,7 @@ namespace mortise
     using FGMRES = SolverFGMRES<BlockVector>;
     run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
     report.iterations += control.last_step();
-    x.scale(matrix.weight);
+    x.scale(matrix->weight);
     return x;
   }
 
@@ -308,6 +318,15 @@ namespace mortise
   SaddlePointSolver::set_up_active()
   {
     return parts->preconditioner.update_active();
+  }
+
+  bool
+  SaddlePointSolver::set_up_interfaces()
+  {
+    parts->matrix.emplace(system, *residual);
+    const bool result = parts->preconditioner.update_interfaces();
+    description       = parts->preconditioner.description();
+    return result;
   }
 
   void
@@ -341,7 +360,7 @@ namespace mortise
          ++start)
       {
         BlockVector r = as_blocks(all_r);
-        r.scale(parts->matrix.weight);
+        r.scale(parts->matrix->weight);
         add(solution, parts->iterate(r, goal, rhs_norm, options, report));
         residual->compute(rhs, solution, all_r);
         reached = residual->norm(all_r);

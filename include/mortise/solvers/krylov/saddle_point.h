@@ -22,6 +22,9 @@ namespace mortise
     bool
     set_up_active() override;
 
+    bool
+    set_up_interfaces() override;
+
     void
     run(const SystemVector &rhs,
         SystemVector       &x,
