@@ -32,8 +32,12 @@ namespace mortise
           const CellBatches<Number> &cells = groups.back();
           if constexpr (std::is_same_v<Number, double>)
             if (!cells.pressure_nodes.empty())
-              kernel = cells.tetrahedra ? make_mixed_simplex_kernel(cells) :
-                                          make_mixed_kernel(cells);
+              {
+                AssertThrow(!cells.nonlinear,
+                            ExcMessage("Mixed form knows linear laws alone."));
+                kernel = cells.tetrahedra ? make_mixed_simplex_kernel(cells) :
+                                            make_mixed_kernel(cells);
+              }
           if (!kernel)
             kernel = cells.tetrahedra ? make_simplex_kernel(cells) :
                                         make_kernel(cells);

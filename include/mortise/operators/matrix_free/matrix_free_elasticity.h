@@ -30,6 +30,7 @@ namespace mortise
     /// and relevant ones; @p pressures: what the products in mixed form need.
     /// @p laws: null for bodies whose law is linear, and for all of them if none
     /// is given; K is the tangent of others where they were last linearised.
+    /// Bodies in mixed form have linear laws.
     /// Collective; throws InputError for a tangled cell.
     MatrixFreeElasticity(const NodalSpace                          &space,
                          const dealii::Utilities::MPI::Partitioner &layout,
