@@ -3,6 +3,8 @@
 // files with hanging nodes and several degrees, on tetrahedra of both, with
 // pressures, and where ranks own no cells; that each number is in the file
 // once.
+#include <temporary_file.h>
+
 #include <filesystem>
 
 #include "checkpoint_truth.h"
@@ -128,7 +130,7 @@ namespace
   void
   test_blocks(const Given &given, const Truth &truth)
   {
-    const std::string directory = gmsh_test::own_name("checkpoint_blocks");
+    const std::string directory = temporary_file("checkpoint_blocks");
     const Scene       scene(given, MPI_COMM_SELF);
     const auto        read = [&](const std::uint64_t block) {
       return read_scene(CheckpointFile(checkpoint_file_name(directory),
@@ -150,14 +152,13 @@ namespace
           verdict("records in blocks of " + std::to_string(size) + " bytes",
                   truth.n_wrong(scene, read(size)),
                   0);
-        std::filesystem::remove_all(directory);
       }
   }
 
   void
   test_sections()
   {
-    const std::string directory = gmsh_test::own_name("checkpoint_sections");
+    const std::string directory = temporary_file("checkpoint_sections");
     const std::string file      = checkpoint_file_name(directory);
     const std::string records   = to_bytes(std::string("a record"));
     write_checkpoint_file(file,
@@ -184,9 +185,6 @@ namespace
                     archive.for_each_record("half", [](const auto &) {});
                   }),
                   {"damaged", "section \"half\" ends within a record"});
-    MPI_Barrier(MPI_COMM_WORLD);
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0)
-      std::filesystem::remove_all(directory);
   }
 } // namespace
 
