@@ -228,15 +228,10 @@ namespace mortise
       result.history.error /= GeometryInfo<dim>::max_children_per_cell;
       for (const OfState part : {&CellState::coefficients, &CellState::dual})
         for (unsigned int c = 0; c < (result.*part).size(); ++c)
-          {
-            const auto                  &given = (state.*part)[c];
-            const FE_Legendre            element(c < dim ? state.degree :
-                                                state.degree - 1);
-            const dealii::Vector<double> from(given.begin(), given.end());
-            dealii::Vector<double>       to(from.size());
-            element.get_prolongation_matrix(child).vmult(to, from);
-            (result.*part)[c].assign(to.begin(), to.end());
-          }
+          (result.*part)[c] =
+            embed_in_child(c < dim ? state.degree : state.degree - 1,
+                           child,
+                           (state.*part)[c]);
       return result;
     }
   } // namespace

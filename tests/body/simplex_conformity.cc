@@ -190,7 +190,7 @@ check(const Triangulation<3> &triangulation,
                                           n_components,
                                           ordered ?
                                             mortise::standard_vertex_orders() :
-                                            mortise::all_vertex_orders());
+                                            all_vertex_orders());
   DoFHandler<3>                  dof_handler(triangulation);
   for (const auto &cell : dof_handler.active_cell_iterators())
     if (cell->is_locally_owned())

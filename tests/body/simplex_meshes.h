@@ -25,6 +25,18 @@ namespace simplex_test
 
   const std::vector<std::string> shapes = {"cube", "ball", "shell"};
 
+  /// All 24.
+  inline std::vector<mortise::VertexOrder>
+  all_vertex_orders()
+  {
+    std::vector<mortise::VertexOrder> all;
+    mortise::VertexOrder              order = {{0, 1, 2, 3}};
+    do
+      all.push_back(order);
+    while (std::next_permutation(order.begin(), order.end()));
+    return all;
+  }
+
   /// Number vertices, cells and the vertices of each cell at random; volumes
   /// stay positive.
   inline void

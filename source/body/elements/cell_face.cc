@@ -55,10 +55,4 @@ namespace mortise
                     1. :
                     -1.;
   }
-
-  Point<3>
-  CellFace::unit_point(const double xi_1, const double xi_2) const
-  {
-    return origin + xi_1 * along[0] + xi_2 * along[1];
-  }
 } // namespace mortise

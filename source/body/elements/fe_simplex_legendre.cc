@@ -30,45 +30,15 @@ namespace mortise
                                   degree,
                                   FiniteElementData<3>::H1);
     }
-
-    /// The element as FE_SimplexLegendre; deal.II's exception for others.
-    const FE_SimplexLegendre &
-    as_simplex(const FiniteElement<3> &fe)
-    {
-      const auto *const simplex = dynamic_cast<const FE_SimplexLegendre *>(&fe);
-      AssertThrow(simplex != nullptr,
-                  FiniteElement<3>::ExcInterpolationNotImplemented());
-      return *simplex;
-    }
-
-    std::vector<std::pair<unsigned int, unsigned int>>
-    first_modes(const unsigned int n)
-    {
-      std::vector<std::pair<unsigned int, unsigned int>> identities;
-      for (unsigned int i = 0; i < n; ++i)
-        identities.emplace_back(i, i);
-      return identities;
-    }
   } // namespace
 
   FE_SimplexLegendre::FE_SimplexLegendre(const unsigned int degree,
                                          const VertexOrder &order)
-    : FE_Poly<3>(
-        SimplexLegendrePolynomials(degree, order),
-        simplex_element_data(degree),
-        std::vector<bool>(simplex_element_data(degree).n_dofs_per_cell(), true),
-        std::vector<ComponentMask>(
-          simplex_element_data(degree).n_dofs_per_cell(),
-          std::vector<bool>(1, true)))
+    : FE_Hierarchical(SimplexLegendrePolynomials(degree, order),
+                      simplex_element_data(degree))
     , order(order)
   {
     this->generalized_support_points = simplex_interpolation_points(degree);
-  }
-
-  std::unique_ptr<FiniteElement<3>>
-  FE_SimplexLegendre::clone() const
-  {
-    return std::make_unique<FE_SimplexLegendre>(this->degree, order);
   }
 
   std::string
@@ -79,134 +49,6 @@ namespace mortise
     for (const unsigned int v : order)
       name += std::to_string(v);
     return name + ")";
-  }
-
-  bool
-  FE_SimplexLegendre::operator==(const FiniteElement<3> &other) const
-  {
-    const auto *const simplex =
-      dynamic_cast<const FE_SimplexLegendre *>(&other);
-    return simplex != nullptr && simplex->degree == this->degree &&
-           simplex->order == order;
-  }
-
-  bool
-  FE_SimplexLegendre::has_support_on_face(const unsigned int shape_index,
-                                          const unsigned int face_index) const
-  {
-    AssertIndexRange(shape_index, this->n_dofs_per_cell());
-    AssertIndexRange(face_index, 4);
-    const auto &face    = tetrahedron_faces[face_index];
-    const auto  on_face = [&](const unsigned int vertex) {
-      return std::find(face, face + 3, vertex) != face + 3;
-    };
-    if (shape_index < this->get_first_line_index())
-      return on_face(shape_index);
-    if (shape_index < this->get_first_quad_index())
-      {
-        const auto &line =
-          tetrahedron_lines[(shape_index - this->get_first_line_index()) /
-                            this->n_dofs_per_line()];
-        return on_face(line[0]) && on_face(line[1]);
-      }
-    if (shape_index < this->get_first_hex_index())
-      return (shape_index - this->get_first_quad_index()) /
-               this->n_dofs_per_quad() ==
-             face_index;
-    return false;
-  }
-
-  bool
-  FE_SimplexLegendre::hp_constraints_are_implemented() const
-  {
-    return true;
-  }
-
-  std::vector<std::pair<unsigned int, unsigned int>>
-  FE_SimplexLegendre::hp_vertex_dof_identities(
-    const FiniteElement<3> &other) const
-  {
-    as_simplex(other);
-    return first_modes(1);
-  }
-
-  std::vector<std::pair<unsigned int, unsigned int>>
-  FE_SimplexLegendre::hp_line_dof_identities(
-    const FiniteElement<3> &other) const
-  {
-    return first_modes(
-      n_line_modes(std::min(this->degree, as_simplex(other).degree)));
-  }
-
-  std::vector<std::pair<unsigned int, unsigned int>>
-  FE_SimplexLegendre::hp_quad_dof_identities(const FiniteElement<3> &other,
-                                             const unsigned int) const
-  {
-    return first_modes(
-      n_face_modes(std::min(this->degree, as_simplex(other).degree)));
-  }
-
-  FiniteElementDomination::Domination
-  FE_SimplexLegendre::compare_for_domination(const FiniteElement<3> &other,
-                                             const unsigned int) const
-  {
-    const auto *const simplex =
-      dynamic_cast<const FE_SimplexLegendre *>(&other);
-    if (simplex == nullptr)
-      return FiniteElementDomination::no_requirements;
-    if (this->degree < simplex->degree)
-      return FiniteElementDomination::this_element_dominates;
-    return this->degree == simplex->degree ?
-             FiniteElementDomination::either_element_can_dominate :
-             FiniteElementDomination::other_element_dominates;
-  }
-
-  std::pair<Table<2, bool>, std::vector<unsigned int>>
-  FE_SimplexLegendre::get_constant_modes() const
-  {
-    Table<2, bool> modes(1, this->n_dofs_per_cell());
-    for (unsigned int v = 0; v < 4; ++v)
-      modes(0, v) = true;
-    return {modes, {0}};
-  }
-
-  void
-  FE_SimplexLegendre::convert_generalized_support_point_values_to_dof_values(
-    const std::vector<dealii::Vector<double>> &values,
-    std::vector<double>                       &dof_values) const
-  {
-    const unsigned int n = this->n_dofs_per_cell();
-    AssertDimension(values.size(), n);
-    AssertDimension(dof_values.size(), n);
-    const std::lock_guard<std::mutex> lock(mutex);
-    if (nodes_to_modes.m() == 0)
-      {
-        FullMatrix<double>        modes_to_nodes(n, n);
-        std::vector<double>       at_node(n);
-        std::vector<Tensor<1, 3>> no_gradients;
-        std::vector<Tensor<2, 3>> no_hessians;
-        std::vector<Tensor<3, 3>> no_third;
-        std::vector<Tensor<4, 3>> no_fourth;
-        for (unsigned int q = 0; q < n; ++q)
-          {
-            this->poly_space->evaluate(this->generalized_support_points[q],
-                                       at_node,
-                                       no_gradients,
-                                       no_hessians,
-                                       no_third,
-                                       no_fourth);
-            for (unsigned int i = 0; i < n; ++i)
-              modes_to_nodes(q, i) = at_node[i];
-          }
-        nodes_to_modes.reinit(n, n);
-        nodes_to_modes.invert(modes_to_nodes);
-      }
-    for (unsigned int i = 0; i < n; ++i)
-      {
-        dof_values[i] = 0.;
-        for (unsigned int q = 0; q < n; ++q)
-          dof_values[i] += nodes_to_modes(i, q) * values[q][0];
-      }
   }
 
   std::array<unsigned int, 3>
@@ -256,12 +98,6 @@ namespace mortise
         for (auto &table :
              this->adjust_quad_dof_index_for_face_orientation_table)
           table = Table<2, int>();
-      }
-
-      std::unique_ptr<FiniteElement<3>>
-      clone() const override
-      {
-        return std::make_unique<WithoutFaceTable>(this->degree, order);
       }
     };
 

@@ -119,41 +119,6 @@ namespace mortise
 
   namespace
   {
-    /// C(i,j): what function N_j of the child contributes to N_i of the parent.
-    /// For i = 0, 1 the value at the parent's end, if that is one of this
-    /// child's; for i >= 2 int_child N_i'(x) (d/dx) N_j dx = 2 int_0^1 (d/dy)
-    /// N_i(x(y)) N_j'(y) dy, since the derivatives of the bubbles are
-    /// orthonormal.
-    FullMatrix<double>
-    compute_coarsening(const unsigned int child)
-    {
-      constexpr unsigned int    n = max_lobatto_degree + 1;
-      FullMatrix<double>        matrix(n, n);
-      const FullMatrix<double> &embedding = lobatto_restriction(child);
-      matrix(child, child)                = 1.;
-      for (unsigned int i = 2; i < n; ++i)
-        {
-          const double rise = embedding(1, i) - embedding(0, i);
-          matrix(i, 0)      = -2. * rise;
-          matrix(i, 1)      = 2. * rise;
-          for (unsigned int j = 2; j <= i; ++j)
-            matrix(i, j) = 2. * embedding(j, i);
-        }
-      return matrix;
-    }
-  } // namespace
-
-  const FullMatrix<double> &
-  lobatto_coarsening(const unsigned int child)
-  {
-    static const std::array<FullMatrix<double>, 2> coarsenings = {
-      {compute_coarsening(0), compute_coarsening(1)}};
-    AssertIndexRange(child, 2);
-    return coarsenings[child];
-  }
-
-  namespace
-  {
     /// N_k as a product of its roots: 0, 1 and the roots of P'_{k-1}, that is
     /// the k points of the Gauss-Lobatto rule. deal.II's product form is one at
     /// the extra point given last.

@@ -10,26 +10,6 @@ namespace mortise
 {
   using namespace dealii;
 
-  void
-  distribute_dofs_by_degree(
-    const std::set<unsigned int> &degrees,
-    const std::function<
-      unsigned int(const DoFHandler<3>::active_cell_iterator &)> &degree_of,
-    const std::function<std::unique_ptr<FiniteElement<3>>(unsigned int)>
-                        &element,
-    hp::FECollection<3> &fe,
-    DoFHandler<3>       &dof_handler)
-  {
-    fe = hp::FECollection<3>();
-    for (const unsigned int p : degrees)
-      fe.push_back(*element(p));
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        cell->set_active_fe_index(
-          std::distance(degrees.begin(), degrees.find(degree_of(cell))));
-    dof_handler.distribute_dofs(fe);
-  }
-
   namespace
   {
     /// Whether the owned cells of all ranks are hexahedra. What deal.II says of
@@ -57,32 +37,38 @@ namespace mortise
       unsigned int(const DoFHandler<3>::active_cell_iterator &)> &degree_of,
     const unsigned int                                            n_components,
     hp::FECollection<3>                                          &fe,
-    DoFHandler<3>                                                &dof_handler)
+    DoFHandler<3>                                                &dof_handler,
+    const bool                                                    nodal)
   {
     // deal.II lets nobody go from one element to several
     dof_handler.reinit(dof_handler.get_triangulation());
-    if (is_hexahedral(dof_handler.get_triangulation()))
-      {
-        distribute_dofs_by_degree(
-          degrees,
-          degree_of,
-          [&](const unsigned int p) -> std::unique_ptr<FiniteElement<3>> {
-            if (n_components == 1)
-              return std::make_unique<FE_Legendre>(p);
-            return std::make_unique<FESystem<3>>(FE_Legendre(p), n_components);
-          },
-          fe,
-          dof_handler);
-        return;
-      }
-    const SimplexElements simplices({degrees.begin(), degrees.end()},
-                                    n_components);
-    fe = hp::FECollection<3>();
+    fe                   = hp::FECollection<3>();
+    const bool hexahedra = is_hexahedral(dof_handler.get_triangulation());
+    std::vector<unsigned int> of_simplices;
+    for (const unsigned int p : degrees)
+      if (!hexahedra)
+        of_simplices.push_back(p);
+      else if (nodal)
+        fe.push_back(NodesOf<FE_Legendre>(p));
+      else if (n_components == 1)
+        fe.push_back(FE_Legendre(p));
+      else
+        fe.push_back(FESystem<3>(FE_Legendre(p), n_components));
+    const SimplexElements simplices(of_simplices, n_components);
     for (unsigned int i = 0; i < simplices.collection.size(); ++i)
-      fe.push_back(simplices.collection[i]);
+      if (const auto &element = simplices.collection[i]; nodal)
+        fe.push_back(
+          NodesOf<FE_SimplexLegendre>(SimplexElements::base(element)));
+      else
+        fe.push_back(element);
     for (const auto &cell : dof_handler.active_cell_iterators())
       if (cell->is_locally_owned())
-        cell->set_active_fe_index(simplices.index(cell, degree_of(cell)));
+        {
+          const unsigned int p = degree_of(cell);
+          cell->set_active_fe_index(
+            hexahedra ? std::distance(degrees.begin(), degrees.find(p)) :
+                        simplices.index(cell, p));
+        }
     dof_handler.distribute_dofs(fe);
   }
 

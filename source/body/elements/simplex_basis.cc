@@ -301,45 +301,24 @@ namespace mortise
     return jets[i].hessian;
   }
 
-  Tensor<3, 3>
-  SimplexLegendrePolynomials::compute_3rd_derivative(const unsigned int,
-                                                     const Point<3> &) const
+  std::vector<double>
+  values_at(const ScalarPolynomialsBase<3> &polynomials,
+            const Point<3>                 &point,
+            std::vector<Tensor<1, 3>>      *gradients)
   {
-    AssertThrow(false, ExcNotImplemented());
-    return {};
-  }
-
-  Tensor<4, 3>
-  SimplexLegendrePolynomials::compute_4th_derivative(const unsigned int,
-                                                     const Point<3> &) const
-  {
-    AssertThrow(false, ExcNotImplemented());
-    return {};
-  }
-
-  Tensor<1, 3>
-  SimplexLegendrePolynomials::compute_grad(const unsigned int i,
-                                           const Point<3>    &point) const
-  {
-    return compute_1st_derivative(i, point);
-  }
-
-  Tensor<2, 3>
-  SimplexLegendrePolynomials::compute_grad_grad(const unsigned int i,
-                                                const Point<3>    &point) const
-  {
-    return compute_2nd_derivative(i, point);
-  }
-
-  std::unique_ptr<ScalarPolynomialsBase<3>>
-  SimplexLegendrePolynomials::clone() const
-  {
-    return std::make_unique<SimplexLegendrePolynomials>(*this);
-  }
-
-  std::string
-  SimplexLegendrePolynomials::name() const
-  {
-    return "SimplexLegendre";
+    std::vector<double>       values(polynomials.n());
+    std::vector<Tensor<1, 3>> no_1;
+    std::vector<Tensor<2, 3>> no_2;
+    std::vector<Tensor<3, 3>> no_3;
+    std::vector<Tensor<4, 3>> no_4;
+    if (gradients != nullptr)
+      gradients->resize(polynomials.n());
+    polynomials.evaluate(point,
+                         values,
+                         gradients != nullptr ? *gradients : no_1,
+                         no_2,
+                         no_3,
+                         no_4);
+    return values;
   }
 } // namespace mortise

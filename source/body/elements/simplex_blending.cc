@@ -82,15 +82,10 @@ namespace mortise
       return known->second;
     Layout                          &result = layouts[order];
     const SimplexLegendrePolynomials modal(degree, order);
-    std::vector<double>              values(modal.n());
-    std::vector<Tensor<1, 3>>        no_1;
-    std::vector<Tensor<2, 3>>        no_2;
-    std::vector<Tensor<3, 3>>        no_3;
-    std::vector<Tensor<4, 3>>        no_4;
     result.modes.reinit(nodes.size(), modal.n());
     for (unsigned int q = 0; q < nodes.size(); ++q)
       {
-        modal.evaluate(nodes[q], values, no_1, no_2, no_3, no_4);
+        const std::vector<double> values = values_at(modal, nodes[q]);
         for (unsigned int i = 0; i < modal.n(); ++i)
           result.modes(q, i) = values[i];
         const auto parts = parts_of(nodes[q]);

@@ -5,8 +5,6 @@
 #include <mortise/body/elements/fe_simplex_legendre.h>
 #include <mortise/body/elements/simplex_mapping.h>
 
-#include <algorithm>
-
 #include "simplex_blending.h"
 
 namespace mortise
@@ -57,13 +55,8 @@ namespace mortise
       double
       compute_value(const unsigned int i, const Point<3> &x) const override
       {
-        double                    sum = 0.;
-        std::vector<double>       values(this->n());
-        std::vector<Tensor<1, 3>> no_1;
-        std::vector<Tensor<2, 3>> no_2;
-        std::vector<Tensor<3, 3>> no_3;
-        std::vector<Tensor<4, 3>> no_4;
-        modal.evaluate(x, values, no_1, no_2, no_3, no_4);
+        double     sum    = 0.;
+        const auto values = values_at(modal, x);
         for (unsigned int k = 0; k < this->n(); ++k)
           sum += modes(k, i) * values[k];
         return sum;
@@ -74,12 +67,8 @@ namespace mortise
                              const Point<3>    &x) const override
       {
         Tensor<1, 3>              sum;
-        std::vector<double>       no_0;
-        std::vector<Tensor<1, 3>> gradients(this->n());
-        std::vector<Tensor<2, 3>> no_2;
-        std::vector<Tensor<3, 3>> no_3;
-        std::vector<Tensor<4, 3>> no_4;
-        modal.evaluate(x, no_0, gradients, no_2, no_3, no_4);
+        std::vector<Tensor<1, 3>> gradients;
+        values_at(modal, x, &gradients);
         for (unsigned int k = 0; k < this->n(); ++k)
           sum += modes(k, i) * gradients[k];
         return sum;
@@ -221,12 +210,6 @@ namespace mortise
     return simplex_interpolation_points(nodal->degree());
   }
 
-  std::unique_ptr<Mapping<3>>
-  SimplexMapping::clone() const
-  {
-    return std::make_unique<SimplexMapping>(*this);
-  }
-
   std::vector<Point<3>>
   SimplexMapping::compute_mapping_support_points(const CellIterator &cell) const
   {
@@ -240,13 +223,8 @@ namespace mortise
   SimplexMapping::transform_unit_to_real_cell(const CellIterator &cell,
                                               const Point<3>     &point) const
   {
-    std::vector<double>       values(nodal->n());
-    std::vector<Tensor<1, 3>> no_1;
-    std::vector<Tensor<2, 3>> no_2;
-    std::vector<Tensor<3, 3>> no_3;
-    std::vector<Tensor<4, 3>> no_4;
-    nodal->evaluate(point, values, no_1, no_2, no_3, no_4);
-    const auto &nodes = (*points)[cell->active_cell_index()];
+    const auto  values = values_at(*nodal, point);
+    const auto &nodes  = (*points)[cell->active_cell_index()];
     Point<3>    x;
     for (unsigned int i = 0; i < values.size(); ++i)
       x += values[i] * nodes[i];
@@ -260,16 +238,12 @@ namespace mortise
     constexpr unsigned int max_iterations = 30;
 
     const auto               &nodes = (*points)[cell->active_cell_index()];
-    std::vector<double>       values(nodal->n());
-    std::vector<Tensor<1, 3>> gradients(nodal->n());
-    std::vector<Tensor<2, 3>> no_2;
-    std::vector<Tensor<3, 3>> no_3;
-    std::vector<Tensor<4, 3>> no_4;
+    std::vector<Tensor<1, 3>> gradients;
     Point<3>                  unit(0.25, 0.25, 0.25);
     for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
       {
-        nodal->evaluate(unit, values, gradients, no_2, no_3, no_4);
-        Tensor<1, 3> rest = point;
+        const auto   values = values_at(*nodal, unit, &gradients);
+        Tensor<1, 3> rest   = point;
         Tensor<2, 3> jacobian;
         for (unsigned int i = 0; i < values.size(); ++i)
           {

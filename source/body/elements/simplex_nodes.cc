@@ -1,7 +1,6 @@
 #include <mortise/body/elements/fe_simplex_legendre.h>
 #include <mortise/body/elements/simplex_nodes.h>
 
-#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -57,7 +56,7 @@ namespace mortise
         to_nodes.reinit(n, n);
         for (unsigned int i = 0; i < n; ++i)
           {
-            const std::vector<double> values = values_at(nodes[i]);
+            const std::vector<double> values = values_at(polynomials, nodes[i]);
             for (unsigned int k = 0; k < n; ++k)
               // exactly so, that nothing leaks from one entity to another
               if ((sets[k] & ~sets[i]) == 0)
@@ -94,18 +93,6 @@ namespace mortise
         std::map<VertexSet, unsigned int> used;
         for (const VertexSet set : sets)
           nodes.push_back(by_set[set][used[set]++]);
-      }
-
-      std::vector<double>
-      values_at(const Point<3> &point) const
-      {
-        std::vector<double>       values(polynomials.n());
-        std::vector<Tensor<1, 3>> no_1;
-        std::vector<Tensor<2, 3>> no_2;
-        std::vector<Tensor<3, 3>> no_3;
-        std::vector<Tensor<4, 3>> no_4;
-        polynomials.evaluate(point, values, no_1, no_2, no_3, no_4);
-        return values;
       }
 
       const SimplexLegendrePolynomials polynomials;
@@ -191,15 +178,10 @@ namespace mortise
     const SimplexTables      &tables = simplex_tables(degree);
     const unsigned int        n = tables.nodes.size(), n_points = points.size();
     FullMatrix<double>        modal(3 * n_points, n), result(3 * n_points, n);
-    std::vector<double>       no_values;
-    std::vector<Tensor<1, 3>> gradients(n);
-    std::vector<Tensor<2, 3>> no_2;
-    std::vector<Tensor<3, 3>> no_3;
-    std::vector<Tensor<4, 3>> no_4;
+    std::vector<Tensor<1, 3>> gradients;
     for (unsigned int q = 0; q < n_points; ++q)
       {
-        tables.polynomials.evaluate(
-          points[q], no_values, gradients, no_2, no_3, no_4);
+        values_at(tables.polynomials, points[q], &gradients);
         for (unsigned int d = 0; d < 3; ++d)
           for (unsigned int k = 0; k < n; ++k)
             modal(d * n_points + q, k) = gradients[k][d];

@@ -1,7 +1,6 @@
 #include <mortise/body/mesh/vertex_order.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace mortise
 {
@@ -56,20 +55,6 @@ namespace mortise
   {
     static const std::vector<VertexOrder> orders = {{{0, 1, 2, 3}},
                                                     {{0, 1, 3, 2}}};
-    return orders;
-  }
-
-  const std::vector<VertexOrder> &
-  all_vertex_orders()
-  {
-    static const std::vector<VertexOrder> orders = [] {
-      std::vector<VertexOrder> all;
-      VertexOrder              order = {{0, 1, 2, 3}};
-      do
-        all.push_back(order);
-      while (std::next_permutation(order.begin(), order.end()));
-      return all;
-    }();
     return orders;
   }
 

@@ -284,29 +284,6 @@ namespace mortise
     };
   } // namespace
 
-  std::unique_ptr<FiniteElement<3>>
-  FE_Nodes::clone() const
-  {
-    return std::make_unique<FE_Nodes>(this->degree);
-  }
-
-  std::vector<std::pair<unsigned int, unsigned int>>
-  FE_Nodes::hp_line_dof_identities(const FiniteElement<3> &other) const
-  {
-    return this->degree == other.degree ?
-             FE_Legendre::hp_line_dof_identities(other) :
-             std::vector<std::pair<unsigned int, unsigned int>>();
-  }
-
-  std::vector<std::pair<unsigned int, unsigned int>>
-  FE_Nodes::hp_quad_dof_identities(const FiniteElement<3> &other,
-                                   const unsigned int      face_no) const
-  {
-    return this->degree == other.degree ?
-             FE_Legendre::hp_quad_dof_identities(other, face_no) :
-             std::vector<std::pair<unsigned int, unsigned int>>();
-  }
-
   void
   get_nodes(const EntityDegrees::CellIterator    &cell,
             const EntityDegrees                  &degrees,

@@ -5,12 +5,10 @@
 
 #include <mortise/base/sparse_matrix.h>
 #include <mortise/body/elements/cell_face.h>
-#include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/legendre_basis.h>
 #include <mortise/body/elements/legendre_elements.h>
 #include <mortise/body/spaces/nodal_conformity.h>
 #include <mortise/body/spaces/nodal_space.h>
-#include <mortise/body/spaces/simplex_nodal_conformity.h>
 #include <mortise/body/spaces/thickness_coarsening.h>
 
 #include <algorithm>
@@ -64,17 +62,7 @@ namespace mortise
                                        &body.dof_handler));
     };
     hp::FECollection<dim> fe;
-    if (body.mesh.tetrahedra)
-      distribute_simplex_nodes({used.begin(), used.end()},
-                               degree_of,
-                               lattice->handler);
-    else
-      distribute_dofs_by_degree(
-        used,
-        degree_of,
-        [](const unsigned int p) { return std::make_unique<FE_Nodes>(p); },
-        fe,
-        lattice->handler);
+    distribute_legendre_dofs(used, degree_of, 1, fe, lattice->handler, true);
     lattice->degrees = std::make_unique<EntityDegrees>(lattice->handler);
   }
 

@@ -1,8 +1,8 @@
-// See simplex_nodal_conformity.h.
+// The part of nodal_conformity.h on tetrahedra.
 #include <mortise/body/elements/simplex_elements.h>
 #include <mortise/body/elements/simplex_nodes.h>
 #include <mortise/body/spaces/conformity_lines.h>
-#include <mortise/body/spaces/simplex_nodal_conformity.h>
+#include <mortise/body/spaces/nodal_conformity.h>
 
 #include <array>
 #include <cmath>
@@ -150,49 +150,6 @@ namespace mortise
       std::map<Index, double>          sums;
     };
   } // namespace
-
-  std::unique_ptr<FiniteElement<3>>
-  FE_SimplexNodes::clone() const
-  {
-    return std::make_unique<FE_SimplexNodes>(this->degree, order);
-  }
-
-  std::vector<std::pair<unsigned int, unsigned int>>
-  FE_SimplexNodes::hp_line_dof_identities(const FiniteElement<3> &other) const
-  {
-    return this->degree == other.degree ?
-             FE_SimplexLegendre::hp_line_dof_identities(other) :
-             std::vector<std::pair<unsigned int, unsigned int>>();
-  }
-
-  std::vector<std::pair<unsigned int, unsigned int>>
-  FE_SimplexNodes::hp_quad_dof_identities(const FiniteElement<3> &other,
-                                          const unsigned int      face_no) const
-  {
-    return this->degree == other.degree ?
-             FE_SimplexLegendre::hp_quad_dof_identities(other, face_no) :
-             std::vector<std::pair<unsigned int, unsigned int>>();
-  }
-
-  void
-  distribute_simplex_nodes(
-    const std::vector<unsigned int> &degrees,
-    const std::function<
-      unsigned int(const DoFHandler<3>::active_cell_iterator &)> &degree_of,
-    DoFHandler<3>                                                &dof_handler)
-  {
-    const SimplexElements elements(degrees);
-    hp::FECollection<3>   fe;
-    for (unsigned int i = 0; i < elements.collection.size(); ++i)
-      {
-        const auto &element = SimplexElements::base(elements.collection[i]);
-        fe.push_back(FE_SimplexNodes(element.degree, element.order));
-      }
-    for (const auto &cell : dof_handler.active_cell_iterators())
-      if (cell->is_locally_owned())
-        cell->set_active_fe_index(elements.index(cell, degree_of(cell)));
-    dof_handler.distribute_dofs(fe);
-  }
 
   void
   make_simplex_nodal_constraints(const DoFHandler<3>       &dof_handler,

@@ -27,7 +27,10 @@ namespace mortise
     /// Point of the unit cell at face coordinates (xi_1, xi_2), also beyond
     /// the face in its plane.
     dealii::Point<3>
-    unit_point(double xi_1, double xi_2) const;
+    unit_point(double xi_1, double xi_2) const
+    {
+      return origin + xi_1 * along[0] + xi_2 * along[1];
+    }
 
     const TraceBasis *basis;
     /// Scalar degrees of freedom of the cell, in the order of the basis.

@@ -1,17 +1,11 @@
-// The hierarchical finite element of degree 1..8 on tetrahedra, for FEValues,
-// FEFaceValues, FESystem and hp::FECollection. Its degrees of freedom are
-// modes, not values at points. It never builds constraints of a mesh (see
-// hp_constraints.h) and knows no refinement.
+// The hierarchical finite element of degree 1..8 on tetrahedra.
 #pragma once
 
-#include <deal.II/fe/fe_poly.h>
-
+#include <mortise/body/elements/fe_hierarchical.h>
 #include <mortise/body/elements/simplex_basis.h>
 
 #include <memory>
-#include <mutex>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mortise
@@ -24,7 +18,7 @@ namespace mortise
   /// whatever the orientation flags say, so the tables of deal.II that adjust
   /// indices to orientations stay zero. (deal.II 9.4 calls every line of a
   /// tetrahedron standard, which is not true, but has no effect on zeros.)
-  class FE_SimplexLegendre : public dealii::FE_Poly<3>
+  class FE_SimplexLegendre : public FE_Hierarchical
   {
   public:
     /// @p degree: 1..8, else an exception; @p order holds the local vertices
@@ -33,7 +27,10 @@ namespace mortise
                                 const VertexOrder &order = {{0, 1, 2, 3}});
 
     std::unique_ptr<dealii::FiniteElement<3>>
-    clone() const override;
+    clone() const override
+    {
+      return std::make_unique<FE_SimplexLegendre>(*this);
+    }
 
     /// "FE_SimplexLegendre<3>(degree, order of vertices)".
     std::string
@@ -41,47 +38,15 @@ namespace mortise
 
     /// Elements that differ in the order of vertices are different.
     bool
-    operator==(const dealii::FiniteElement<3> &other) const override;
-
-    bool
-    has_support_on_face(unsigned int shape_index,
-                        unsigned int face_index) const override;
-
-    bool
-    hp_constraints_are_implemented() const override;
-
-    std::vector<std::pair<unsigned int, unsigned int>>
-    hp_vertex_dof_identities(
-      const dealii::FiniteElement<3> &other) const override;
-
-    std::vector<std::pair<unsigned int, unsigned int>>
-    hp_line_dof_identities(
-      const dealii::FiniteElement<3> &other) const override;
-
-    std::vector<std::pair<unsigned int, unsigned int>>
-    hp_quad_dof_identities(const dealii::FiniteElement<3> &other,
-                           unsigned int face_no = 0) const override;
-
-    dealii::FiniteElementDomination::Domination
-    compare_for_domination(const dealii::FiniteElement<3> &other,
-                           unsigned int codim = 0) const override;
-
-    /// Constants are the sum of the four vertex functions.
-    std::pair<dealii::Table<2, bool>, std::vector<unsigned int>>
-    get_constant_modes() const override;
-
-    /// Modes of the polynomial that takes @p values at the generalized
-    /// support points, which makes VectorTools::interpolate() usable.
-    void
-    convert_generalized_support_point_values_to_dof_values(
-      const std::vector<dealii::Vector<double>> &values,
-      std::vector<double>                       &dof_values) const override;
+    operator==(const dealii::FiniteElement<3> &other) const override
+    {
+      const auto *const simplex =
+        dynamic_cast<const FE_SimplexLegendre *>(&other);
+      return simplex != nullptr && simplex->degree == this->degree &&
+             simplex->order == order;
+    }
 
     const VertexOrder order;
-
-  private:
-    mutable std::mutex                 mutex;          ///< guards the next
-    mutable dealii::FullMatrix<double> nodes_to_modes; ///< made on first use
   };
 
   /// Local degrees of freedom of face @p face of @p element in the order of

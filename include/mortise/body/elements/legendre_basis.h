@@ -42,13 +42,6 @@ namespace mortise
   const dealii::FullMatrix<double> &
   lobatto_restriction(unsigned int child);
 
-  /// Matrix C with which a function on the two halves becomes one on [0,1]: its
-  /// coefficients are C_0 u_0 + C_1 u_1. Values at the ends are kept, the rest
-  /// is the best approximation in the H1-seminorm; sum_c C_c R_c = I with R_c =
-  /// lobatto_restriction(c). Same size and nesting.
-  const dealii::FullMatrix<double> &
-  lobatto_coarsening(unsigned int child);
-
   /// The functions of evaluate_lobatto() as polynomials in the lexicographic
   /// order of deal.II's tensor product elements: N_0, N_2, ..., N_degree, N_1
   /// (the end of the interval last). They are kept as products of roots, which

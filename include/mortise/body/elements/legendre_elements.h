@@ -9,27 +9,15 @@
 #include <deal.II/hp/fe_collection.h>
 
 #include <functional>
-#include <memory>
 #include <set>
 #include <vector>
 
 namespace mortise
 {
-  /// Elements @p element(p) for rising @p degrees p, in @p fe, and the dofs of
-  /// @p dof_handler, whose owned cells, hexahedra, have the degree @p degree_of. Collective.
-  void
-  distribute_dofs_by_degree(
-    const std::set<unsigned int>                            &degrees,
-    const std::function<unsigned int(
-      const dealii::DoFHandler<3>::active_cell_iterator &)> &degree_of,
-    const std::function<std::unique_ptr<dealii::FiniteElement<3>>(unsigned int)>
-                                &element,
-    dealii::hp::FECollection<3> &fe,
-    dealii::DoFHandler<3>       &dof_handler);
-
   /// Systems of @p n_components FE_Legendre or FE_SimplexLegendre (the element
-  /// itself for one component), rising @p degrees, in @p fe, and the dofs of
-  /// @p dof_handler, whose owned cells have the degree @p degree_of. Collective.
+  /// itself for one component), or NodesOf these where @p nodal, rising
+  /// @p degrees, in @p fe, and the dofs of @p dof_handler, whose owned cells have
+  /// the degree @p degree_of. Collective.
   void
   distribute_legendre_dofs(
     const std::set<unsigned int>                            &degrees,
@@ -37,7 +25,8 @@ namespace mortise
       const dealii::DoFHandler<3>::active_cell_iterator &)> &degree_of,
     unsigned int                                             n_components,
     dealii::hp::FECollection<3>                             &fe,
-    dealii::DoFHandler<3>                                   &dof_handler);
+    dealii::DoFHandler<3>                                   &dof_handler,
+    bool                                                     nodal = false);
 
   /// Where the modes of the scalar element of degree @p lower stand among those of degree @p higher, on a
   /// hexahedron, or a tetrahedron of one order of vertices: the former are

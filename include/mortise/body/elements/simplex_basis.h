@@ -88,23 +88,43 @@ namespace mortise
     compute_2nd_derivative(unsigned int            i,
                            const dealii::Point<3> &point) const override;
     dealii::Tensor<3, 3>
-    compute_3rd_derivative(unsigned int            i,
-                           const dealii::Point<3> &point) const override;
+    compute_3rd_derivative(unsigned int,
+                           const dealii::Point<3> &) const override
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+      return {};
+    }
     dealii::Tensor<4, 3>
-    compute_4th_derivative(unsigned int            i,
-                           const dealii::Point<3> &point) const override;
+    compute_4th_derivative(unsigned int,
+                           const dealii::Point<3> &) const override
+    {
+      AssertThrow(false, dealii::ExcNotImplemented());
+      return {};
+    }
     dealii::Tensor<1, 3>
-    compute_grad(unsigned int i, const dealii::Point<3> &point) const override;
+    compute_grad(unsigned int i, const dealii::Point<3> &point) const override
+    {
+      return compute_1st_derivative(i, point);
+    }
     dealii::Tensor<2, 3>
     compute_grad_grad(unsigned int            i,
-                      const dealii::Point<3> &point) const override;
+                      const dealii::Point<3> &point) const override
+    {
+      return compute_2nd_derivative(i, point);
+    }
 
     std::unique_ptr<dealii::ScalarPolynomialsBase<3>>
-    clone() const override;
+    clone() const override
+    {
+      return std::make_unique<SimplexLegendrePolynomials>(*this);
+    }
 
     /// "SimplexLegendre".
     std::string
-    name() const override;
+    name() const override
+    {
+      return "SimplexLegendre";
+    }
 
     const VertexOrder order;
 
@@ -130,4 +150,10 @@ namespace mortise
                       const Number &d,
                       Number       *values) const;
   };
+
+  /// Values of all @p polynomials at @p point, and @p gradients where asked for.
+  std::vector<double>
+  values_at(const dealii::ScalarPolynomialsBase<3> &polynomials,
+            const dealii::Point<3>                 &point,
+            std::vector<dealii::Tensor<1, 3>>      *gradients = nullptr);
 } // namespace mortise

@@ -41,7 +41,10 @@ namespace mortise
                    const PointsOfCell             &points_of_cell);
 
     std::unique_ptr<dealii::Mapping<3>>
-    clone() const override;
+    clone() const override
+    {
+      return std::make_unique<SimplexMapping>(*this);
+    }
 
     /// Points of @p cell, not artificial, in the order of reference_nodes().
     const std::vector<dealii::Point<3>> &

@@ -54,10 +54,6 @@ namespace mortise
   const std::vector<VertexOrder> &
   standard_vertex_orders();
 
-  /// All 24 orders.
-  const std::vector<VertexOrder> &
-  all_vertex_orders();
-
   /// Renumber the vertices of each of @p cells (tetrahedra of @p vertices) in
   /// ascending order, with the last two swapped where the volume would be
   /// negative: then two of the 24 orders are left, whatever the mesh.
