@@ -1,6 +1,8 @@
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/numbers.h>
 
+#include <deal.II/grid/manifold_lib.h>
+
 #include <mortise/body/mesh/generators.h>
 #include <mortise/body/mesh/manifolds.h>
 
@@ -229,10 +231,11 @@ namespace mortise
     {
       const Lattice n = {
         {q.subdivisions[1], q.subdivisions[0], q.subdivisions[2]}};
-      CoarseMesh mesh;
-      mesh.manifold = std::make_unique<CylinderManifold>(rigid_motion(q));
-      const auto &chart =
-        dynamic_cast<const CylinderManifold &>(*mesh.manifold);
+      const RigidMotion motion = rigid_motion(q);
+      CoarseMesh        mesh;
+      mesh.manifold = std::make_unique<CylindricalManifold<3>>(
+        Tensor<1, 3>(motion.rotation * Point<3>(0., 0., 1.)),
+        Point<3>(motion.translation));
 
       // Radial, around, axial is right handed.
       Block block;
@@ -240,10 +243,11 @@ namespace mortise
       block.boundaries = {{0, 1, 3, 2, 4, 5}};
       block.material   = [](const Lattice &) { return 0; };
       add_block(mesh, block, [&](const Lattice &p) {
-        return chart.push_forward(
-          Point<3>(between(q.extent[0], q.extent[1], p[0], n[0]),
-                   between(0., 0.5 * numbers::PI, p[1], n[1]),
-                   between(0., q.extent[2], p[2], n[2])));
+        const double r     = between(q.extent[0], q.extent[1], p[0], n[0]);
+        const double angle = between(0., 0.5 * numbers::PI, p[1], n[1]);
+        return motion(Point<3>(r * std::cos(angle),
+                               r * std::sin(angle),
+                               between(0., q.extent[2], p[2], n[2])));
       });
       mesh.names.materials[0] = "sector";
       return mesh;

@@ -161,46 +161,23 @@ namespace mortise
       unsigned int                axis = 0;
       std::array<Tensor<1, 3>, 4> corner;
     };
-
-    /// @p points in the frame of the body.
-    std::vector<Point<3>>
-    in_body(const RigidMotion &motion, const ArrayView<const Point<3>> &points)
-    {
-      std::vector<Point<3>> result;
-      for (const Point<3> &p : points)
-        result.push_back(motion.inverse(p));
-      return result;
-    }
-
-    /// d(x)/d(chart) of a chart in body coordinates, turned with the body.
-    DerivativeForm<1, 3, 3>
-    turned(const RigidMotion &motion, const Tensor<2, 3> &jacobian)
-    {
-      const Tensor<2, 3>      product = motion.rotation * jacobian;
-      DerivativeForm<1, 3, 3> result;
-      for (unsigned int i = 0; i < 3; ++i)
-        result[i] = product[i];
-      return result;
-    }
   } // namespace
+
+  Point<3>
+  MeanManifold::get_new_point(const ArrayView<const Point<3>> &points,
+                              const ArrayView<const double>   &weights) const
+  {
+    AssertDimension(points.size(), weights.size());
+    Table<2, double> table(1, weights.size());
+    std::copy(weights.begin(), weights.end(), &table(0, 0));
+    Point<3> result;
+    get_new_points(points, table, ArrayView<Point<3>>(&result, 1));
+    return result;
+  }
 
   SphereManifold::SphereManifold(const RigidMotion &motion)
     : centre(motion.translation)
   {}
-
-  std::unique_ptr<Manifold<3>>
-  SphereManifold::clone() const
-  {
-    return std::make_unique<SphereManifold>(*this);
-  }
-
-  Point<3>
-  SphereManifold::get_new_point(const ArrayView<const Point<3>> &points,
-                                const ArrayView<const double>   &weights) const
-  {
-    AssertDimension(points.size(), weights.size());
-    return mean(centre, polar_points(centre, points), weights.data());
-  }
 
   void
   SphereManifold::get_new_points(const ArrayView<const Point<3>> &points,
@@ -232,25 +209,6 @@ namespace mortise
     , motion(motion)
   {}
 
-  std::unique_ptr<Manifold<3>>
-  ShellOctantManifold::clone() const
-  {
-    return std::make_unique<ShellOctantManifold>(*this);
-  }
-
-  Point<3>
-  ShellOctantManifold::get_new_point(
-    const ArrayView<const Point<3>> &points,
-    const ArrayView<const double>   &weights) const
-  {
-    AssertDimension(points.size(), weights.size());
-    Table<2, double> table(1, weights.size());
-    std::copy(weights.begin(), weights.end(), &table(0, 0));
-    Point<3> result;
-    get_new_points(points, table, ArrayView<Point<3>>(&result, 1));
-    return result;
-  }
-
   void
   ShellOctantManifold::get_new_points(const ArrayView<const Point<3>> &points,
                                       const Table<2, double>          &weights,
@@ -259,8 +217,10 @@ namespace mortise
     AssertDimension(points.size(), weights.size(1));
     AssertDimension(new_points.size(), weights.size(0));
     // the caller may pass the same memory twice
-    std::vector<Point<3>> charts = in_body(motion, points);
-    const OctantChart     chart(charts, n);
+    std::vector<Point<3>> charts;
+    for (const Point<3> &p : points)
+      charts.push_back(motion.inverse(p));
+    const OctantChart chart(charts, n);
     for (Point<3> &p : charts)
       p = chart.pull_back(p);
     for (unsigned int row = 0; row < weights.size(0); ++row)
@@ -281,44 +241,6 @@ namespace mortise
     const Point<3>              from = chart.pull_back(ends[0]);
     return motion.rotation *
            chart.derivative(from, chart.pull_back(ends[1]) - from);
-  }
-
-  CylinderManifold::CylinderManifold(const RigidMotion &motion)
-    : motion(motion)
-  {}
-
-  std::unique_ptr<Manifold<3>>
-  CylinderManifold::clone() const
-  {
-    return std::make_unique<CylinderManifold>(motion);
-  }
-
-  Point<3>
-  CylinderManifold::pull_back(const Point<3> &p) const
-  {
-    const Point<3> x = motion.inverse(p);
-    return Point<3>(std::hypot(x[0], x[1]), std::atan2(x[1], x[0]), x[2]);
-  }
-
-  Point<3>
-  CylinderManifold::push_forward(const Point<3> &chart) const
-  {
-    return motion(Point<3>(chart[0] * std::cos(chart[1]),
-                           chart[0] * std::sin(chart[1]),
-                           chart[2]));
-  }
-
-  DerivativeForm<1, 3, 3>
-  CylinderManifold::push_forward_gradient(const Point<3> &chart) const
-  {
-    const double c = std::cos(chart[1]), s = std::sin(chart[1]);
-    Tensor<2, 3> jacobian;
-    jacobian[0][0] = c;
-    jacobian[1][0] = s;
-    jacobian[0][1] = -chart[0] * s;
-    jacobian[1][1] = chart[0] * c;
-    jacobian[2][2] = 1.;
-    return turned(motion, jacobian);
   }
 
   CurvedBlockManifold::Shape::Height
@@ -354,12 +276,6 @@ namespace mortise
     : shape(shape)
     , motion(motion)
   {}
-
-  std::unique_ptr<Manifold<3>>
-  CurvedBlockManifold::clone() const
-  {
-    return std::make_unique<CurvedBlockManifold>(shape, motion);
-  }
 
   Point<3>
   CurvedBlockManifold::pull_back(const Point<3> &p) const
@@ -401,6 +317,10 @@ namespace mortise
     jacobian[2][0]                  = g * F.dx;
     jacobian[2][1]                  = g * F.dy;
     jacobian[2][2]                  = 1. + g_z * F.value;
-    return turned(motion, jacobian);
+    const Tensor<2, 3>      product = motion.rotation * jacobian;
+    DerivativeForm<1, 3, 3> result;
+    for (unsigned int i = 0; i < 3; ++i)
+      result[i] = product[i];
+    return result;
   }
 } // namespace mortise

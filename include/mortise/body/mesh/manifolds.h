@@ -1,5 +1,5 @@
-// Closed-form geometry of curved bodies: sphere, cylinder, block with a curved
-// middle surface. Smooth, cheap, never iterative; each carries the rigid motion
+// Closed-form geometry of curved bodies: sphere, block with a curved middle
+// surface. Smooth, cheap, never iterative; each carries the rigid motion
 // of its body and has no length scale of its own.
 #pragma once
 
@@ -11,22 +11,30 @@
 
 namespace mortise
 {
+  /// Computes single points as several are.
+  class MeanManifold : public dealii::Manifold<3>
+  {
+  public:
+    dealii::Point<3>
+    get_new_point(
+      const dealii::ArrayView<const dealii::Point<3>> &points,
+      const dealii::ArrayView<const double>           &weights) const override;
+  };
+
   /// Concentric spheres about the body's origin: a point between others has the
   /// weighted mean of their radii and the normalised weighted mean of their
   /// directions. Weights must be such that the mean direction does not vanish
   /// (an octant always is).
-  class SphereManifold : public dealii::Manifold<3>
+  class SphereManifold : public MeanManifold
   {
   public:
     explicit SphereManifold(const RigidMotion &motion);
 
     std::unique_ptr<dealii::Manifold<3>>
-    clone() const override;
-
-    dealii::Point<3>
-    get_new_point(
-      const dealii::ArrayView<const dealii::Point<3>> &points,
-      const dealii::ArrayView<const double>           &weights) const override;
+    clone() const override
+    {
+      return std::make_unique<SphereManifold>(*this);
+    }
 
     void
     get_new_points(
@@ -49,19 +57,17 @@ namespace mortise
   /// corners. However often cells are cut they follow the lines of their coarse
   /// cell, as those beside them do that are not cut. Points are those of one
   /// coarse cell.
-  class ShellOctantManifold : public dealii::Manifold<3>
+  class ShellOctantManifold : public MeanManifold
   {
   public:
     /// @p n: cells along an edge of a patch.
     ShellOctantManifold(unsigned int n, const RigidMotion &motion);
 
     std::unique_ptr<dealii::Manifold<3>>
-    clone() const override;
-
-    dealii::Point<3>
-    get_new_point(
-      const dealii::ArrayView<const dealii::Point<3>> &points,
-      const dealii::ArrayView<const double>           &weights) const override;
+    clone() const override
+    {
+      return std::make_unique<ShellOctantManifold>(*this);
+    }
 
     void
     get_new_points(
@@ -76,27 +82,6 @@ namespace mortise
   private:
     const unsigned int n;
     const RigidMotion  motion;
-  };
-
-  /// Concentric cylinders about the body's z axis; chart (r, angle, z) with the
-  /// angle in
-  /// (-pi, pi], so a body must not cross the half plane y = 0, x < 0.
-  class CylinderManifold : public dealii::ChartManifold<3>
-  {
-  public:
-    explicit CylinderManifold(const RigidMotion &motion);
-
-    std::unique_ptr<dealii::Manifold<3>>
-    clone() const override;
-    dealii::Point<3>
-    pull_back(const dealii::Point<3> &p) const override;
-    dealii::Point<3>
-    push_forward(const dealii::Point<3> &chart) const override;
-    dealii::DerivativeForm<1, 3, 3>
-    push_forward_gradient(const dealii::Point<3> &chart) const override;
-
-  private:
-    RigidMotion motion;
   };
 
   /// A block x0..x1, y0..y1, z0..z1 whose middle plane z = z_middle is bent
@@ -135,7 +120,10 @@ namespace mortise
     CurvedBlockManifold(const Shape &shape, const RigidMotion &motion);
 
     std::unique_ptr<dealii::Manifold<3>>
-    clone() const override;
+    clone() const override
+    {
+      return std::make_unique<CurvedBlockManifold>(shape, motion);
+    }
     dealii::Point<3>
     pull_back(const dealii::Point<3> &p) const override;
     dealii::Point<3>
