@@ -17,28 +17,13 @@ namespace mortise
 
   namespace
   {
-    /// int psi_i psi_j
-    double
-    multiplier_product(const LocalCoupling &local,
-                       const unsigned int   i,
-                       const unsigned int   j)
-    {
-      double sum = 0.;
-      for (unsigned int k = 0; k < local.mass.m(); ++k)
-        sum += local.constraint(i, k) * local.multiplier(j, k);
-      return sum;
-    }
-
     double
     row_difference(const Coupling    &coupling,
                    const unsigned int s,
                    const unsigned int i)
     {
-      const LocalCoupling &local = coupling.local[s];
-      double               sum   = on_constants(local.constraint,
-                                i,
-                                coupling.interface->slave().traces[s].basis());
-      for (const auto &partner : local.partners)
+      double sum = integral(coupling, s, i);
+      for (const auto &partner : coupling.local[s].partners)
         sum -= on_constants(
           partner.constraint,
           i,
@@ -76,10 +61,7 @@ namespace mortise
                     const LocalCoupling &local = coupling.local[s];
                     sums[0](index) += std::fabs(w) * direction.norm() *
                                       weight_bound(coupling, s, i);
-                    const double weight = on_constants(
-                      local.constraint,
-                      i,
-                      coupling.interface->slave().traces[s].basis());
+                    const double weight = integral(coupling, s, i);
                     for (unsigned int c = 0; c < dim; ++c)
                       {
                         sums[1 + c](index) += w * direction[c] * weight;
@@ -157,25 +139,23 @@ namespace mortise
     };
     auto sums = make_sums(n_sums, coupling, owned_multiplier, comm);
 
-    for_each_entry(
-      coupling,
-      [&](const unsigned int s,
-          const unsigned int r,
-          const auto         index,
-          const double       w) {
-        const unsigned int   i = r % coupling.multipliers->rows()[s].n_nodes();
-        const LocalCoupling &local = coupling.local[s];
-        const double         row =
-          on_constants(local.constraint,
-                       i,
-                       coupling.interface->slave().traces[s].basis());
-        sums[difference](index) += w * row_difference(coupling, s, i);
-        sums[weight](index) += w * row;
-        for (unsigned int c = 0; c < dim; ++c)
-          sums[gap_x + c](index) += w * local.gap_moment[i][c];
-        sums[scale](index) += std::fabs(w) * weight_bound(coupling, s, i) *
-                              coupling.interface->slave().faces[s].size;
-      });
+    for_each_entry(coupling,
+                   [&](const unsigned int s,
+                       const unsigned int r,
+                       const auto         index,
+                       const double       w) {
+                     const unsigned int i =
+                       r % coupling.multipliers->rows()[s].n_nodes();
+                     const LocalCoupling &local = coupling.local[s];
+                     sums[difference](index) +=
+                       w * row_difference(coupling, s, i);
+                     sums[weight](index) += w * integral(coupling, s, i);
+                     for (unsigned int c = 0; c < dim; ++c)
+                       sums[gap_x + c](index) += w * local.gap_moment[i][c];
+                     sums[scale](index) +=
+                       std::fabs(w) * weight_bound(coupling, s, i) *
+                       coupling.interface->slave().faces[s].size;
+                   });
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);
 
@@ -208,16 +188,12 @@ namespace mortise
                 const MPI_Comm  comm)
   {
     std::vector<std::vector<double>> values;
-    IndexSet relevant = multiplier.locally_owned_elements();
     for (const auto &rows : coupling.multipliers->rows())
-      {
-        values.emplace_back(rows.begin.size() - 1);
-        relevant.add_indices(rows.index.begin(), rows.index.end());
-      }
+      values.emplace_back(rows.begin.size() - 1);
     if (multiplier.size() == 0)
       return values;
-    relevant.compress();
-    Vector ghosted(multiplier.locally_owned_elements(), relevant, comm);
+    const IndexSet owned = multiplier.locally_owned_elements();
+    Vector         ghosted(owned, touched_multipliers(coupling, owned), comm);
     ghosted = multiplier;
     ghosted.update_ghost_values();
     for (unsigned int s = 0; s < values.size(); ++s)
@@ -314,13 +290,11 @@ namespace mortise
              const std::function<double(const Point<dim> &)> &offset,
              Vector                                          &rhs)
   {
-    const BodySurface &slave    = coupling.interface->slave();
-    IndexSet           relevant = rhs.locally_owned_elements();
-    for (const auto &rows : coupling.multipliers->rows())
-      relevant.add_indices(rows.index.begin(), rows.index.end());
-    Vector sum(rhs.locally_owned_elements(),
-               relevant,
-               rhs.get_mpi_communicator());
+    const BodySurface &slave = coupling.interface->slave();
+    Vector             sum   = make_sums(1,
+                           coupling,
+                           rhs.locally_owned_elements(),
+                           rhs.get_mpi_communicator())[0];
     for (unsigned int s = 0; s < coupling.local.size(); ++s)
       if (const LocalCoupling &local = coupling.local[s];
           !local.partners.empty())
@@ -377,11 +351,7 @@ namespace mortise
                     squared += value[c] * multiplier_product(local, i, j) *
                                coefficients[s][c * n + j];
                 }
-              result.force +=
-                on_constants(local.constraint,
-                             i,
-                             coupling.interface->slave().traces[s].basis()) *
-                value;
+              result.force += integral(coupling, s, i) * value;
               result.moment +=
                 cross_product_3d(local.position_moment[i], value);
               force += row_difference(coupling, s, i) * value;

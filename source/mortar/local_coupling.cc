@@ -1,7 +1,5 @@
 #include <deal.II/base/quadrature_lib.h>
 
-#include <deal.II/lac/vector.h>
-
 #include <mortise/mortar/local_coupling.h>
 #include <mortise/mortar/nodal_block.h>
 

@@ -12,14 +12,14 @@
 #include <numeric>
 #include <vector>
 
+#include "multiplier_sums.h"
+
 namespace mortise
 {
   using namespace dealii;
 
   namespace
   {
-    using Multipliers = LinearAlgebra::distributed::Vector<double>;
-
     /// The nodal functions of the slave faces, combined as the multipliers are:
     /// phi_I = sum_k R_kI phi_k.
     class ProjectionOnPolynomials
@@ -30,10 +30,7 @@ namespace mortise
                               const MPI_Comm  comm)
         : coupling(coupling)
       {
-        IndexSet ghosts = owned;
-        for (const auto &rows : coupling.multipliers->rows())
-          ghosts.add_indices(rows.index.begin(), rows.index.end());
-        all.reinit(owned, ghosts, comm);
+        all.reinit(owned, touched_multipliers(coupling, owned), comm);
         for (unsigned int s = 0; s < coupling.local.size(); ++s)
           {
             const FaceTrace &trace = coupling.interface->slave().traces[s];
@@ -58,26 +55,26 @@ namespace mortise
       }
 
       void
-      initialize(Multipliers &v) const
+      initialize(Vector &v) const
       {
         v.reinit(all);
       }
 
       /// dst_I = int phi_I sum_J src_J phi_J.
       void
-      vmult(Multipliers &dst, const Multipliers &src) const
+      vmult(Vector &dst, const Vector &src) const
       {
         apply(dst, src, false);
       }
 
       /// dst_I = int phi_I sum_J src_J psi_J.
       void
-      moments(Multipliers &dst, const Multipliers &src) const
+      moments(Vector &dst, const Vector &src) const
       {
         apply(dst, src, true);
       }
 
-      Multipliers diagonal; ///< inverse
+      Vector diagonal; ///< inverse
 
     private:
       /// A multiplier's part of a value.
@@ -108,9 +105,7 @@ namespace mortise
       }
 
       void
-      apply(Multipliers       &dst,
-            const Multipliers &src,
-            const bool         of_multipliers) const
+      apply(Vector &dst, const Vector &src, const bool of_multipliers) const
       {
         all.copy_locally_owned_data_from(src);
         all.update_ghost_values();
@@ -146,7 +141,7 @@ namespace mortise
       std::vector<Term>               terms;  ///< face by face
       /// By face, component, node.
       mutable std::vector<double> values, products;
-      mutable Multipliers         all;
+      mutable Vector              all;
     };
 
     /// @p multiplier in polynomials that do the same work on the slave.
@@ -159,20 +154,17 @@ namespace mortise
       const ProjectionOnPolynomials matrix(coupling,
                                            multiplier.locally_owned_elements(),
                                            comm);
-      Multipliers                   lambda, moments, x;
+      Vector                        lambda, moments, x;
       for (auto *v : {&lambda, &moments, &x})
         matrix.initialize(*v);
       lambda.copy_locally_owned_data_from(multiplier);
       matrix.moments(moments, lambda);
       SolverControl control(1000, accuracy * moments.l2_norm(), false, false);
-      DiagonalMatrix<Multipliers> preconditioner;
+      DiagonalMatrix<Vector> preconditioner;
       preconditioner.get_vector() = matrix.diagonal;
       try
         {
-          SolverCG<Multipliers>(control).solve(matrix,
-                                               x,
-                                               moments,
-                                               preconditioner);
+          SolverCG<Vector>(control).solve(matrix, x, moments, preconditioner);
         }
       catch (const SolverControl::NoConvergence &)
         {} // rounding: what was reached is as good

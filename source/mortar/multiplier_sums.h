@@ -21,6 +21,27 @@ namespace mortise
     return sum;
   }
 
+  /// int psi_i of slave face @p s.
+  inline double
+  integral(const Coupling &coupling, const unsigned int s, const unsigned int i)
+  {
+    return on_constants(coupling.local[s].constraint,
+                        i,
+                        coupling.interface->slave().traces[s].basis());
+  }
+
+  /// int psi_i psi_j
+  inline double
+  multiplier_product(const LocalCoupling &local,
+                     const unsigned int   i,
+                     const unsigned int   j)
+  {
+    double sum = 0.;
+    for (unsigned int k = 0; k < local.mass.m(); ++k)
+      sum += local.constraint(i, k) * local.multiplier(j, k);
+    return sum;
+  }
+
   /// Calls visit(slave face, row, multiplier, its weight).
   template <typename Visit>
   void
@@ -55,19 +76,28 @@ namespace mortise
                    });
   }
 
+  /// @p owned and those that the faces of this rank touch.
+  inline dealii::IndexSet
+  touched_multipliers(const Coupling &coupling, const dealii::IndexSet &owned)
+  {
+    dealii::IndexSet touched = owned;
+    for (const auto &rows : coupling.multipliers->rows())
+      touched.add_indices(rows.index.begin(), rows.index.end());
+    return touched;
+  }
+
   /// Entries by multiplier, those that the faces of this rank touch included.
-  inline std::vector<dealii::LinearAlgebra::distributed::Vector<double>>
+  inline std::vector<Vector>
   make_sums(const unsigned int      n,
             const Coupling         &coupling,
             const dealii::IndexSet &owned_multiplier,
             const MPI_Comm          comm)
   {
-    dealii::IndexSet ghosts = owned_multiplier;
-    for (const auto &rows : coupling.multipliers->rows())
-      ghosts.add_indices(rows.index.begin(), rows.index.end());
-    std::vector<dealii::LinearAlgebra::distributed::Vector<double>> sums(n);
+    std::vector<Vector> sums(n);
     for (auto &sum : sums)
-      sum.reinit(owned_multiplier, ghosts, comm);
+      sum.reinit(owned_multiplier,
+                 touched_multipliers(coupling, owned_multiplier),
+                 comm);
     return sums;
   }
 } // namespace mortise

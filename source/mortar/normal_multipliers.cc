@@ -31,30 +31,30 @@ namespace mortise
     if (owned_multiplier.size() == 0)
       return {};
     auto sums = make_sums(n_normal_sums, coupling, owned_multiplier, comm);
-    for_each_part(
-      coupling,
-      [&](const unsigned int    s,
-          const unsigned int    i,
-          const Tensor<1, dim> &direction,
-          const auto            index,
-          const double          w) {
-        const LocalCoupling &local = coupling.local[s];
-        const FaceTrace     &trace = coupling.interface->slave().traces[s];
-        const double own   = on_constants(local.constraint, i, trace.basis());
-        const double along = direction * coupling.frames[s][i][0];
-        sums[area_sum](index) += w * own * along;
-        sums[gap_sum](index) += w * (local.gap_moment[i] * direction);
-        sums[stiffness_sum](index) += w * own * along * local.penalty;
-        const auto about_origin =
-          cross_product_3d(local.position_moment[i], direction);
-        for (unsigned int c = 0; c < dim; ++c)
-          {
-            sums[normal_sum + c](index) += w * own * direction[c];
-            sums[moment_sum + c](index) += w * about_origin[c];
-            sums[place_sum + c](index) +=
-              w * along * local.position_moment[i][c];
-          }
-      });
+    for_each_part(coupling,
+                  [&](const unsigned int    s,
+                      const unsigned int    i,
+                      const Tensor<1, dim> &direction,
+                      const auto            index,
+                      const double          w) {
+                    const LocalCoupling &local = coupling.local[s];
+                    const double         own   = integral(coupling, s, i);
+                    const double along = direction * coupling.frames[s][i][0];
+                    sums[area_sum](index) += w * own * along;
+                    sums[gap_sum](index) +=
+                      w * (local.gap_moment[i] * direction);
+                    sums[stiffness_sum](index) +=
+                      w * own * along * local.penalty;
+                    const auto about_origin =
+                      cross_product_3d(local.position_moment[i], direction);
+                    for (unsigned int c = 0; c < dim; ++c)
+                      {
+                        sums[normal_sum + c](index) += w * own * direction[c];
+                        sums[moment_sum + c](index) += w * about_origin[c];
+                        sums[place_sum + c](index) +=
+                          w * along * local.position_moment[i][c];
+                      }
+                  });
     for (auto &sum : sums)
       sum.compress(VectorOperation::add);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/vector.h>
 
 #include <mortise/interface/surface_evaluation.h>
 #include <mortise/mortar/nodal_block.h>

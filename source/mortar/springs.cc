@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "coupled_faces.h"
+#include "multiplier_sums.h"
 #include "projected_products.h"
 
 namespace mortise
@@ -109,7 +110,8 @@ namespace mortise
         for (unsigned int j = 0; j < n; ++j)
           for (unsigned int a = 0; a < n; ++a)
             for (unsigned int b = 0; b < n; ++b)
-              weighted[j * n + a] += mass(a, b) * products[j * n + b];
+              weighted[j * n + a] +=
+                multiplier_product(local, a, b) * products[j * n + b];
         turning.resize(n * n);
         for (unsigned int i = 0; i < n; ++i)
           for (unsigned int j = 0; j < n; ++j)
@@ -118,23 +120,15 @@ namespace mortise
                 products[i * n + a] * weighted[j * n + a]; // symmetric roots
       }
 
-      /// int psi_i psi_j of standard multipliers.
-      double
-      mass(const unsigned int i, const unsigned int j) const
-      {
-        double result = 0.;
-        for (unsigned int k = 0; k < local.mass.m(); ++k)
-          result += local.constraint(i, k) * local.multiplier(j, k);
-        return result;
-      }
-
       FullMatrix<double>
       block(const unsigned int i, const unsigned int j) const
       {
         const Tensor<2, dim> product =
-          turning.empty() ? (local.is_dual() ? local.weights[i] : mass(i, j)) *
-                              roots[i] * roots[j] :
-                            turning[i * roots.size() + j];
+          turning.empty() ?
+            (local.is_dual() ? local.weights[i] :
+                               multiplier_product(local, i, j)) *
+              roots[i] * roots[j] :
+            turning[i * roots.size() + j];
         if (held == HeldDirections::normal)
           {
             FullMatrix<double> along(1, 1);

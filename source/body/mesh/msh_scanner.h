@@ -1,5 +1,4 @@
-// The numbers of a .msh file one by one, as text or as bytes. It never knows
-// what a section holds.
+// The numbers of a .msh file one by one, as text or as bytes.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -14,14 +13,12 @@
 #include <limits>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "mesh_file_parts.h"
 
 namespace mortise
 {
-  /// Reads numbers one by one, as text or as bytes, and fails at the end of
-  /// the file.
+  /// Fails at the end of the file; never knows what a section holds.
   class MshScanner
   {
   public:

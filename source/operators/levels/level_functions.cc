@@ -23,9 +23,7 @@ namespace mortise
     if (coarsening == nullptr)
       return;
     rows  = interpolation_rows(*layout, *coarsening);
-    begin = {0};
-    for (const unsigned int length : rows.lengths)
-      begin.push_back(begin.back() + length);
+    begin = rows.begin();
   }
 
   void

@@ -41,10 +41,8 @@ namespace mortise
                                                    owned_nodes),
                                                  displacement_indices(needed),
                                                  comm);
-        const InterpolationRows   rows = interpolation_rows(layout, coarsening);
-        std::vector<unsigned int> begin = {0};
-        for (const unsigned int length : rows.lengths)
-          begin.push_back(begin.back() + length);
+        const InterpolationRows rows = interpolation_rows(layout, coarsening);
+        const std::vector<unsigned int>      begin = rows.begin();
         std::map<unsigned int, double>       sum; // by number in the builder
         std::map<unsigned int, unsigned int> index_of_number;
         for (const WeakJump &jump : jumps)

@@ -88,11 +88,10 @@ namespace mortise
     NodalBlockMatrixBuilder builder(coarsening.owned,
                                     fine.layout->get_mpi_communicator());
     const InterpolationRows rows = interpolation_rows(*fine.layout, coarsening);
-    std::vector<unsigned int> indices, begin = {0};
+    const std::vector<unsigned int> begin = rows.begin();
+    std::vector<unsigned int>       indices;
     for (const auto node : rows.nodes)
       indices.push_back(builder.local_number(node));
-    for (const unsigned int length : rows.lengths)
-      begin.push_back(begin.back() + length);
 
     // the columns of row i of A P
     std::vector<unsigned int> columns, row,

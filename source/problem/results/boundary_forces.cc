@@ -56,6 +56,30 @@ namespace mortise
       return result;
     }
 
+    /// Calls visit(interface, one over the number of boundaries of its side, at
+    /// @p nodes) for the sides that have @p boundary of body @p b.
+    template <typename Visit>
+    void
+    for_each_side_at(const Discretisation      &discretisation,
+                     const unsigned int         b,
+                     const types::boundary_id   boundary,
+                     const LevelVector<double> &nodes,
+                     const Visit               &visit)
+    {
+      for_each_side(
+        discretisation, [&](const unsigned int i, const SideParameters &side) {
+          if (!has(side, *discretisation.bodies()[b], boundary))
+            return;
+          const LevelVector<double> n_boundaries =
+            boundaries_at_nodes(discretisation, side);
+          LevelVector<double> shares = nodes;
+          for (unsigned int k = 0; k < shares.locally_owned_size(); ++k)
+            if (shares.local_element(k) > 0.)
+              shares.local_element(k) /= n_boundaries.local_element(k);
+          visit(i, shares);
+        });
+    }
+
     /// Values at nodes of the displacements, what is prescribed included.
     LevelVector<double>
     values_at_nodes(const Discretisation            &discretisation,
@@ -172,25 +196,17 @@ namespace mortise
                                  const types::boundary_id boundary,
                                  LevelVector<double>     &forces) const
   {
-    const auto &interfaces = discretisation.interfaces().sides();
-    for (unsigned int i = 0; i < interfaces.size(); ++i)
-      for (const SideParameters &side : sides_of(interfaces[i]))
-        if (has(side, *discretisation.bodies()[b], boundary))
-          {
-            const LevelVector<double> own =
-              held.forces_of(i, solved.solution.multiplier);
-            const LevelVector<double> at_nodes =
-              nodes_with(discretisation,
-                         b,
-                         boundary,
-                         all_but(held.components(b, boundary)));
-            const LevelVector<double> n_boundaries =
-              boundaries_at_nodes(discretisation, side);
-            for (unsigned int k = 0; k < own.locally_owned_size(); ++k)
-              if (at_nodes.local_element(k) > 0.)
-                forces.local_element(k) -=
-                  own.local_element(k) / n_boundaries.local_element(k);
-          }
+    for_each_side_at(
+      discretisation,
+      b,
+      boundary,
+      nodes_with(
+        discretisation, b, boundary, all_but(held.components(b, boundary))),
+      [&](const unsigned int i, const LevelVector<double> &shares) {
+        LevelVector<double> own = held.forces_of(i, solved.solution.multiplier);
+        own.scale(shares);
+        forces -= own;
+      });
   }
 
   ForceAndMoment
@@ -255,32 +271,6 @@ namespace mortise
       unsigned int       component;
     };
 
-    /// Subtract the forces that interfaces at @p boundary of body @p b put on @p nodes, which has
-    /// one for a component of them.
-    void
-    subtract_interfaces(const Discretisation      &discretisation,
-                        const unsigned int         b,
-                        const types::boundary_id   boundary,
-                        const LevelVector<double> &nodes,
-                        Vector                    &multiplier)
-    {
-      const auto &interfaces = discretisation.interfaces().sides();
-      for (unsigned int i = 0; i < interfaces.size(); ++i)
-        for (const SideParameters &side : sides_of(interfaces[i]))
-          if (has(side, *discretisation.bodies()[b], boundary))
-            {
-              const LevelVector<double> n_boundaries =
-                boundaries_at_nodes(discretisation, side);
-              LevelVector<double> shares = nodes;
-              for (unsigned int k = 0; k < shares.locally_owned_size(); ++k)
-                if (shares.local_element(k) > 0.)
-                  shares.local_element(k) /= n_boundaries.local_element(k);
-              Vector seen(multiplier);
-              discretisation.linear_system().forces().vmult_free(seen, shares);
-              multiplier -= part_of(discretisation, seen, i);
-            }
-    }
-
     /// Add what stresses on boundaries that share nodes with that of @p part have in it. @p shares: one over the
     /// number of boundaries, at its nodes.
     void
@@ -339,8 +329,17 @@ namespace mortise
     if (!held.components(b, boundary)[c])
       {
         if (result.rhs.multiplier.size() > 0)
-          subtract_interfaces(
-            discretisation, b, boundary, nodes, result.rhs.multiplier);
+          for_each_side_at(discretisation,
+                           b,
+                           boundary,
+                           nodes,
+                           [&](const unsigned int         i,
+                               const LevelVector<double> &shares) {
+                             Vector seen(result.rhs.multiplier);
+                             system.forces().vmult_free(seen, shares);
+                             result.rhs.multiplier -=
+                               part_of(discretisation, seen, i);
+                           });
         return result;
       }
     LevelVector<double> lift = nodes;

@@ -49,14 +49,6 @@ namespace mortise
     return result;
   }
 
-  std::vector<SideParameters>
-  sides_of(const InterfaceParameters &given)
-  {
-    if (given.is_support)
-      return {given.slave};
-    return {given.slave, given.master};
-  }
-
   HeldBoundaries::HeldBoundaries(const Discretisation &discretisation)
     : discretisation(discretisation)
     , held(discretisation.bodies().size())
@@ -73,14 +65,6 @@ namespace mortise
           holders += nodes_with(discretisation, b, boundary, which);
       }
     shared = holders.linfty_norm() > 1.;
-  }
-
-  HeldBoundaries::Components
-  HeldBoundaries::components(const unsigned int       body,
-                             const types::boundary_id boundary) const
-  {
-    const auto found = held[body].find(boundary);
-    return found == held[body].end() ? Components() : found->second;
   }
 
   std::optional<LevelVector<double>>
@@ -117,15 +101,14 @@ namespace mortise
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
     discretisation.linear_system().forces().Tvmult_add_free(result, lambda);
-    const auto &interfaces = discretisation.interfaces().sides();
-    for (unsigned int i = 0; i < interfaces.size(); ++i)
-      for (const SideParameters &side : sides_of(interfaces[i]))
-        if (const auto at_side = held_by_side(side))
-          {
-            LevelVector<double> own = forces_of(i, lambda);
-            own.scale(*at_side);
-            result -= own;
-          }
+    for_each_side(discretisation, [&](const unsigned int i, const auto &side) {
+      if (const auto at_side = held_by_side(side))
+        {
+          LevelVector<double> own = forces_of(i, lambda);
+          own.scale(*at_side);
+          result -= own;
+        }
+    });
     return result;
   }
 
@@ -135,15 +118,14 @@ namespace mortise
   {
     const CouplingMatrix &B = discretisation.linear_system().forces();
     B.vmult_free(multiplier, u);
-    const auto &interfaces = discretisation.interfaces().sides();
-    for (unsigned int i = 0; i < interfaces.size(); ++i)
-      for (const SideParameters &side : sides_of(interfaces[i]))
-        if (auto at_side = held_by_side(side))
-          {
-            at_side->scale(u);
-            Vector own(multiplier);
-            B.vmult_free(own, *at_side);
-            multiplier -= part_of(discretisation, own, i);
-          }
+    for_each_side(discretisation, [&](const unsigned int i, const auto &side) {
+      if (auto at_side = held_by_side(side))
+        {
+          at_side->scale(u);
+          Vector own(multiplier);
+          B.vmult_free(own, *at_side);
+          multiplier -= part_of(discretisation, own, i);
+        }
+    });
   }
 } // namespace mortise

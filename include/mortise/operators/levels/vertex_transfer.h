@@ -6,6 +6,7 @@
 #include <mortise/operators/levels/nodal_block_matrix.h>
 #include <mortise/operators/levels/nodal_operator.h>
 
+#include <numeric>
 #include <vector>
 
 namespace mortise
@@ -18,6 +19,15 @@ namespace mortise
     std::vector<unsigned int> lengths;
     std::vector<Index>        nodes; ///< coarse ones
     std::vector<double>       weights;
+
+    /// Where rows begin, and the last one ends.
+    std::vector<unsigned int>
+    begin() const
+    {
+      std::vector<unsigned int> result(lengths.size() + 1);
+      std::partial_sum(lengths.begin(), lengths.end(), result.begin() + 1);
+      return result;
+    }
 
     template <class Archive>
     void

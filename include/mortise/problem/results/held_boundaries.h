@@ -22,7 +22,11 @@ namespace mortise
 
     /// What @p boundary of body @p body prescribes.
     Components
-    components(unsigned int body, dealii::types::boundary_id boundary) const;
+    components(unsigned int body, dealii::types::boundary_id boundary) const
+    {
+      const auto found = held[body].find(boundary);
+      return found == held[body].end() ? Components() : found->second;
+    }
 
     /// By body; only boundaries that prescribe something.
     const std::vector<std::map<dealii::types::boundary_id, Components>> &
@@ -89,7 +93,18 @@ namespace mortise
           const Vector         &multiplier,
           unsigned int          i);
 
-  /// The sides of an interface; a support has one.
-  std::vector<SideParameters>
-  sides_of(const InterfaceParameters &given);
+  /// Calls visit(interface, side) for the sides of all interfaces; a support
+  /// has one.
+  template <typename Visit>
+  void
+  for_each_side(const Discretisation &discretisation, const Visit &visit)
+  {
+    const auto &interfaces = discretisation.interfaces().sides();
+    for (unsigned int i = 0; i < interfaces.size(); ++i)
+      {
+        visit(i, interfaces[i].slave);
+        if (!interfaces[i].is_support)
+          visit(i, interfaces[i].master);
+      }
+  }
 } // namespace mortise
