@@ -270,23 +270,6 @@ namespace mortise
     return sums_by_body(changes, comm);
   }
 
-  double
-  CycleErrors::of_interfaces() const
-  {
-    double square = 0.;
-    for (const InterfaceViolation &of : violations)
-      square += of.size * of.size;
-    return std::sqrt(square);
-  }
-
-  double
-  CycleErrors::of_bulk() const
-  {
-    return std::sqrt(
-      std::max(0.,
-               std::pow(*memory.estimate, 2) - std::pow(of_interfaces(), 2)));
-  }
-
   NumbersByCell
   CycleErrors::by_cell() const
   {

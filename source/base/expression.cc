@@ -328,12 +328,6 @@ namespace mortise
     return evaluate<Jet>(nodes, p);
   }
 
-  bool
-  Expression::is_constant() const
-  {
-    return nodes.size() == 1 && nodes[0].operation == Operation::constant;
-  }
-
   VectorExpression::VectorExpression(const std::string &text,
                                      const std::string &where,
                                      const double       time)
@@ -347,51 +341,5 @@ namespace mortise
         std::to_string(parts.size()) + " in " + in_quotes(text));
     for (unsigned int c = 0; c < 3; ++c)
       components[c] = Expression(parts[c], where, time);
-  }
-
-  Tensor<1, 3>
-  VectorExpression::value(const Point<3> &p) const
-  {
-    Tensor<1, 3> v;
-    for (unsigned int c = 0; c < 3; ++c)
-      v[c] = components[c].value(p);
-    return v;
-  }
-
-  Tensor<2, 3>
-  VectorExpression::gradient(const Point<3> &p) const
-  {
-    Tensor<2, 3> g;
-    for (unsigned int c = 0; c < 3; ++c)
-      g[c] = components[c].gradient(p);
-    return g;
-  }
-
-  std::array<SymmetricTensor<2, 3>, 3>
-  VectorExpression::hessian(const Point<3> &p) const
-  {
-    return {{components[0].hessian(p),
-             components[1].hessian(p),
-             components[2].hessian(p)}};
-  }
-
-  bool
-  VectorExpression::is_constant() const
-  {
-    return components[0].is_constant() && components[1].is_constant() &&
-           components[2].is_constant();
-  }
-
-  bool
-  VectorExpression::is_zero() const
-  {
-    return is_constant() && value(Point<3>()).norm_square() == 0.;
-  }
-
-  const Expression &
-  VectorExpression::operator[](const unsigned int component) const
-  {
-    AssertIndexRange(component, 3);
-    return components[component];
   }
 } // namespace mortise

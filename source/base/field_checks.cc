@@ -1,4 +1,3 @@
-#include <mortise/base/error.h>
 #include <mortise/base/field_checks.h>
 
 #include <cmath>
@@ -25,11 +24,5 @@ namespace mortise
         problem = text.str();
       }
     return 0.;
-  }
-
-  void
-  FieldChecks::throw_if_any(const MPI_Comm comm) const
-  {
-    mortise::throw_if_any(problem, comm);
   }
 } // namespace mortise

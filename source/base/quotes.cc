@@ -1,6 +1,5 @@
 #include <mortise/base/quotes.h>
 
-#include <cctype>
 
 namespace mortise
 {

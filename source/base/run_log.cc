@@ -27,12 +27,6 @@ namespace mortise
   }
 
   void
-  RunLog::Stage::details(const std::string &new_text)
-  {
-    text = new_text;
-  }
-
-  void
   RunLog::Stage::done()
   {
     if (open)
@@ -73,21 +67,6 @@ namespace mortise
   {
     if (prints)
       out << text << std::endl; // at once: somebody watches
-  }
-
-  void
-  RunLog::warning(const std::string &text)
-  {
-    if (!seen.insert(text).second)
-      return;
-    texts.push_back(text);
-    line("warning: " + text);
-  }
-
-  const std::vector<std::string> &
-  RunLog::warnings() const
-  {
-    return texts;
   }
 
   void

@@ -45,20 +45,6 @@ namespace mortise
   } // namespace
 
   void
-  SparseMatrix::vmult(double *dst, const double *src) const
-  {
-    multiply(dst, on_columns(src).data());
-  }
-
-  void
-  SparseMatrix::Tvmult_add(double *dst, const double *src) const
-  {
-    std::vector<double> values(n_components * n_columns());
-    multiply_transposed_add(values.data(), src);
-    add_to_owned(dst, values);
-  }
-
-  void
   SparseMatrix::multiply(double *dst, const double *of_columns) const
   {
     if (n_components == 1)

@@ -33,24 +33,12 @@ namespace mortise
     return names;
   }
 
-  const std::string &
-  name_of(const Law law)
-  {
-    return interface_law_names()[static_cast<unsigned int>(law)];
-  }
-
   double
   InterfaceLaw::gap(const InterfacePoint &point) const
   {
     return point.normal *
              (has_mesh_gap ? point.jump + point.mesh_gap : point.jump) +
            point.offset;
-  }
-
-  bool
-  InterfaceLaw::presses(const InterfacePoint &point, const double c) const
-  {
-    return point.traction * point.normal > c * gap(point);
   }
 
   double

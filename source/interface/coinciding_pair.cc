@@ -1,7 +1,6 @@
 // Faces with the same points: what the general case finds by clipping and
 // projection is known.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 

@@ -21,18 +21,6 @@ namespace mortise
     , thermal_strains(thermal_strains)
   {}
 
-  Tensor<1, 3>
-  ExpressionSolution::displacement(const Point<3> &p, const unsigned int) const
-  {
-    return expression.value(p);
-  }
-
-  Tensor<2, 3>
-  ExpressionSolution::gradient(const Point<3> &p, const unsigned int) const
-  {
-    return expression.gradient(p);
-  }
-
   SymmetricTensor<2, 3>
   ExpressionSolution::stress(const Point<3> &p, const unsigned int body) const
   {
@@ -256,41 +244,6 @@ namespace mortise
       }
   }
 
-  Tensor<1, 3>
-  LameSolution::radius_vector(const Point<3> &p) const
-  {
-    Tensor<1, 3> x = motion.inverse(p);
-    if (d == 2)
-      x[2] = 0.;
-    return x;
-  }
-
-  double
-  LameSolution::radial_displacement(const double       radius,
-                                    const unsigned int body) const
-  {
-    AssertIndexRange(body, coefficients.size());
-    const Coefficients &c = coefficients[body];
-    return c.A * radius + c.B / std::pow(radius, static_cast<int>(d) - 1);
-  }
-
-  double
-  LameSolution::radial_stress(const double       radius,
-                              const unsigned int body) const
-  {
-    AssertIndexRange(body, coefficients.size());
-    const Coefficients &c = coefficients[body];
-    return c.mean - c.shear / std::pow(radius, static_cast<int>(d));
-  }
-
-  Tensor<1, 3>
-  LameSolution::displacement(const Point<3> &p, const unsigned int body) const
-  {
-    const Tensor<1, 3> x = radius_vector(p);
-    const double       r = x.norm();
-    return motion.rotation * (radial_displacement(r, body) / r * x);
-  }
-
   Tensor<2, 3>
   LameSolution::gradient(const Point<3> &p, const unsigned int body) const
   {
@@ -325,11 +278,5 @@ namespace mortise
     if (d == 2)
       local[2][2] = 2. * c.poisson_ratio * c.mean;
     return symmetrize(motion.rotation * local * transpose(motion.rotation));
-  }
-
-  Tensor<1, 3>
-  LameSolution::body_force(const Point<3> &, const unsigned int) const
-  {
-    return Tensor<1, 3>();
   }
 } // namespace mortise

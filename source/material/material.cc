@@ -1,6 +1,5 @@
 #include <mortise/material/material.h>
 
-#include <cmath>
 
 namespace mortise
 {
@@ -26,14 +25,6 @@ namespace mortise
     return sigma;
   }
 
-  double
-  Material::twice_energy(const Tensor<2, 3> &gradient,
-                         const double        pressure) const
-  {
-    return scalar_product(Tensor<2, 3>(stress(gradient, 0.)), gradient) +
-           (mixed() ? compressibility() * pressure * pressure : 0.);
-  }
-
   Tensor<1, 3>
   Material::body_force(
     const std::array<SymmetricTensor<2, 3>, 3> &hessian) const
@@ -52,18 +43,6 @@ namespace mortise
           force[i] -= sigma[i][j];
       }
     return force;
-  }
-
-  LinearElastic::Averages
-  Material::averages() const
-  {
-    return std::visit([](const auto &any) { return any.averages(); }, law);
-  }
-
-  double
-  Material::modulus() const
-  {
-    return std::sqrt(softest_modulus() * stiffest_modulus());
   }
 
   double

@@ -1,8 +1,6 @@
 #include <mortise/mortar/coupling.h>
 #include <mortise/mortar/row_assembler.h>
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
 

@@ -44,21 +44,6 @@ namespace mortise
   }
 
   void
-  CouplingMatrix::clear_constrained(std::vector<double> &of_columns) const
-  {
-    for (const unsigned int k : constrained)
-      of_columns[k] = 0.;
-  }
-
-  std::vector<double>
-  CouplingMatrix::on_columns(const Vector &by_displacement) const
-  {
-    std::vector<double> result = scalar().on_columns(by_displacement.begin());
-    clear_constrained(result);
-    return result;
-  }
-
-  void
   CouplingMatrix::multiply(Vector                    &dst,
                            const std::vector<double> &of_columns) const
   {
@@ -85,32 +70,6 @@ namespace mortise
     std::vector<double> result(dim * scalar().n_columns());
     scalar().multiply_transposed_add(result.data(), from.data());
     return result;
-  }
-
-  void
-  CouplingMatrix::vmult(Vector &dst, const Vector &u) const
-  {
-    multiply(dst, on_columns(u));
-  }
-
-  void
-  CouplingMatrix::vmult_free(Vector &dst, const Vector &u) const
-  {
-    multiply(dst, scalar().on_columns(u.begin()));
-  }
-
-  void
-  CouplingMatrix::Tvmult_add(Vector &dst, const Vector &lambda) const
-  {
-    std::vector<double> of_columns = forces(lambda);
-    clear_constrained(of_columns);
-    scalar().add_to_owned(dst.begin(), of_columns);
-  }
-
-  void
-  CouplingMatrix::Tvmult_add_free(Vector &dst, const Vector &lambda) const
-  {
-    scalar().add_to_owned(dst.begin(), forces(lambda));
   }
 
   SparseMatrix

@@ -9,9 +9,7 @@
 #include <mortise/mortar/stranded_vertices.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 
 namespace mortise

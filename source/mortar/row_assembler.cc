@@ -4,7 +4,6 @@
 #include <mortise/mortar/row_assembler.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace mortise
 {

@@ -143,12 +143,4 @@ namespace mortise
         left.erase(first);
       }
   }
-
-  void
-  SharedDisplacements::take(const unsigned int i)
-  {
-    if (!moved.empty())
-      for (const unsigned int k : moved[i])
-        is_taken[k] = true;
-  }
 } // namespace mortise

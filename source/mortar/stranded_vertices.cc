@@ -37,14 +37,6 @@ namespace mortise
     exchange();
   }
 
-  std::optional<StrandedVertices::Index>
-  StrandedVertices::representative(const Index dof) const
-  {
-    if (follow(dof) == 0.)
-      return {};
-    return static_cast<Index>(smallest(dof));
-  }
-
   void
   StrandedVertices::add_representatives(IndexSet &set) const
   {
@@ -54,15 +46,6 @@ namespace mortise
       if (follow(dof) != 0.)
         set.add_index(static_cast<Index>(smallest(dof)));
     set.compress();
-  }
-
-  void
-  StrandedVertices::exchange()
-  {
-    smallest.update_ghost_values();
-    follow.update_ghost_values();
-    for (auto &[dof, state] : states)
-      state = {smallest(dof), follow(dof)};
   }
 
   bool

@@ -21,18 +21,4 @@ namespace mortise
                             comm) == me)
       groups.back().pinned = first - begin;
   }
-
-  void
-  FreePressures::project(Vector &p) const
-  {
-    for (unsigned int g = 0; g < groups.size(); ++g)
-      p.add(-mean(g, p), groups[g].one);
-  }
-
-  void
-  FreePressures::project_residual(Vector &r) const
-  {
-    for (const Group &group : groups)
-      r.add(-(group.one * r) / group.volume, group.mass);
-  }
 } // namespace mortise

@@ -5,7 +5,6 @@
 #include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_load.h>
 
-#include <algorithm>
 #include <map>
 
 namespace mortise

@@ -3,7 +3,6 @@
 #include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/nodal_system.h>
 
-#include <algorithm>
 #include <map>
 
 namespace mortise

@@ -121,16 +121,6 @@ namespace mortise
   }
 
   void
-  NodalSystem::apply_mixed(Vector       &dst_u,
-                           Vector       &dst_p,
-                           const Vector &u,
-                           const Vector &p) const
-  {
-    apply_free(dst_u, dst_p, u, p);
-    stiffness->clear_constrained(dst_u);
-  }
-
-  void
   NodalSystem::add_pressure_force(Vector &dst, const Vector &p) const
   {
     pressures->complete(p);
@@ -225,14 +215,6 @@ namespace mortise
     const Vector values(u), zero(rhs.pressure);
     apply_free(rhs.displacement, rhs.pressure, values, zero);
     stiffness->clear_constrained(rhs.displacement);
-  }
-
-  void
-  NodalSystem::set_displacement(const Coefficients &coefficient,
-                                Vector             &displacement) const
-  {
-    displacement = values_at_nodes(coefficient);
-    stiffness->clear_constrained(displacement);
   }
 
   void

@@ -42,12 +42,6 @@ namespace mortise
     }
   } // namespace
 
-  std::string
-  checkpoint_file_name(const std::string &directory)
-  {
-    return directory + "/checkpoint.bin";
-  }
-
   void
   write_checkpoint_file(const std::string &file,
                         const Sections    &shared,

@@ -19,12 +19,6 @@ namespace mortise
     offsets.push_back(points.size() / 3 + lagrange_nodes(shape, degree).size());
   }
 
-  void
-  VtuPiece::add_point(const Point<3> &point)
-  {
-    points.insert(points.end(), point.begin_raw(), point.end_raw());
-  }
-
   namespace
   {
     /// Bytes that are compressed at a time: a reader's cache holds them, and

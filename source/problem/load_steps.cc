@@ -1,7 +1,6 @@
 #include <mortise/problem/load_steps.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace mortise
@@ -22,12 +21,6 @@ namespace mortise
     const double     planned  = times[n_planned];
     return reached + length < planned - rounding * length ? reached + length :
                                                             planned;
-  }
-
-  bool
-  LoadSteps::output_due() const
-  {
-    return at_planned && (n_planned % output_every == 0 || finished());
   }
 
   void

@@ -3,7 +3,6 @@
 
 #include <mortise/solvers/scaled_residual.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace mortise
@@ -83,12 +82,6 @@ namespace mortise
         r.multiplier.sadd(-1., 1., rhs.multiplier);
       }
     r.displacement.sadd(-1., 1., rhs.displacement);
-  }
-
-  double
-  ScaledResidual::norm(const SystemVector &r) const
-  {
-    return std::sqrt(product(r, r));
   }
 
   double

@@ -7,7 +7,6 @@
 #include <mortise/solvers/solve_report.h>
 
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace mortise
@@ -82,10 +81,21 @@ namespace mortise
     /// exact one as from those whose sides are not apart; under contact it is
     /// an estimate.
     double
-    of_interfaces() const;
+    of_interfaces() const
+    {
+      double square = 0.;
+      for (const InterfaceViolation &of : violations)
+        square += of.size * of.size;
+      return std::sqrt(square);
+    }
     /// What the estimate has beyond it.
     double
-    of_bulk() const;
+    of_bulk() const
+    {
+      return std::sqrt(
+        std::max(0.,
+                 std::pow(*memory.estimate, 2) - std::pow(of_interfaces(), 2)));
+    }
 
     /// The part of each cell in the error, beside the same as the estimate,
     /// by body and active cell; empty where there is no estimate.

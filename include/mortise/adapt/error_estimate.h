@@ -4,7 +4,6 @@
 
 #include <mortise/adapt/residuals.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>

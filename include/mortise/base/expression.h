@@ -49,7 +49,10 @@ namespace mortise
 
     /// Whether the value is the same at every point (after folding).
     bool
-    is_constant() const;
+    is_constant() const
+    {
+      return nodes.size() == 1 && nodes[0].operation == Operation::constant;
+    }
 
     /// Whether the text says t, so that another time may give other values.
     bool
@@ -120,25 +123,53 @@ namespace mortise
                               double             time  = 0.);
 
     dealii::Tensor<1, 3>
-    value(const dealii::Point<3> &p) const;
+    value(const dealii::Point<3> &p) const
+    {
+      dealii::Tensor<1, 3> v;
+      for (unsigned int c = 0; c < 3; ++c)
+        v[c] = components[c].value(p);
+      return v;
+    }
 
     /// gradient[i][j] = d v_i / d x_j.
     dealii::Tensor<2, 3>
-    gradient(const dealii::Point<3> &p) const;
+    gradient(const dealii::Point<3> &p) const
+    {
+      dealii::Tensor<2, 3> g;
+      for (unsigned int c = 0; c < 3; ++c)
+        g[c] = components[c].gradient(p);
+      return g;
+    }
 
     /// hessian[i] = second derivatives of v_i.
     std::array<dealii::SymmetricTensor<2, 3>, 3>
-    hessian(const dealii::Point<3> &p) const;
+    hessian(const dealii::Point<3> &p) const
+    {
+      return {{components[0].hessian(p),
+               components[1].hessian(p),
+               components[2].hessian(p)}};
+    }
 
     bool
-    is_constant() const;
+    is_constant() const
+    {
+      return components[0].is_constant() && components[1].is_constant() &&
+             components[2].is_constant();
+    }
 
     /// Whether the value is zero at every point.
     bool
-    is_zero() const;
+    is_zero() const
+    {
+      return is_constant() && value(dealii::Point<3>()).norm_square() == 0.;
+    }
 
     const Expression &
-    operator[](unsigned int component) const;
+    operator[](unsigned int component) const
+    {
+      AssertIndexRange(component, 3);
+      return components[component];
+    }
 
   private:
     std::array<Expression, 3> components;

@@ -6,6 +6,7 @@
 #include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/base/tensor.h>
 
+#include <mortise/base/error.h>
 #include <mortise/base/numbers.h>
 #include <mpi.h>
 
@@ -43,7 +44,10 @@ namespace mortise
     /// Throw InputError on every rank of @p comm if any has noted something.
     /// Collective.
     void
-    throw_if_any(MPI_Comm comm) const;
+    throw_if_any(MPI_Comm comm) const
+    {
+      mortise::throw_if_any(problem, comm);
+    }
 
   private:
     double

@@ -29,7 +29,10 @@ namespace mortise
 
       /// What the stage did, in a few words ("2 bodies, 96 cells").
       void
-      details(const std::string &text);
+      details(const std::string &new_text)
+      {
+        text = new_text;
+      }
 
       /// End now rather than with the scope.
       void
@@ -65,12 +68,21 @@ namespace mortise
     /// "warning: text", once for each text. Call it on every rank or on rank 0;
     /// what only another rank knows must be brought to rank 0 first.
     void
-    warning(const std::string &text);
+    warning(const std::string &text)
+    {
+      if (!seen.insert(text).second)
+        return;
+      texts.push_back(text);
+      line("warning: " + text);
+    }
 
     /// Texts of the warnings so far, in order (of rank 0; the same on all ranks
     /// if all called).
     const std::vector<std::string> &
-    warnings() const;
+    warnings() const
+    {
+      return texts;
+    }
 
     /// Rows in aligned columns: the first column to the left, the others to the
     /// right. The first row is the heading. A row may be shorter than the

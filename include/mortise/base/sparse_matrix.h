@@ -178,7 +178,10 @@ namespace mortise
 
     /// dst = A src, both by owned index. Collective.
     void
-    vmult(double *dst, const double *src) const;
+    vmult(double *dst, const double *src) const
+    {
+      multiply(dst, on_columns(src).data());
+    }
 
     void
     vmult(Vector &dst, const Vector &src) const
@@ -188,7 +191,12 @@ namespace mortise
 
     /// dst += A^T src, likewise. Collective.
     void
-    Tvmult_add(double *dst, const double *src) const;
+    Tvmult_add(double *dst, const double *src) const
+    {
+      std::vector<double> values(n_components * n_columns());
+      multiply_transposed_add(values.data(), src);
+      add_to_owned(dst, values);
+    }
 
     /// What is given by owned index, by column of this rank. Collective.
     std::vector<double>

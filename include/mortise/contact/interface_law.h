@@ -24,8 +24,11 @@ namespace mortise
   const std::vector<std::string> &
   interface_law_names();
 
-  const std::string &
-  name_of(Law law);
+  inline const std::string &
+  name_of(Law law)
+  {
+    return interface_law_names()[static_cast<unsigned int>(law)];
+  }
 
   /// Components of the jump that have a multiplier.
   enum class HeldDirections : unsigned char
@@ -84,7 +87,10 @@ namespace mortise
 
     /// Does the point press, where @p c is a pressure by gap?
     bool
-    presses(const InterfacePoint &point, double c) const;
+    presses(const InterfacePoint &point, double c) const
+    {
+      return point.traction * point.normal > c * gap(point);
+    }
 
     /// Twice the energy per area that it takes to mend what is broken at a
     /// point, where half-spaces take c d^2 for sides that are a length d off,

@@ -6,7 +6,6 @@
 #include <mortise/base/rigid_motion.h>
 #include <mortise/material/material.h>
 
-#include <string>
 #include <vector>
 
 namespace mortise
@@ -45,9 +44,15 @@ namespace mortise
                        const std::vector<Expression> &thermal_strains = {});
 
     dealii::Tensor<1, 3>
-    displacement(const dealii::Point<3> &p, unsigned int body) const override;
+    displacement(const dealii::Point<3> &p, unsigned int) const override
+    {
+      return expression.value(p);
+    }
     dealii::Tensor<2, 3>
-    gradient(const dealii::Point<3> &p, unsigned int body) const override;
+    gradient(const dealii::Point<3> &p, unsigned int) const override
+    {
+      return expression.gradient(p);
+    }
     dealii::SymmetricTensor<2, 3>
     stress(const dealii::Point<3> &p, unsigned int body) const override;
     dealii::Tensor<1, 3>
@@ -98,21 +103,39 @@ namespace mortise
                  const RigidMotion        &motion           = RigidMotion());
 
     dealii::Tensor<1, 3>
-    displacement(const dealii::Point<3> &p, unsigned int body) const override;
+    displacement(const dealii::Point<3> &p, unsigned int body) const override
+    {
+      const dealii::Tensor<1, 3> x = radius_vector(p);
+      const double               r = x.norm();
+      return motion.rotation * (radial_displacement(r, body) / r * x);
+    }
     dealii::Tensor<2, 3>
     gradient(const dealii::Point<3> &p, unsigned int body) const override;
     dealii::SymmetricTensor<2, 3>
     stress(const dealii::Point<3> &p, unsigned int body) const override;
     /// Zero.
     dealii::Tensor<1, 3>
-    body_force(const dealii::Point<3> &p, unsigned int body) const override;
+    body_force(const dealii::Point<3> &, unsigned int) const override
+    {
+      return {};
+    }
 
     /// u_r at @p radius in layer @p body.
     double
-    radial_displacement(double radius, unsigned int body) const;
+    radial_displacement(double radius, unsigned int body) const
+    {
+      AssertIndexRange(body, coefficients.size());
+      const Coefficients &c = coefficients[body];
+      return c.A * radius + c.B / std::pow(radius, static_cast<int>(d) - 1);
+    }
     /// sigma_r at @p radius in layer @p body (negative in compression).
     double
-    radial_stress(double radius, unsigned int body) const;
+    radial_stress(double radius, unsigned int body) const
+    {
+      AssertIndexRange(body, coefficients.size());
+      const Coefficients &c = coefficients[body];
+      return c.mean - c.shear / std::pow(radius, static_cast<int>(d));
+    }
 
   private:
     /// u_r = A r + B / r^(d-1); sigma_r = mean - shear / r^d. The stresses have
@@ -125,7 +148,13 @@ namespace mortise
     /// p in the frame of the solution, projected to the xy plane for the
     /// cylinder.
     dealii::Tensor<1, 3>
-    radius_vector(const dealii::Point<3> &p) const;
+    radius_vector(const dealii::Point<3> &p) const
+    {
+      dealii::Tensor<1, 3> x = motion.inverse(p);
+      if (d == 2)
+        x[2] = 0.;
+      return x;
+    }
 
     unsigned int              d; ///< 3 for the sphere, 2 for the cylinder
     std::vector<Coefficients> coefficients;

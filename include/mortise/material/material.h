@@ -50,7 +50,12 @@ namespace mortise
 
     /// Twice the elastic energy per volume, of displacement and pressure.
     double
-    twice_energy(const dealii::Tensor<2, 3> &gradient, double pressure) const;
+    twice_energy(const dealii::Tensor<2, 3> &gradient, double pressure) const
+    {
+      return scalar_product(dealii::Tensor<2, 3>(stress(gradient, 0.)),
+                            gradient) +
+             (mixed() ? compressibility() * pressure * pressure : 0.);
+    }
 
     /// Force per volume that balances a displacement with second derivatives
     /// @p hessian (hessian[i] of u_i): -div sigma; of incompressible materials
@@ -94,7 +99,10 @@ namespace mortise
     /// Isotropic laws between which the law lies in the mean over directions;
     /// every law has them.
     LinearElastic::Averages
-    averages() const;
+    averages() const
+    {
+      return std::visit([](const auto &any) { return any.averages(); }, law);
+    }
 
     /// Young's modulus of these: what differs from body to body by orders of
     /// magnitude.
@@ -112,7 +120,10 @@ namespace mortise
 
     /// Their geometric mean.
     double
-    modulus() const;
+    modulus() const
+    {
+      return std::sqrt(softest_modulus() * stiffest_modulus());
+    }
 
     /// The largest stiffness against plane waves by the smallest of any
     /// direction and polarisation, (lambda + 2 mu) / mu if isotropic.

@@ -4,7 +4,6 @@
 
 #include <mortise/base/sparse_matrix.h>
 
-#include <memory>
 #include <vector>
 
 namespace mortise
@@ -79,19 +78,33 @@ namespace mortise
 
     /// dst = B u. Collective.
     void
-    vmult(Vector &dst, const Vector &u) const;
+    vmult(Vector &dst, const Vector &u) const
+    {
+      multiply(dst, on_columns(u));
+    }
 
     /// dst += B^T lambda. Collective.
     void
-    Tvmult_add(Vector &dst, const Vector &lambda) const;
+    Tvmult_add(Vector &dst, const Vector &lambda) const
+    {
+      std::vector<double> of_columns = forces(lambda);
+      clear_constrained(of_columns);
+      scalar().add_to_owned(dst.begin(), of_columns);
+    }
 
     /// dst = B u, without regard to what is constrained. Collective.
     void
-    vmult_free(Vector &dst, const Vector &u) const;
+    vmult_free(Vector &dst, const Vector &u) const
+    {
+      multiply(dst, scalar().on_columns(u.begin()));
+    }
 
     /// dst += B^T lambda, likewise. Collective.
     void
-    Tvmult_add_free(Vector &dst, const Vector &lambda) const;
+    Tvmult_add_free(Vector &dst, const Vector &lambda) const
+    {
+      scalar().add_to_owned(dst.begin(), forces(lambda));
+    }
 
     /// diag(B T B^T) by owned multiplier, T diagonal, by owned displacement.
     /// Collective.
@@ -100,11 +113,20 @@ namespace mortise
 
     /// By column of scalar() and component; zero where constrained. Collective.
     std::vector<double>
-    on_columns(const Vector &by_displacement) const;
+    on_columns(const Vector &by_displacement) const
+    {
+      std::vector<double> result = scalar().on_columns(by_displacement.begin());
+      clear_constrained(result);
+      return result;
+    }
 
   private:
     void
-    clear_constrained(std::vector<double> &of_columns) const;
+    clear_constrained(std::vector<double> &of_columns) const
+    {
+      for (const unsigned int k : constrained)
+        of_columns[k] = 0.;
+    }
     /// dst = B u, with all of B.
     void
     multiply(Vector &dst, const std::vector<double> &of_columns) const;

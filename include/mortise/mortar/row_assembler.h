@@ -9,7 +9,6 @@
 #include <mortise/base/sparse_matrix.h>
 
 #include <map>
-#include <utility>
 #include <vector>
 
 namespace mortise

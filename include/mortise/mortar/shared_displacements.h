@@ -36,7 +36,12 @@ namespace mortise
 
     /// What interface @p i moves is taken from now on.
     void
-    take(unsigned int i);
+    take(unsigned int i)
+    {
+      if (!moved.empty())
+        for (const unsigned int k : moved[i])
+          is_taken[k] = true;
+    }
 
     /// By owned displacement of the scene.
     const std::vector<bool> &

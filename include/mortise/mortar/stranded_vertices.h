@@ -29,7 +29,12 @@ namespace mortise
     /// The dof that carries the constant of the patch that an owned stranded
     /// dof is in; nothing if nothing can follow it.
     std::optional<Index>
-    representative(Index dof) const;
+    representative(Index dof) const
+    {
+      if (follow(dof) == 0.)
+        return {};
+      return static_cast<Index>(smallest(dof));
+    }
 
     /// Add the dofs that representative() gives for owned dofs, those of far
     /// ranks too.
@@ -38,7 +43,13 @@ namespace mortise
 
   private:
     void
-    exchange();
+    exchange()
+    {
+      smallest.update_ghost_values();
+      follow.update_ghost_values();
+      for (auto &[dof, state] : states)
+        state = {smallest(dof), follow(dof)};
+    }
     /// Pass the smallest dof of each face to its stranded vertices; whether one
     /// changed.
     bool

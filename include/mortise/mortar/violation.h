@@ -5,7 +5,6 @@
 
 #include <mortise/mortar/interface_points.h>
 
-#include <functional>
 #include <vector>
 
 namespace mortise

@@ -39,12 +39,20 @@ namespace mortise
 
     /// p less its mean over each group. Collective.
     void
-    project(Vector &p) const;
+    project(Vector &p) const
+    {
+      for (unsigned int g = 0; g < groups.size(); ++g)
+        p.add(-mean(g, p), groups[g].one);
+    }
 
     /// r less what a constant change of volume brings into it, so that it does
     /// not see the constants. Collective.
     void
-    project_residual(Vector &r) const;
+    project_residual(Vector &r) const
+    {
+      for (const Group &group : groups)
+        r.add(-(group.one * r) / group.volume, group.mass);
+    }
 
   private:
     struct Group

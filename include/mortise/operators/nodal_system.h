@@ -80,7 +80,11 @@ namespace mortise
     apply_mixed(Vector       &dst_u,
                 Vector       &dst_p,
                 const Vector &u,
-                const Vector &p) const;
+                const Vector &p) const
+    {
+      apply_free(dst_u, dst_p, u, p);
+      stiffness->clear_constrained(dst_u);
+    }
 
     /// dst += G^T p. Collective.
     void
@@ -193,7 +197,11 @@ namespace mortise
     /// constrained. Collective.
     void
     set_displacement(const Coefficients &coefficient,
-                     Vector             &displacement) const;
+                     Vector             &displacement) const
+    {
+      displacement = values_at_nodes(coefficient);
+      stiffness->clear_constrained(displacement);
+    }
 
     /// What undoes for_each_pressure_coefficient(): zero where nodes hang.
     /// Collective.

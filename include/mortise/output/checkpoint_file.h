@@ -21,8 +21,11 @@ namespace mortise
   using Sections = std::map<std::string, std::string>;
 
   /// DIRECTORY/checkpoint.bin
-  std::string
-  checkpoint_file_name(const std::string &directory);
+  inline std::string
+  checkpoint_file_name(const std::string &directory)
+  {
+    return directory + "/checkpoint.bin";
+  }
 
   /// Write @p file, whole or not at all: @p shared of the first rank, and what all ranks have as
   /// @p records, under the same names on all of them. Collective; throws

@@ -6,8 +6,6 @@
 #include <mortise/mortar/coupling.h>
 #include <mortise/operators/scene_solution.h>
 
-#include <optional>
-#include <string>
 #include <vector>
 
 namespace mortise

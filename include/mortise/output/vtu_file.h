@@ -31,7 +31,10 @@ namespace mortise
 
     /// The next point of the cell, in the order of lagrange_nodes().
     void
-    add_point(const dealii::Point<3> &point);
+    add_point(const dealii::Point<3> &point)
+    {
+      points.insert(points.end(), point.begin_raw(), point.end_raw());
+    }
 
     /// Double precision: areas of small cells far from the origin are
     /// differences.

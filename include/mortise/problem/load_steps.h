@@ -41,7 +41,10 @@ namespace mortise
 
     /// Is the time that was reached one of those to write fields at?
     bool
-    output_due() const;
+    output_due() const
+    {
+      return at_planned && (n_planned % output_every == 0 || finished());
+    }
 
     /// Reached so far, of the whole; between 0 and 1.
     double

@@ -30,7 +30,10 @@ namespace mortise
 
     /// The norm above. Collective.
     double
-    norm(const SystemVector &r) const;
+    norm(const SystemVector &r) const
+    {
+      return std::sqrt(product(r, r));
+    }
 
     /// The product that belongs to it. Collective.
     double

@@ -106,29 +106,6 @@ namespace mortise
     : surfaces(surfaces)
   {}
 
-  std::unique_ptr<Manifold<3>>
-  SurfaceManifold::clone() const
-  {
-    return std::make_unique<SurfaceManifold>(surfaces);
-  }
-
-  Point<3>
-  SurfaceManifold::get_new_point(const ArrayView<const Point<3>> &points,
-                                 const ArrayView<const double>   &weights) const
-  {
-    Tensor<1, 3> mean;
-    for (unsigned int i = 0; i < points.size(); ++i)
-      mean += weights[i] * points[i];
-    return project(surfaces, Point<3>(mean));
-  }
-
-  Point<3>
-  SurfaceManifold::project_to_manifold(const ArrayView<const Point<3>> &,
-                                       const Point<3> &candidate) const
-  {
-    return project(surfaces, candidate);
-  }
-
   CurvedEdges
   curved_edges(const CoarseMesh &mesh)
   {

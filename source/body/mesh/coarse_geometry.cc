@@ -269,13 +269,6 @@ namespace mortise
   }
 
   void
-  CoarseGeometry::move(const RigidMotion &motion)
-  {
-    for (Point<3> &node : nodes)
-      node = motion(node);
-  }
-
-  void
   complete_serendipity(std::vector<Point<3>> &nodes)
   {
     // With s the number of coordinates in the middle, a corner weighs

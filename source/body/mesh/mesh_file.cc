@@ -9,7 +9,6 @@
 #include <mortise/body/mesh/curved_boundaries.h>
 #include <mortise/body/mesh/mesh_file.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -29,13 +29,6 @@ namespace mortise
     boxes = pack_rtree(found);
   }
 
-  std::array<double, 4>
-  SizeField::barycentric(const unsigned int cell, const Point<3> &x) const
-  {
-    const Tensor<1, 3> y = inverses[cell] * (x - cells[cell].vertices[0]);
-    return {{1. - y[0] - y[1] - y[2], y[0], y[1], y[2]}};
-  }
-
   unsigned int
   SizeField::cell_at(const Point<3> &x) const
   {

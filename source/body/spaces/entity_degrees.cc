@@ -191,38 +191,6 @@ namespace mortise
                                                                     unpack);
   }
 
-  unsigned int
-  EntityDegrees::line_degree(const CellIterator &cell,
-                             const unsigned int  l) const
-  {
-    return uniform ? cell->get_fe().degree : line_degrees[cell->line_index(l)];
-  }
-
-  unsigned int
-  EntityDegrees::quad_degree(const CellIterator &cell,
-                             const unsigned int  f) const
-  {
-    return uniform ? cell->get_fe().degree : quad_degrees[cell->face_index(f)];
-  }
-
-  unsigned int
-  EntityDegrees::line_lattice(const CellIterator &cell,
-                              const unsigned int  l) const
-  {
-    return uniform ?
-             cell->get_fe().degree :
-             dof_handler.get_fe(line_element[cell->line_index(l)]).degree;
-  }
-
-  unsigned int
-  EntityDegrees::quad_lattice(const CellIterator &cell,
-                              const unsigned int  f) const
-  {
-    return uniform ?
-             cell->get_fe().degree :
-             dof_handler.get_fe(quad_element[cell->face_index(f)]).degree;
-  }
-
   void
   EntityDegrees::get_master_dofs(
     const CellIterator                   &cell,

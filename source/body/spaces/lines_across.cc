@@ -11,7 +11,6 @@
 #include <mortise/body/spaces/lines_across.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>

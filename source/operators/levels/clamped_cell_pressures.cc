@@ -116,12 +116,4 @@ namespace mortise
           }
       }
   }
-
-  void
-  ClampedCellPressures::add_diagonal(double *dst) const
-  {
-    for (const Cell &cell : cells)
-      for (unsigned int i = 0; i < cell.indices.size(); ++i)
-        dst[cell.indices[i]] += cell.change(i, i);
-  }
 } // namespace mortise

@@ -131,12 +131,6 @@ namespace mortise
   }
 
   void
-  NodalBlockMatrixBuilder::couple(const std::vector<unsigned int> &nodes)
-  {
-    couple(nodes, {});
-  }
-
-  void
   NodalBlockMatrixBuilder::close()
   {
     unite_groups();

@@ -4,8 +4,6 @@
 #include <mortise/operators/matrix_free/tensor_kernel.h>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 
 namespace mortise
 {
@@ -167,15 +165,6 @@ namespace mortise
     gather(dst);
     if (penalty)
       penalty->add(src.begin(), dst.begin());
-  }
-
-  template <typename Number>
-  void
-  LevelOperator<Number>::vmult(LevelVector<Number>       &dst,
-                               const LevelVector<Number> &src) const
-  {
-    vmult_free(dst, src);
-    this->clear_constrained(dst);
   }
 
   template <typename Number>

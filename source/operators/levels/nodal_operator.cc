@@ -25,14 +25,6 @@ namespace mortise
       diagonal.local_element(index) = 1;
   }
 
-  template <typename Number>
-  void
-  NodalOperator<Number>::clear_constrained(LevelVector<Number> &v) const
-  {
-    for (const unsigned int index : constrained())
-      v.local_element(index) = 0;
-  }
-
   template class NodalOperator<float>;
   template class NodalOperator<double>;
 } // namespace mortise

@@ -15,28 +15,6 @@ namespace mortise
   {}
 
   void
-  NodalPressure::complete(const LevelVector<double> &v) const
-  {
-    v.update_ghost_values();
-    // these indices hold no values of v's own, as those of ghosts
-    hanging.fill(const_cast<double *>(v.begin()));
-  }
-
-  void
-  NodalPressure::release(const LevelVector<double> &v) const
-  {
-    hanging.clear(const_cast<double *>(v.begin()));
-    v.zero_out_ghost_values();
-  }
-
-  void
-  NodalPressure::gather(LevelVector<double> &v) const
-  {
-    hanging.collect(v.begin());
-    v.compress(VectorOperation::add);
-  }
-
-  void
   NodalPressure::gather_diagonal(LevelVector<double> &v) const
   {
     hanging.collect_diagonal(v.begin());

@@ -136,18 +136,6 @@ namespace mortise
     }
   } // namespace
 
-  void
-  VertexMatrix::keep(const std::vector<unsigned int> &kept)
-  {
-    for (unsigned int i = 0; i < kept.size(); ++i) // in ascending order
-      {
-        points[i] = points[kept[i]];
-        bodies[i] = bodies[kept[i]];
-      }
-    points.resize(kept.size());
-    bodies.resize(kept.size());
-  }
-
   VertexMatrix
   assemble_vertex_matrix(const NodalLevel       &level,
                          const VertexCoarsening *coarsening)

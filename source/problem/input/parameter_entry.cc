@@ -11,12 +11,6 @@ namespace mortise
   namespace Patterns = dealii::Patterns;
 
   Allowed
-  Allowed::positive_number()
-  {
-    return {"a positive number", [](const double value) { return value > 0.; }};
-  }
-
-  Allowed
   Allowed::integer(const unsigned int least, const unsigned int most)
   {
     const std::string from = std::to_string(least);
@@ -26,26 +20,6 @@ namespace mortise
             [=](const double value) {
               return least <= value && value <= most;
             }};
-  }
-
-  Allowed
-  Allowed::one_of(const std::vector<std::string> &names)
-  {
-    return {names.size() == 1 ? names[0] : "one of: " + join_names(names),
-            {},
-            names};
-  }
-
-  void
-  ParameterValue::fail(const std::string &got) const
-  {
-    fail(got, allowed.words);
-  }
-
-  void
-  ParameterValue::fail(const std::string &got, const std::string &allowed) const
-  {
-    throw InputError(where + ": got " + got + "; allowed: " + allowed);
   }
 
   double
@@ -161,14 +135,6 @@ namespace mortise
     : entries(entries)
     , path(path)
   {}
-
-  ParameterSection
-  ParameterSection::subsection(const std::string &name) const
-  {
-    std::vector<std::string> below = path;
-    below.push_back(name);
-    return ParameterSection(entries, below);
-  }
 
   void
   ParameterSection::add(const std::string &name,

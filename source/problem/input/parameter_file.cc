@@ -12,14 +12,6 @@
 
 namespace mortise
 {
-  std::string
-  path_of(const std::vector<std::string> &sections, const std::string &name)
-  {
-    std::string path;
-    for (const std::string &section : sections)
-      path += (path.empty() ? "" : "/") + section;
-    return path + (path.empty() || name.empty() ? "" : "/") + name;
-  }
 
   std::string
   normalised(const std::string &text)

@@ -8,23 +8,10 @@
 #include <mortise/problem/input/parameters.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 namespace mortise
 {
-  std::string
-  side_text(const Parameters &parameters, const SideParameters &side)
-  {
-    return parameters.bodies[side.body].name + ": " +
-           join_names(side.boundaries);
-  }
-
-  std::string
-  joined(const Components &components)
-  {
-    return components[0] + "; " + components[1] + "; " + components[2];
-  }
 
   std::string
   Parameters::where(const std::string &path) const
@@ -127,29 +114,6 @@ namespace mortise
       return parameters;
     }
 
-    Parameters
-    parse(const std::vector<Assignment> &assignments, const std::string &file)
-    {
-      Parameters                  parameters = named_scene(assignments, file);
-      std::vector<ParameterEntry> entries    = declare_parameters(parameters);
-      for (const Assignment &assignment : assignments)
-        {
-          const std::string path =
-            path_of(assignment.sections, assignment.name);
-          parameters.origins[path] = assignment.origin;
-          assign(entries, assignment, parameters.where(path));
-        }
-      for (const ParameterEntry &entry : entries)
-        entry.set({entry.value, entry.where, entry.allowed});
-      add_supports(parameters);
-      // cycles find degrees, those that are given are where they begin
-      if (parameters.adaptivity.target_error)
-        for (BodyParameters &body : parameters.bodies)
-          raise_to_mixed_form(body);
-      parameters.assignments = assignments;
-      return parameters;
-    }
-
     std::vector<Assignment>
     collect(const std::string &text,
             const std::string &file,
@@ -166,7 +130,23 @@ namespace mortise
   parse_parameters(const std::vector<Assignment> &assignments,
                    const std::string             &file)
   {
-    return parse(assignments, file);
+    Parameters                  parameters = named_scene(assignments, file);
+    std::vector<ParameterEntry> entries    = declare_parameters(parameters);
+    for (const Assignment &assignment : assignments)
+      {
+        const std::string path = path_of(assignment.sections, assignment.name);
+        parameters.origins[path] = assignment.origin;
+        assign(entries, assignment, parameters.where(path));
+      }
+    for (const ParameterEntry &entry : entries)
+      entry.set({entry.value, entry.where, entry.allowed});
+    add_supports(parameters);
+    // cycles find degrees, those that are given are where they begin
+    if (parameters.adaptivity.target_error)
+      for (BodyParameters &body : parameters.bodies)
+        raise_to_mixed_form(body);
+    parameters.assignments = assignments;
+    return parameters;
   }
 
   Parameters
@@ -174,7 +154,7 @@ namespace mortise
                    const std::string &file,
                    const Settings    &settings)
   {
-    return parse(collect(text, file, settings), file);
+    return parse_parameters(collect(text, file, settings), file);
   }
 
   Parameters
@@ -197,6 +177,6 @@ namespace mortise
         }
     throw_if_any(message, comm);
     assignments = dealii::Utilities::MPI::broadcast(comm, assignments);
-    return parse(assignments, file);
+    return parse_parameters(assignments, file);
   }
 } // namespace mortise

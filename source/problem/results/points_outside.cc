@@ -6,7 +6,6 @@
 #include <mortise/output/functionals.h>
 #include <mortise/problem/results/points_outside.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace mortise

@@ -3,7 +3,6 @@
 #include <mortise/problem/results/result_checks.h>
 #include <mortise/solvers/linear_solver.h>
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 

@@ -6,7 +6,6 @@
 #include <mortise/problem/scene/scene_data.h>
 
 #include <algorithm>
-#include <array>
 
 namespace mortise
 {

@@ -15,18 +15,6 @@ namespace mortise
 {
   using namespace dealii;
 
-  IndexSet
-  SceneSpaces::owned_displacement() const
-  {
-    return displacement_indices(nodal.front()->owned_nodes());
-  }
-
-  IndexSet
-  SceneSpaces::owned_pressure() const
-  {
-    return nodal_pressures->owned_nodes();
-  }
-
   bool
   SceneSpaces::has_prescribed_values() const
   {

@@ -246,14 +246,6 @@ namespace mortise
           }
   }
 
-  RigidMatrix
-  Resistance::sum() const
-  {
-    RigidMatrix result = held;
-    result.add(1., across);
-    return result;
-  }
-
   namespace
   {
     using Vectors = std::vector<std::vector<double>>;

@@ -60,16 +60,6 @@ namespace mortise
     return double_precision->initialize(rows, comm);
   }
 
-  template <typename Work>
-  void
-  CholeskyInverse<Work>::solve(Vector &x, const Vector &b) const
-  {
-    if (single_precision)
-      single_precision->solve(x.begin(), b.begin());
-    else
-      double_precision->solve(x.begin(), b.begin());
-  }
-
   template class CholeskyInverse<float>;
   template class CholeskyInverse<double>;
 } // namespace mortise

@@ -192,48 +192,6 @@ namespace mortise
 
   template <typename Number, typename Work>
   void
-  SparseCholesky<Number, Work>::forward(const unsigned int s) const
-  {
-    for_each_panel(s, [&](const Number *panel, const auto n, const auto c) {
-      forward<n()>(s, panel, c);
-    });
-  }
-
-  template <typename Number, typename Work>
-  void
-  SparseCholesky<Number, Work>::backward(const unsigned int s) const
-  {
-    for_each_panel(s, [&](const Number *panel, const auto n, const auto c) {
-      backward<n()>(s, panel, c);
-    });
-  }
-
-  template <typename Number, typename Work>
-  void
-  SparseCholesky<Number, Work>::pack(const unsigned int *indices,
-                                     const unsigned int  n,
-                                     Number             *to) const
-  {
-    for (unsigned int i = 0; i < n; ++i)
-      std::copy_n(&vector[indices[i] * n_components],
-                  n_components,
-                  to + i * n_components);
-  }
-
-  template <typename Number, typename Work>
-  void
-  SparseCholesky<Number, Work>::unpack(const unsigned int *indices,
-                                       const unsigned int  n,
-                                       const Number       *from) const
-  {
-    for (unsigned int i = 0; i < n; ++i)
-      std::copy_n(from + i * n_components,
-                  n_components,
-                  &vector[indices[i] * n_components]);
-  }
-
-  template <typename Number, typename Work>
-  void
   SparseCholesky<Number, Work>::add_up_common() const
   {
     const unsigned int n = common_indices.size();

@@ -26,22 +26,6 @@ namespace mortise
   }
 
   void
-  ConstraintProjector::clear_ties(Vector &lambda) const
-  {
-    for (const unsigned int i : ties)
-      lambda.local_element(i) = 0.;
-  }
-
-  void
-  ConstraintProjector::apply(const Vector &u) const
-  {
-    const auto &indices = product.indices();
-    for (unsigned int k = 0; k < indices.size(); ++k)
-      trace.local_element(k) = u.local_element(indices[k]);
-    product.multiply(jump, trace);
-  }
-
-  void
   ConstraintProjector::remove_multipliers(Vector &r, Vector &lambda) const
   {
     lifting.vmult(correction, r);

@@ -6,7 +6,6 @@
 #include <mortise/solvers/register_blocks.h>
 
 #include <algorithm>
-#include <array>
 
 namespace mortise
 {

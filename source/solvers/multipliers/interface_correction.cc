@@ -49,16 +49,6 @@ namespace mortise
 
   template <typename Number>
   void
-  InterfaceCorrection<Number>::apply(const CoupledNodes from,
-                                     const CoupledNodes to) const
-  {
-    product.multiply(jump, trace, from);
-    lifting.apply_inverse_schur(multiplier, jump);
-    product.multiply_transposed(trace, multiplier, to);
-  }
-
-  template <typename Number>
-  void
   InterfaceCorrection<Number>::project(LevelVector<Number> &x) const
   {
     const auto &indices = product.indices();
@@ -76,32 +66,6 @@ namespace mortise
       x.local_element(indices[k]) -= weights[k] * trace.local_element(k);
     if (has_springs())
       carried += multiplier;
-  }
-
-  template <typename Number>
-  void
-  InterfaceCorrection<Number>::release_springs() const
-  {
-    carried = 0.;
-  }
-
-  template <typename Number>
-  void
-  InterfaceCorrection<Number>::load_springs(const double keep,
-                                            const double take) const
-  {
-    added.sadd(keep, take, multiplier);
-    carried += added;
-  }
-
-  template <typename Number>
-  void
-  InterfaceCorrection<Number>::add_spring_forces(LevelVector<Number> &r) const
-  {
-    product.multiply_transposed(trace, carried);
-    const auto &indices = product.indices();
-    for (unsigned int k = 0; k < indices.size(); ++k)
-      r.local_element(indices[k]) += trace.local_element(k);
   }
 
   template <typename Number>

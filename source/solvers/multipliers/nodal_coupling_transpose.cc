@@ -101,14 +101,4 @@ namespace mortise
     const unsigned int r = begin.size() - 2;
     group_of.push_back(r > 0 && same_nodes(r - 1, r) ? group_of.back() : r);
   }
-
-  bool
-  NodalCouplingTranspose::same_nodes(const unsigned int r,
-                                     const unsigned int s) const
-  {
-    return std::equal(nodes.begin() + begin[r],
-                      nodes.begin() + begin[r + 1],
-                      nodes.begin() + begin[s],
-                      nodes.begin() + begin[s + 1]);
-  }
 } // namespace mortise

@@ -70,7 +70,11 @@ namespace mortise
     selected(const std::vector<std::size_t> &kept) const;
 
     void
-    move(const RigidMotion &motion);
+    move(const RigidMotion &motion)
+    {
+      for (dealii::Point<3> &node : nodes)
+        node = motion(node);
+    }
 
     unsigned int                  nodes_per_cell = 0;
     std::vector<dealii::Point<3>> nodes; ///< cell by cell

@@ -50,16 +50,27 @@ namespace mortise
     explicit SurfaceManifold(const std::vector<SurfacePointer> &surfaces);
 
     std::unique_ptr<dealii::Manifold<3>>
-    clone() const override;
+    clone() const override
+    {
+      return std::make_unique<SurfaceManifold>(surfaces);
+    }
 
     dealii::Point<3>
-    get_new_point(
-      const dealii::ArrayView<const dealii::Point<3>> &points,
-      const dealii::ArrayView<const double>           &weights) const override;
+    get_new_point(const dealii::ArrayView<const dealii::Point<3>> &points,
+                  const dealii::ArrayView<const double> &weights) const override
+    {
+      dealii::Tensor<1, 3> mean;
+      for (unsigned int i = 0; i < points.size(); ++i)
+        mean += weights[i] * points[i];
+      return project(surfaces, dealii::Point<3>(mean));
+    }
 
     dealii::Point<3>
-    project_to_manifold(const dealii::ArrayView<const dealii::Point<3>> &points,
-                        const dealii::Point<3> &candidate) const override;
+    project_to_manifold(const dealii::ArrayView<const dealii::Point<3>> &,
+                        const dealii::Point<3> &candidate) const override
+    {
+      return project(surfaces, candidate);
+    }
 
   private:
     const std::vector<SurfacePointer> surfaces;

@@ -47,7 +47,12 @@ namespace mortise
     using Box = dealii::BoundingBox<3>;
 
     std::array<double, 4>
-    barycentric(unsigned int cell, const dealii::Point<3> &x) const;
+    barycentric(unsigned int cell, const dealii::Point<3> &x) const
+    {
+      const dealii::Tensor<1, 3> y =
+        inverses[cell] * (x - cells[cell].vertices[0]);
+      return {{1. - y[0] - y[1] - y[2], y[0], y[1], y[2]}};
+    }
 
     std::vector<Cell>                 cells;
     std::vector<dealii::Tensor<2, 3>> inverses; ///< of edges at vertex 0

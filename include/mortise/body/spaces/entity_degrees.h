@@ -33,19 +33,37 @@ namespace mortise
 
     /// Degree of line @p l of @p cell: 1 .. degree of the cell.
     unsigned int
-    line_degree(const CellIterator &cell, unsigned int l) const;
+    line_degree(const CellIterator &cell, unsigned int l) const
+    {
+      return uniform ? cell->get_fe().degree :
+                       line_degrees[cell->line_index(l)];
+    }
 
     /// Degree of face @p f of @p cell in both directions: 1 .. degree of the cell.
     unsigned int
-    quad_degree(const CellIterator &cell, unsigned int f) const;
+    quad_degree(const CellIterator &cell, unsigned int f) const
+    {
+      return uniform ? cell->get_fe().degree :
+                       quad_degrees[cell->face_index(f)];
+    }
 
     /// Least degree of the cells that touch line @p l, or face @p f, of @p cell as a whole, as far
     /// as this rank sees them: not less than the above.
     unsigned int
-    line_lattice(const CellIterator &cell, unsigned int l) const;
+    line_lattice(const CellIterator &cell, unsigned int l) const
+    {
+      return uniform ?
+               cell->get_fe().degree :
+               dof_handler.get_fe(line_element[cell->line_index(l)]).degree;
+    }
 
     unsigned int
-    quad_lattice(const CellIterator &cell, unsigned int f) const;
+    quad_lattice(const CellIterator &cell, unsigned int f) const
+    {
+      return uniform ?
+               cell->get_fe().degree :
+               dof_handler.get_fe(quad_element[cell->face_index(f)]).degree;
+    }
 
     /// Whether all cells of all ranks have one degree, and not more than two
     /// orders of vertices: get_master_dofs() then gives the cell's own degrees

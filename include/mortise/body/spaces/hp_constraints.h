@@ -10,7 +10,6 @@
 
 #include <mortise/body/spaces/entity_degrees.h>
 
-#include <string>
 
 namespace mortise
 {

@@ -8,7 +8,6 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
-#include <utility>
 #include <vector>
 
 namespace mortise

@@ -9,7 +9,6 @@
 #include <mortise/body/body.h>
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

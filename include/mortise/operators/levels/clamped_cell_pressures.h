@@ -29,7 +29,12 @@ namespace mortise
 
     /// dst += diagonal, as above.
     void
-    add_diagonal(double *dst) const;
+    add_diagonal(double *dst) const
+    {
+      for (const Cell &cell : cells)
+        for (unsigned int i = 0; i < cell.indices.size(); ++i)
+          dst[cell.indices[i]] += cell.change(i, i);
+    }
 
   private:
     struct Cell

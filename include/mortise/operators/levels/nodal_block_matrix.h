@@ -62,7 +62,10 @@ namespace mortise
 
     /// Each of @p nodes with each other and itself.
     void
-    couple(const std::vector<unsigned int> &nodes);
+    couple(const std::vector<unsigned int> &nodes)
+    {
+      couple(nodes, {});
+    }
 
     /// Nothing couples after it. Collective.
     void

@@ -70,7 +70,11 @@ namespace mortise
     /// dst = A src. Collective.
     void
     vmult(LevelVector<Number>       &dst,
-          const LevelVector<Number> &src) const override;
+          const LevelVector<Number> &src) const override
+    {
+      vmult_free(dst, src);
+      this->clear_constrained(dst);
+    }
 
     /// As vmult(), without regard to what is constrained.
     void

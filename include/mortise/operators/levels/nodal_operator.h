@@ -40,6 +40,10 @@ namespace mortise
 
     /// Zero at constrained components.
     void
-    clear_constrained(LevelVector<Number> &v) const;
+    clear_constrained(LevelVector<Number> &v) const
+    {
+      for (const unsigned int index : constrained())
+        v.local_element(index) = 0;
+    }
   };
 } // namespace mortise

@@ -30,16 +30,29 @@ namespace mortise
     /// Ghost values and those at hanging nodes of the function that @p v holds.
     /// Collective.
     void
-    complete(const LevelVector<double> &v) const;
+    complete(const LevelVector<double> &v) const
+    {
+      v.update_ghost_values();
+      // these indices hold no values of v's own, as those of ghosts
+      hanging.fill(const_cast<double *>(v.begin()));
+    }
 
     /// Undoes complete().
     void
-    release(const LevelVector<double> &v) const;
+    release(const LevelVector<double> &v) const
+    {
+      hanging.clear(const_cast<double *>(v.begin()));
+      v.zero_out_ghost_values();
+    }
 
     /// What local products left in @p v brought to the nodes that do not hang
     /// and to their owners. Collective.
     void
-    gather(LevelVector<double> &v) const;
+    gather(LevelVector<double> &v) const
+    {
+      hanging.collect(v.begin());
+      v.compress(dealii::VectorOperation::add);
+    }
 
     /// The same for a diagonal, without what couples hanging nodes; 1 at these.
     void

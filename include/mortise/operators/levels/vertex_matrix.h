@@ -18,7 +18,16 @@ namespace mortise
 
     /// Points and bodies of the nodes @p kept alone.
     void
-    keep(const std::vector<unsigned int> &kept);
+    keep(const std::vector<unsigned int> &kept)
+    {
+      for (unsigned int i = 0; i < kept.size(); ++i) // in ascending order
+        {
+          points[i] = points[kept[i]];
+          bodies[i] = bodies[kept[i]];
+        }
+      points.resize(kept.size());
+      bodies.resize(kept.size());
+    }
   };
 
   /// @p level: of degree one in all bodies. With @p coarsening the matrix is

@@ -27,13 +27,22 @@ namespace mortise
     std::vector<std::string>    choices{};  ///< empty: any text
 
     static Allowed
-    positive_number();
+    positive_number()
+    {
+      return {"a positive number",
+              [](const double value) { return value > 0.; }};
+    }
 
     static Allowed
     integer(unsigned int least, unsigned int most = no_limit);
 
     static Allowed
-    one_of(const std::vector<std::string> &names);
+    one_of(const std::vector<std::string> &names)
+    {
+      return {names.size() == 1 ? names[0] : "one of: " + join_names(names),
+              {},
+              names};
+    }
 
     static constexpr unsigned int no_limit = 0x7fffffff;
   };
@@ -50,10 +59,16 @@ namespace mortise
     const Allowed &allowed;
 
     [[noreturn]] void
-    fail(const std::string &got) const;
+    fail(const std::string &got) const
+    {
+      fail(got, allowed.words);
+    }
 
     [[noreturn]] void
-    fail(const std::string &got, const std::string &allowed) const;
+    fail(const std::string &got, const std::string &allowed) const
+    {
+      throw InputError(where + ": got " + got + "; allowed: " + allowed);
+    }
 
     /// @p part of the text as a number that a run can use.
     double
@@ -137,7 +152,12 @@ namespace mortise
                               const std::vector<std::string> &path = {});
 
     ParameterSection
-    subsection(const std::string &name) const;
+    subsection(const std::string &name) const
+    {
+      std::vector<std::string> below = path;
+      below.push_back(name);
+      return ParameterSection(entries, below);
+    }
 
     /// An entry that sets @p member, of a type that ParameterValue reads.
     template <typename T>

@@ -8,9 +8,15 @@
 namespace mortise
 {
   /// "Body inner/Mesh/Source"
-  std::string
+  inline std::string
   path_of(const std::vector<std::string> &sections,
-          const std::string              &name = "");
+          const std::string              &name = "")
+  {
+    std::string path;
+    for (const std::string &section : sections)
+      path += (path.empty() ? "" : "/") + section;
+    return path + (path.empty() || name.empty() ? "" : "/") + name;
+  }
 
   /// "set name = value" within nested subsections, or the opening of a
   /// subsection (no name).

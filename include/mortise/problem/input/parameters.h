@@ -9,6 +9,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <mortise/base/error.h>
 #include <mortise/body/mesh/mesh_source.h>
 #include <mortise/material/factory.h>
 #include <mortise/problem/input/interface_parameters.h>
@@ -31,8 +32,11 @@ namespace mortise
   using Components = std::array<std::string, 3>;
 
   /// "ex; ey; ez", as VectorExpression takes it.
-  std::string
-  joined(const Components &components);
+  inline std::string
+  joined(const Components &components)
+  {
+    return components[0] + "; " + components[1] + "; " + components[2];
+  }
 
   /// What acts on one named boundary; what is absent does not.
   struct BoundaryParameters
@@ -168,8 +172,12 @@ namespace mortise
   };
 
   /// "body: boundary, boundary", for messages.
-  std::string
-  side_text(const Parameters &parameters, const SideParameters &side);
+  inline std::string
+  side_text(const Parameters &parameters, const SideParameters &side)
+  {
+    return parameters.bodies[side.body].name + ": " +
+           join_names(side.boundaries);
+  }
 
   /// Append the supports: interfaces that stand for displacements along normals
   /// or along axes that are not those of the scene, one for each component.

@@ -50,9 +50,15 @@ namespace mortise
 
     /// Indices of the unknowns: values at nodes.
     dealii::IndexSet
-    owned_displacement() const;
+    owned_displacement() const
+    {
+      return displacement_indices(nodal.front()->owned_nodes());
+    }
     dealii::IndexSet
-    owned_pressure() const;
+    owned_pressure() const
+    {
+      return nodal_pressures->owned_nodes();
+    }
   };
 
   /// Open the meshes and check what depends on them. Collective; throws

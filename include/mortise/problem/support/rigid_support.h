@@ -12,7 +12,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace mortise
@@ -187,7 +186,12 @@ namespace mortise
     add(int slave, int master, const TieResistance &tie);
 
     RigidMatrix
-    sum() const;
+    sum() const
+    {
+      RigidMatrix result = held;
+      result.add(1., across);
+      return result;
+    }
 
     /// An orthonormal basis of the motions that nothing prevents. What
     /// displacements, ties and sliding along planes hold is exact but for

@@ -29,7 +29,13 @@ namespace mortise
     /// x = matrix^{-1} b, to four digits at least in the norm of the matrix.
     /// Collective.
     void
-    solve(Vector &x, const Vector &b) const;
+    solve(Vector &x, const Vector &b) const
+    {
+      if (single_precision)
+        single_precision->solve(x.begin(), b.begin());
+      else
+        double_precision->solve(x.begin(), b.begin());
+    }
 
     bool
     is_single() const

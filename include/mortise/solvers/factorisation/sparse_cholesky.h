@@ -10,7 +10,6 @@
 #include <mortise/solvers/factorisation/gathered_nodal_matrix.h>
 #include <mortise/solvers/factorisation/nodal_matrix.h>
 
-#include <memory>
 #include <vector>
 
 namespace mortise
@@ -47,18 +46,40 @@ namespace mortise
     for_each_panel(unsigned int s, const Visit &visit) const;
     /// The components of nodes in or from a buffer.
     void
-    pack(const unsigned int *indices, unsigned int n, Number *to) const;
+    pack(const unsigned int *indices, unsigned int n, Number *to) const
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        std::copy_n(&vector[indices[i] * n_components],
+                    n_components,
+                    to + i * n_components);
+    }
     void
     unpack(const unsigned int *indices,
            unsigned int        n,
-           const Number       *from) const;
+           const Number       *from) const
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        std::copy_n(from + i * n_components,
+                    n_components,
+                    &vector[indices[i] * n_components]);
+    }
     /// Sums over the ranks of what is on all of them.
     void
     add_up_common() const;
     void
-    forward(unsigned int s) const;
+    forward(unsigned int s) const
+    {
+      for_each_panel(s, [&](const Number *panel, const auto n, const auto c) {
+        forward<n()>(s, panel, c);
+      });
+    }
     void
-    backward(unsigned int s) const;
+    backward(unsigned int s) const
+    {
+      for_each_panel(s, [&](const Number *panel, const auto n, const auto c) {
+        backward<n()>(s, panel, c);
+      });
+    }
     /// With one panel, @p n components from the first.
     template <unsigned int n>
     void

@@ -32,7 +32,11 @@ namespace mortise
 
     /// Zero where no springs carry @p lambda.
     void
-    clear_ties(Vector &lambda) const;
+    clear_ties(Vector &lambda) const
+    {
+      for (const unsigned int i : ties)
+        lambda.local_element(i) = 0.;
+    }
 
     /// u := P u, or with @p g the projection onto B u = g: u - T B^T y. Returns y. Collective.
     const Vector &
@@ -41,7 +45,13 @@ namespace mortise
   private:
     /// jump = B u.
     void
-    apply(const Vector &u) const;
+    apply(const Vector &u) const
+    {
+      const auto &indices = product.indices();
+      for (unsigned int k = 0; k < indices.size(); ++k)
+        trace.local_element(k) = u.local_element(indices[k]);
+      product.multiply(jump, trace);
+    }
     /// multiplier = C^{-1} jump, u -= T B^T multiplier.
     void
     step_to_constraint(Vector &u) const;

@@ -73,16 +73,29 @@ namespace mortise
     /// here, since what opens a stiff one is less than the rounding of x. None
     /// do.
     void
-    release_springs() const;
+    release_springs() const
+    {
+      carried = 0.;
+    }
 
     /// d := keep d + take C^{-1} B (...), the multipliers of the last
     /// correct(), and carry d more.
     void
-    load_springs(double keep, double take) const;
+    load_springs(double keep, double take) const
+    {
+      added.sadd(keep, take, multiplier);
+      carried += added;
+    }
 
     /// r += B^T of what they carry. Collective.
     void
-    add_spring_forces(LevelVector<Number> &r) const;
+    add_spring_forces(LevelVector<Number> &r) const
+    {
+      product.multiply_transposed(trace, carried);
+      const auto &indices = product.indices();
+      for (unsigned int k = 0; k < indices.size(); ++k)
+        r.local_element(indices[k]) += trace.local_element(k);
+    }
 
     const Vector &
     carried_by_springs() const
@@ -103,7 +116,12 @@ namespace mortise
   private:
     /// trace := B^T C^{-1} B trace; it is zero but at @p from, and needed at @p to.
     void
-    apply(CoupledNodes from, CoupledNodes to) const;
+    apply(CoupledNodes from, CoupledNodes to) const
+    {
+      product.multiply(jump, trace, from);
+      lifting.apply_inverse_schur(multiplier, jump);
+      product.multiply_transposed(trace, multiplier, to);
+    }
 
     const BlockSystem             &system;
     const CouplingProduct<Number> &product;

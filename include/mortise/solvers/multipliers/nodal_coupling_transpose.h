@@ -49,7 +49,13 @@ namespace mortise
     bool
     unite(const Row *rows, std::vector<Entry> &united) const;
     bool
-    same_nodes(unsigned int r, unsigned int s) const;
+    same_nodes(unsigned int r, unsigned int s) const
+    {
+      return std::equal(nodes.begin() + begin[r],
+                        nodes.begin() + begin[r + 1],
+                        nodes.begin() + begin[s],
+                        nodes.begin() + begin[s + 1]);
+    }
     void
     add_row(const Row &row);
 
