@@ -2,6 +2,7 @@
 
 #include <mortise/adapt/stress_polynomials.h>
 #include <mortise/base/lagrange.h>
+#include <mortise/body/elements/simplex_basis.h>
 #include <mortise/body/elements/simplex_quadrature.h>
 
 namespace mortise
@@ -29,19 +30,15 @@ namespace mortise
       Functions(const FiniteElement<dim> &element,
                 const Point<dim>         &x,
                 const bool                with_slopes)
-        : values(element.n_dofs_per_cell())
-        , slopes(with_slopes ? values.size() : 0)
-      {
         // all at once: one by one each takes as long
-        std::vector<Tensor<2, dim>> no_2;
-        std::vector<Tensor<3, dim>> no_3;
-        std::vector<Tensor<4, dim>> no_4;
-        dynamic_cast<const FE_Poly<dim> &>(element).get_poly_space().evaluate(
-          x, values, slopes, no_2, no_3, no_4);
-      }
+        : values(values_at(
+            dynamic_cast<const FE_Poly<dim> &>(element).get_poly_space(),
+            x,
+            with_slopes ? &slopes : nullptr))
+      {}
 
-      std::vector<double>         values;
       std::vector<Tensor<1, dim>> slopes;
+      std::vector<double>         values;
     };
   } // namespace
 

@@ -1,6 +1,7 @@
 #include <deal.II/fe/fe_poly.h>
 
 #include <mortise/body/elements/fe_legendre.h>
+#include <mortise/body/elements/simplex_basis.h>
 #include <mortise/operators/cells/cell_fields.h>
 #include <mortise/operators/cells/lobatto_table.h>
 
@@ -65,18 +66,14 @@ namespace mortise
         , n_rows(n_points * (with_derivatives ? dim + 1 : 1))
       {
         entries.resize(element.n_dofs_per_cell() * n_rows);
-        std::vector<double>         values(element.n_dofs_per_cell());
-        std::vector<Tensor<1, dim>> slopes(values.size());
-        std::vector<Tensor<2, dim>> no_2;
-        std::vector<Tensor<3, dim>> no_3;
-        std::vector<Tensor<4, dim>> no_4;
+        std::vector<Tensor<1, dim>> slopes;
         // all functions at once: one by one each takes as long
         const auto &polynomials =
           dynamic_cast<const FE_Poly<dim> &>(element).get_poly_space();
         for (unsigned int q = 0; q < n_points; ++q)
           {
-            polynomials.evaluate(
-              points.point(q), values, slopes, no_2, no_3, no_4);
+            const auto values =
+              values_at(polynomials, points.point(q), &slopes);
             for (unsigned int i = 0; i < values.size(); ++i)
               {
                 double *row = &entries[i * n_rows + q];

@@ -5,6 +5,7 @@
 #include <Teuchos_BLAS.hpp>
 #include <mortise/base/lagrange.h>
 #include <mortise/body/elements/hexahedral_mapping.h>
+#include <mortise/body/elements/simplex_basis.h>
 #include <mortise/body/elements/simplex_mapping.h>
 #include <mortise/body/mesh/vertex_order.h>
 #include <mortise/operators/cells/cell_geometry.h>
@@ -30,15 +31,11 @@ namespace mortise
     {
       const unsigned int n = polynomials.n();
       gradient_table.resize(quadrature.size() * dim * n);
-      std::vector<double>         values(n);
-      std::vector<Tensor<1, dim>> gradients(n);
-      std::vector<Tensor<2, dim>> no_2;
-      std::vector<Tensor<3, dim>> no_3;
-      std::vector<Tensor<4, dim>> no_4;
+      std::vector<Tensor<1, dim>> gradients;
       for (unsigned int q = 0; q < quadrature.size(); ++q)
         {
-          polynomials.evaluate(
-            quadrature.point(q), values, gradients, no_2, no_3, no_4);
+          const auto values =
+            values_at(polynomials, quadrature.point(q), &gradients);
           value_table.insert(value_table.end(), values.begin(), values.end());
           for (unsigned int a = 0; a < dim; ++a)
             for (unsigned int k = 0; k < n; ++k)
