@@ -1,6 +1,6 @@
-// Which multipliers of contact press: lambda >= 0, gap >= 0, lambda gap = 0 by
-// the primal-dual active set strategy. It knows no mesh and no matrix.
-// Source: Hueber and Wohlmuth (2005), Hueber, Stadler, Wohlmuth (2008).
+// Primal-dual active set strategy for the contact conditions lambda >= 0, g
+// >= 0, lambda g = 0. Source: Hueber and Wohlmuth (2005), Hueber, Stadler,
+// Wohlmuth (2008).
 #pragma once
 
 #include <deal.II/base/mpi.h>
@@ -16,8 +16,10 @@ namespace mortise
   class ActiveSet
   {
   public:
-    /// By owned multiplier: @p one_sided, may it press only? All start active; the others stay so.
-    /// @p stiffness: what makes a pressure of a gap. @p first: the number of the first owned one. Collective.
+    /// All multipliers start active. By owned multiplier: @p one_sided, whether
+    /// it belongs to contact (others stay active); @p stiffness, the
+    /// complementarity parameter c in lambda - c g, force per volume. @p first:
+    /// global index of the first owned multiplier. Collective.
     ActiveSet(std::vector<bool>               one_sided,
               std::vector<double>             stiffness,
               dealii::types::global_dof_index first,
@@ -30,14 +32,15 @@ namespace mortise
       return now;
     }
 
-    /// Start from these, by owned multiplier, as if no other set had been.
+    /// Restart from this set, by owned multiplier, and forget earlier ones.
     void
     start_from(const std::vector<bool> &active);
 
     struct Change
     {
       std::uint64_t opened = 0, closed = 0;
-      /// Pressure and gap are zero but for rounding: they stay what they are.
+      /// Multipliers whose pressure and gap are zero to rounding; they keep
+      /// their state.
       std::uint64_t undecided = 0;
 
       bool
@@ -47,14 +50,16 @@ namespace mortise
       }
     };
 
-    /// Go to the next set from what solves the equations of this one: active
-    /// multipliers that pull open, gaps that are negative close. When a set
-    /// comes back, or eight in turn have no fewer violations than one before,
-    /// the energy decides from then on: see descend().
+    /// Compute the next set from the solution with this one: active multipliers
+    /// with lambda < 0 open, inactive ones with g < 0 close. Once a set recurs,
+    /// or eight sets in a row do not reduce the number of violated conditions,
+    /// descend() chooses the sets.
     ///
-    /// @p multiplier: by owned one, a pressure; @p gap: a length; @p length: what rounding of gaps is
-    /// relative to; @p accuracy: of both, relative to the largest pressure. @p extend: may add to those
-    /// that turn; not asked where one does. Collective.
+    /// By owned multiplier: @p multiplier, a pressure, and @p gap, a length.
+    /// @p length: size of the bodies, which scales the rounding of gaps.
+    /// @p accuracy: of both, relative to the largest pressure. @p extend: may
+    /// add multipliers to those that change; called only if some change.
+    /// Collective.
     Change
     advance(const double                                        *multiplier,
             const double                                        *gap,
@@ -62,35 +67,35 @@ namespace mortise
             double                                               accuracy,
             const std::function<void(std::vector<bool> &turns)> &extend = {});
 
-    /// By owned multiplier: was it among Change::undecided the last time?
+    /// By owned multiplier: did the last advance() count it as undecided?
     const std::vector<bool> &
     undecided() const
     {
       return unclear;
     }
 
-    /// Have sets come back since the start?
+    /// Has a set recurred since the start?
     bool
     cycles() const
     {
       return descending;
     }
 
-    /// Active ones among those that may press only, of all ranks. Collective.
+    /// Number of active multipliers of contact on all ranks. Collective.
     std::uint64_t
     n_active() const;
 
   private:
     std::uint64_t
     fingerprint() const;
-    /// Keeps pressures that press everywhere and whose complementary energy
-    /// falls from set to set, so that none comes back. They are those of a set
-    /// where nothing pulls; then all gaps that overlap close. Where a set
-    /// pulls, they go towards its pressures until the first is zero, and what
-    /// pulls and is zero opens. Source: Lawson and Hanson (1974), several at a
-    /// time as
-    /// far as it goes. @p before: the set of these multipliers; @p rounding: of pressures;
-    /// @p turns: those that violate, then those to turn. Collective.
+    /// Active set method that terminates: it keeps feasible pressures (lambda
+    /// >= 0) whose complementary energy falls from set to set. If a set has no
+    /// negative pressure, its pressures are kept and all negative gaps close;
+    /// otherwise the kept pressures move towards those of the set until the
+    /// first is zero, and negative ones that are zero open. Source: Lawson and
+    /// Hanson (1974), with several multipliers at a time. @p before: the set
+    /// that @p multiplier solves; @p rounding: of pressures; @p turns: the
+    /// violated conditions, on return the multipliers that change. Collective.
     void
     descend(const double            *multiplier,
             const std::vector<bool> &before,
@@ -102,10 +107,10 @@ namespace mortise
     dealii::types::global_dof_index first;
     MPI_Comm                        comm;
     std::vector<bool>               now, unclear;
-    std::set<std::uint64_t>         seen;     ///< fingerprints
-    std::uint64_t                   fewest;   ///< violations since the start
-    unsigned int                    patience; ///< sets until there are fewer
-    bool                            descending;
+    std::set<std::uint64_t>         seen; ///< fingerprints
+    std::uint64_t       fewest;   ///< violated conditions since the start
+    unsigned int        patience; ///< sets until there are fewer
+    bool                descending;
     std::vector<double> falling; ///< see descend(); empty at its beginning
   };
 } // namespace mortise

@@ -1,5 +1,5 @@
-// How far a contact opens beyond where it pulls: what pressures look like
-// beside its edge, on any mesh, says where the edge goes.
+// Prediction of the edge of a contact from the singular pressures beside it,
+// which saves active sets on fine meshes.
 #pragma once
 
 #include <mortise/contact/multiplier_places.h>
@@ -8,20 +8,21 @@
 
 namespace mortise
 {
-  /// Where bodies are held together beyond the edge of their contact by the
-  /// length d, the pressure at the distance s from where they part is K1
-  /// s^(1/2) - K2 s^(-1/2), d = 2 K2 / K1: it pulls up to s = d / 2 only. Sets
-  /// that open just what pulls halve d each time and need the more steps the
-  /// finer the mesh is. Source: the singular solutions of a half-plane,
-  /// Johnson, Contact Mechanics (1985), sections 2.8 and 5.1.
+  /// If the active set reaches the length d beyond the true edge, the pressure
+  /// at the distance s from its end is K1 s^(1/2) - K2 s^(-1/2), d = 2 K2 / K1,
+  /// hence negative only for s < d / 2. Sets that open negative pressures alone
+  /// halve d each time and need more steps on finer meshes. Source: the
+  /// singular solutions of a half-plane, Johnson, Contact Mechanics (1985),
+  /// sections 2.8 and 5.1.
   class ContactEdge
   {
   public:
     /// Collective.
     ContactEdge(MultiplierPlaces places, MPI_Comm comm);
 
-    /// Add to @p turns, the multipliers whose sign is wrong, active ones no farther from these than
-    /// these are wide from the edge on. Both by owned multiplier. Collective.
+    /// Add to @p turns, the multipliers of wrong sign, the active ones within a
+    /// distance of them equal to the width of their zone beside the edge. Both
+    /// by owned multiplier. Collective.
     void
     extend(const std::vector<bool> &active, std::vector<bool> &turns) const;
 

@@ -1,5 +1,5 @@
-// The law of an interface: how the traction that its multipliers carry depends
-// on how its sides are apart. It knows no mesh and no matrix.
+// Constitutive law of an interface: its traction lambda as a function of the
+// jump of the displacement.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -16,11 +16,11 @@ namespace mortise
   {
     tie,     ///< the jump of the displacement is zero
     slide,   ///< its component along the normal is zero
-    contact, ///< gap >= 0, pressure >= 0, and one of both is zero
+    contact, ///< gap >= 0, pressure >= 0, pressure gap = 0
     spring   ///< traction = K times the jump
   };
 
-  /// As parameter files call them, in the order of Law.
+  /// Names in parameter files, in the order of Law.
   const std::vector<std::string> &
   interface_law_names();
 
@@ -37,22 +37,22 @@ namespace mortise
     normal ///< of the slave
   };
 
-  /// Of a thin layer: traction by opening, along its normal and across, force
-  /// per volume. Infinite where nothing opens.
+  /// Stiffness of a thin layer, traction over jump, along its normal and
+  /// tangentially; force per volume. Infinite where the jump is zero.
   struct Stiffness
   {
     double normal     = std::numeric_limits<double>::infinity();
     double tangential = std::numeric_limits<double>::infinity();
   };
 
-  /// The sides of an interface at a point of the slave.
+  /// State of both sides of an interface at a point of the slave.
   struct InterfacePoint
   {
     dealii::Point<3>     position;
     dealii::Tensor<1, 3> normal;      ///< of the slave: outward, of unit length
     dealii::Tensor<1, 3> jump;        ///< u_master - u_slave, a length
     dealii::Tensor<1, 3> mesh_gap;    ///< X_master - X_slave, a length
-    double               offset = 0.; ///< gap beside that of the meshes
+    double               offset = 0.; ///< gap in addition to the mesh gap
     dealii::Tensor<1, 3> traction;    ///< lambda, on the master: force per area
   };
 
@@ -60,49 +60,49 @@ namespace mortise
   {
     Law            law  = Law::tie;
     HeldDirections held = HeldDirections::all;
-    /// Does the gap between the meshes count? Else they stand for surfaces that
-    /// coincide.
+    /// Does the gap between the meshes count? If not, the surfaces are taken as
+    /// coinciding.
     bool has_mesh_gap = false;
-    /// K of a spring, at a point of the slave; null for other laws.
+    /// Stiffness K of a spring at a point of the slave; null for other laws.
     std::function<Stiffness(const dealii::Point<3> &)> stiffness;
 
-    /// Do multipliers have a sign, and an active set?
+    /// Do multipliers satisfy an inequality, with an active set?
     bool
     is_one_sided() const
     {
       return law == Law::contact;
     }
 
-    /// Has the constraint a compliance?
+    /// Has the constraint a compliance K^{-1}?
     bool
     is_compliant() const
     {
       return law == Law::spring;
     }
 
-    /// g = n . (jump + mesh gap) + offset, a length; negative where the sides
-    /// overlap.
+    /// g = n . (jump + mesh gap) + offset, a length; negative on penetration.
     double
     gap(const InterfacePoint &point) const;
 
-    /// Does the point press, where @p c is a pressure by gap?
+    /// Is the point active: pressure - c g > 0 with the complementarity
+    /// parameter @p c, force per volume?
     bool
     presses(const InterfacePoint &point, double c) const
     {
       return point.traction * point.normal > c * gap(point);
     }
 
-    /// Twice the energy per area that it takes to mend what is broken at a
-    /// point, where half-spaces take c d^2 for sides that are a length d off,
-    /// and t^2 / c for a traction t that is not to be there. A spring gives way
-    /// further when it is mended: c (d / (1 + c / K))^2. Of gap and pressure of
-    /// contact at the same point what is less counts.
+    /// Violation of the law at a point as twice the energy per area of a
+    /// correction on half-spaces: c d^2 for an error d of the jump, t^2 / c for
+    /// an error t of the traction. The compliance of a spring reduces it to c
+    /// (d / (1 + c / K))^2. In contact the smaller one of the errors of gap and
+    /// pressure counts.
     double
     violation(const InterfacePoint &point, double c) const;
 
-    /// What stands for the constraint in the penalty of a preconditioner, where
-    /// @p of_tie is that of a tie, and @p springs are K at the nodes of a face:
-    /// less where springs give way. Force per volume.
+    /// Penalty factor of the law in preconditioners, force per volume:
+    /// @p of_tie for ties, reduced by the compliance of @p springs, the
+    /// stiffnesses K at the nodes of a face.
     Stiffness
     penalty(double of_tie, const std::vector<Stiffness> &springs) const;
   };

@@ -1,5 +1,5 @@
-// Where the multipliers of contact are, which tells discretisations of the same
-// surfaces what another one has found.
+// Positions of the multipliers of contact, by which an active set passes from
+// one discretisation to another.
 #pragma once
 
 #include <deal.II/base/mpi.h>
@@ -14,15 +14,15 @@ namespace mortise
   struct MultiplierPlaces
   {
     std::vector<dealii::Point<3>> points;
-    /// A number from 1 on for the surface of each; 0: not of contact.
+    /// Number of the surface of each, from 1 on; 0: not of contact.
     std::vector<unsigned int> surfaces;
   };
 
-  /// Which multipliers are active, of all ranks, by place.
+  /// An active set of all ranks as a set of points.
   class ActivePlaces
   {
   public:
-    /// None of any surface.
+    /// Without surfaces.
     ActivePlaces() = default;
 
     /// Both by owned multiplier. Collective.
@@ -30,9 +30,9 @@ namespace mortise
                  const std::vector<bool> &active,
                  MPI_Comm                 comm);
 
-    /// By owned multiplier of another discretisation: is the nearest one on its
-    /// surface active? True for those that are not of contact, and on surfaces
-    /// that had none.
+    /// By owned multiplier of another discretisation: is the nearest multiplier
+    /// on its surface active? True for multipliers that are not of contact, and
+    /// on surfaces that are not known.
     std::vector<bool>
     nearest(const MultiplierPlaces &places) const;
 
@@ -49,7 +49,7 @@ namespace mortise
 
   private:
     using Place = std::array<double, 3>;
-    /// By surface: those that are not active, and those that are.
+    /// By surface: inactive, then active points.
     std::vector<std::array<std::vector<Place>, 2>> by_surface;
   };
 } // namespace mortise
