@@ -25,15 +25,16 @@ namespace mortise
   {
     FaceShape    shape   = FaceShape::quadrilateral;
     unsigned int degree  = 1;
-    double       modulus = 1.; ///< Young's modulus behind the face
-    double       depth   = 1.; ///< of the cell behind the face, normal to it
+    double       modulus = 1.;       ///< Young's modulus behind the face
+    double       depth   = 1.;       ///< height of the cell behind the face
     std::vector<unsigned int> begin; ///< by row, one past the end included
     std::vector<dealii::types::global_dof_index>
                         column; ///< numbering of the scene
     std::vector<double> weight;
-    /// By row: whose prescribed value is added, invalid where it is free.
+    /// By row: the dof whose prescribed value g is added; invalid where there
+    /// is none.
     std::vector<dealii::types::global_dof_index> prescribed;
-    /// By level, for iterative solvers that use a NodalSpace, else empty.
+    /// By level of the multigrid; empty for the direct solver.
     std::vector<FaceNodes> nodes;
 
     const TraceBasis &
@@ -59,8 +60,8 @@ namespace mortise
     }
   };
 
-  /// Faces of one boundary, or of a part of it, that belong to cells this rank
-  /// owns, in one order.
+  /// The faces of a boundary, or of a part of it, on owned cells. The vectors
+  /// have the same order.
   struct BodySurface
   {
     std::vector<SurfaceFace>
@@ -69,25 +70,23 @@ namespace mortise
     std::vector<Body::CellIterator> cells;
     std::vector<unsigned int>       face_numbers;
     std::vector<BoundaryFace>       known; ///< of ghost cells, too
-    /// What stands for the normal along which bodies are tied, of unit length;
-    /// absent: it does.
+    /// Unit vector that takes the place of the normal, for supports.
     std::optional<dealii::Tensor<1, dim>> direction;
   };
 
-  /// The displacement u of a body by dof, with the values of ghosts, which
-  /// takes surfaces to the configuration x = X + u; null: that of the mesh.
+  /// The displacement u of a body by dof, with ghost values, of the
+  /// configuration x = X + u; null: u = 0.
   using Displacement =
     const dealii::LinearAlgebra::distributed::Vector<double> *;
 
-  /// The face's geometry, exactly; not finalized: that of the body's mapping,
-  /// of its degree, or of that of the element if this is higher and the body is
-  /// displaced.
+  /// The exact geometry of the face, not finalized. Its degree is that of the
+  /// mapping, in a displaced body at least that of the element.
   SurfaceFace
   face_geometry(const Body         &body,
                 const BoundaryFace &face,
                 Displacement        displacement = nullptr);
 
-  /// The owned faces of the whole boundary, finalized; their normals are their
+  /// The owned faces of the whole boundary, finalized, with normals of their
   /// own.
   std::vector<SurfaceFace>
   whole_boundary(const Body &body, Displacement displacement = nullptr);
@@ -108,8 +107,8 @@ namespace mortise
                   const NodalSpaces                       &levels = {},
                   Displacement displacement                       = nullptr);
 
-  /// What faces @p surface everywhere and never moves: the same faces seen from the other side,
-  /// with traces without columns.
+  /// A rigid surface that coincides with @p surface and faces it; its traces
+  /// have no columns.
   BodySurface
   rigid_counterpart(const BodySurface &surface);
 

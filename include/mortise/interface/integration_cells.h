@@ -41,7 +41,7 @@ namespace mortise
     move(unsigned int from, unsigned int to);
   };
 
-  /// What became of a pair.
+  /// Outcome of integrate() for a pair.
   enum class PairStatus : unsigned char
   {
     accepted,
@@ -120,7 +120,7 @@ namespace mortise
     std::unique_ptr<Scratch> scratch;
   };
 
-  /// Sums over the pairs of one slave face or of many.
+  /// Sums over the pairs of one or more slave faces.
   struct Coverage
   {
     double       slave_area   = 0;

@@ -1,6 +1,5 @@
-// One interface between a slave and a master surface: finds the pairs of faces,
-// clips them and hands integration points to whoever integrates. It knows no
-// shape functions.
+// One interface between a slave and a master surface: searches pairs of faces,
+// clips them and passes their integration points to visitors.
 #pragma once
 
 #include <mortise/interface/body_surface.h>
@@ -17,13 +16,13 @@ namespace mortise
 {
   struct InterfaceOptions
   {
-    /// Largest gap or penetration that is bridged.
+    /// Largest distance of partners.
     SearchDistance distance;
-    /// Points per direction in an integration cell; absent: by degrees and
-    /// geometry.
+    /// Points per direction in an integration cell; absent: see
+    /// quadrature_points().
     std::optional<unsigned int> points_per_direction;
-    /// Owned faces of the whole boundaries of both bodies, asked for where a
-    /// partner might be seen through them; empty: never.
+    /// Owned faces of the whole boundaries of both bodies for tests of
+    /// visibility; empty: no tests.
     std::function<std::vector<SurfaceFace>()> slave_boundary, master_boundary;
   };
 
@@ -32,7 +31,7 @@ namespace mortise
   {
     std::uint64_t slave_faces  = 0;
     std::uint64_t master_faces = 0;
-    /// Slave faces with the same points as a master face: not clipped.
+    /// Slave faces that coincide with a master face and are not clipped.
     std::uint64_t coinciding_faces          = 0;
     std::uint64_t candidate_pairs           = 0;
     std::uint64_t pairs                     = 0;
@@ -40,9 +39,8 @@ namespace mortise
     std::uint64_t largest_integration_cells = 0; ///< of the busiest rank
     std::uint64_t quadrature_points         = 0;
     std::uint64_t failed_pairs = 0; ///< projections that did not converge
-    /// The gap between the meshes along the normal, positive where they are
-    /// apart, over the covered area: its mean, the mean of its magnitude, the
-    /// largest magnitude.
+    /// The mesh gap along the normal over the covered area, positive where the
+    /// meshes are apart: mean, mean magnitude, largest magnitude.
     double gap_mean = 0., distance_mean = 0., distance_max = 0.;
     /// sagitta() of the slave faces, the mean over the covered area.
     double sagitta_mean = 0.;
@@ -60,16 +58,16 @@ namespace mortise
   class InterfaceHandler
   {
   public:
-    /// Takes the owned faces of both sides and collects the master faces near
-    /// to this rank's slave faces, with their traces. Collective.
+    /// Takes the owned faces of both sides and imports the master faces, with
+    /// their traces, near to owned slave faces. Collective.
     InterfaceHandler(const std::string      &name,
                      BodySurface             slave,
                      BodySurface             master,
                      const InterfaceOptions &options,
                      MPI_Comm                comm);
 
-    /// Called for each pair of faces that overlap: slave number, number among
-    /// masters(), points.
+    /// Called for each pair of overlapping faces: number of the slave face,
+    /// number in master_faces(), points.
     using Visitor = std::function<void(unsigned int             slave,
                                        unsigned int             master,
                                        const IntegrationPoints &points)>;
@@ -79,7 +77,7 @@ namespace mortise
     void
     integrate_pairs(const Visitor &visitor);
 
-    /// Clip them again, for another integral of the same points.
+    /// Clip all pairs again for another integral with the same points.
     void
     visit_pairs(const Visitor &visitor) const
     {
@@ -105,8 +103,7 @@ namespace mortise
       return master_surface;
     }
 
-    /// Traces of the master faces near to this rank's slaves, whichever rank
-    /// owns them.
+    /// Traces of master_faces().
     const std::vector<FaceTrace> &
     master_traces() const
     {
@@ -119,14 +116,15 @@ namespace mortise
       return near_masters;
     }
 
-    /// Covered part of the area, by slave face. Valid after integrate_pairs().
+    /// Covered fraction of the area, by slave face. Valid after
+    /// integrate_pairs().
     const std::vector<double> &
     coverage() const
     {
       return covered_fraction;
     }
 
-    /// Likewise.
+    /// Valid after integrate_pairs().
     const InterfaceReport &
     report() const
     {
@@ -134,10 +132,10 @@ namespace mortise
     }
 
   private:
-    /// May a partner be farther away than bodies are thick? Collective.
+    /// Does the search distance exceed the thickness of the bodies? Collective.
     bool
     may_see_through() const;
-    /// Leaves of @p points those whose partners are seen.
+    /// Remove from @p points those whose partners are hidden.
     void
     drop_hidden(unsigned int       s,
                 unsigned int       m,
@@ -150,11 +148,11 @@ namespace mortise
                      PairIntegrator    &integrator,
                      IntegrationPoints &points,
                      Coverage          &coverage) const;
-    /// What a pass over the pairs finds on this rank.
+    /// Results of a pass over the pairs on this rank.
     struct Pass
     {
       Coverage            sum;
-      std::vector<double> covered; ///< part of the area, by slave face
+      std::vector<double> covered; ///< fraction, by slave face
       double              worst_error = -1.;
       dealii::Point<3>    worst_centre;
       double              clipping_seconds = 0.;

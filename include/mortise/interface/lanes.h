@@ -1,4 +1,4 @@
-// Eight numbers or vectors at a time.
+// Arithmetic with eight numbers or vectors at a time.
 #pragma once
 
 #include <deal.II/base/tensor.h>
@@ -15,7 +15,7 @@ namespace mortise
 
   constexpr unsigned int n_lanes = 8;
 
-  /// Those of the lanes that fit a register, for what must be fast.
+  /// The lanes that fit a register, for loops that take much time.
   typedef double LanesPart
     __attribute__((vector_size(register_width), may_alias));
 

@@ -1,6 +1,5 @@
-// The one rule for points of the interface, x_m(eta) = x_s(xi) + alpha n(xi),
-// solved in both directions on the true curved faces. It never decides whether
-// two faces belong together.
+// Projection along the slave's normal field, x_m(eta) = x_s(xi) + alpha n(xi),
+// solved in both directions on the curved faces.
 #pragma once
 
 #include <mortise/interface/surface_evaluation.h>
@@ -35,7 +34,7 @@ namespace mortise
       return is_linear;
     }
 
-    /// Reference coordinates and height in the linear picture of the face.
+    /// Reference coordinates and height in the FaceFrame.
     void
     chart(const Vec3<Lanes> &x, Lanes (&xi)[2], Lanes &height) const;
 
@@ -55,10 +54,10 @@ namespace mortise
     Vec3<Lanes>
     normal(const Lanes (&xi)[2]) const;
 
-    /// What a Newton step needs at any xi: the face continued a little beyond
-    /// its reference domain by its polynomial and then by its tangents
-    /// (continuously, and well defined however far away), the normal field
-    /// continued in the same way, and dx[i] + alpha dn/dxi_i.
+    /// Point, normal and derivatives for a Newton step at any xi: the face
+    /// continued a little beyond its reference domain by its polynomial and
+    /// then by its tangents (continuously, and well defined however far away),
+    /// the normal field continued in the same way, and dx[i] + alpha dn/dxi_i.
     void
     evaluate_extended(const Lanes (&xi)[2],
                       const Lanes &alpha,
@@ -96,8 +95,8 @@ namespace mortise
       return normal_twist;
     }
 
-    /// Heights beyond this count as this (the farthest master that can be a
-    /// partner).
+    /// Heights are limited to this, the distance of the farthest possible
+    /// partner.
     double height_limit;
 
   private:
@@ -159,8 +158,8 @@ namespace mortise
             Vec3<Lanes> &x_m,
             Lanes       &slope) const;
 
-    /// For the lanes in @p wanted: the sample of the face that faces x and lies nearest to the
-    /// line through x along n.
+    /// For the lanes in @p wanted: the sample of the face nearest to the line
+    /// through x along n whose normal opposes n.
     void
     nearest_samples(const Vec3<Lanes> &x,
                     const Vec3<Lanes> &n,

@@ -1,5 +1,5 @@
-// The reference domains of faces, see face_shape.h: their centre, area, sides
-// and edges, and what it means to lie inside.
+// The reference domains of faces, see face_shape.h: centre, area, sides, edges
+// and tests of points.
 #pragma once
 
 #include <mortise/body/elements/face_shape.h>
@@ -10,7 +10,7 @@
 
 namespace mortise
 {
-  /// Where a face is pictured by its tangents.
+  /// Both coordinates of the point at which a FaceFrame has its tangents.
   constexpr double
   center_coordinate(const FaceShape shape)
   {
@@ -126,8 +126,8 @@ namespace mortise
                                            xi_1 < 1 && xi_2 < 1);
   }
 
-  /// The nearest place, side by side, in the shape enlarged by @p margin; beyond
-  /// the hypotenuse along the ray to the opposite vertex of the enlarged
+  /// The nearest point, side by side, in the shape enlarged by @p margin;
+  /// beyond the hypotenuse along the ray to the opposite vertex of the enlarged
   /// triangle. Continuous in xi, which stays as it is inside.
   inline void
   clamp_into(const FaceShape shape, const double margin, Lanes (&xi)[2])
@@ -160,7 +160,7 @@ namespace mortise
     std::array<double, 2> lower;
     std::array<double, 3> upper;
 
-    /// How far outside, negative inside.
+    /// Distance from the box along a coordinate, negative inside.
     Lanes
     outside_by(const Lanes (&xi)[2]) const
     {

@@ -1,6 +1,5 @@
-// Which master faces are near to a slave face: boxes in a packed R-tree on one
-// rank, and the exchange of near faces between ranks. It never clips and never
-// decides about contact.
+// Contact search: bounding boxes of master faces in a packed R-tree, and the
+// exchange of nearby faces between ranks.
 #pragma once
 
 #include <mortise/interface/surface_face.h>
@@ -12,12 +11,12 @@
 
 namespace mortise
 {
-  /// How far from each other two faces can be a pair.
+  /// Largest distance of two faces of a pair.
   struct SearchDistance
   {
     double by_size = 0.5; ///< times the size of the larger one
-    double length  = 0.;  ///< if it is positive, in place of that
-    double least   = 0.;  ///< a length, however small both are
+    double length  = 0.;  ///< takes its place if positive
+    double least   = 0.;  ///< lower bound, a length
 
     double
     of(const double size) const
@@ -50,10 +49,9 @@ namespace mortise
     std::unique_ptr<Tree>           tree;
   };
 
-  /// The master faces of all ranks that are near to a slave face of this rank,
-  /// sorted by id and without doubles: what this rank needs to integrate over
-  /// its slave faces. A face travels whole, with its payload. Collective; a
-  /// rank may own no faces.
+  /// The master faces of all ranks near to a slave face of this rank, with
+  /// their payload, sorted by id and without doubles. Collective; a rank may
+  /// own no faces.
   std::vector<SurfaceFace>
   exchange_near_faces(const std::vector<SurfaceFace> &owned_slaves,
                       const std::vector<SurfaceFace> &owned_masters,

@@ -1,4 +1,4 @@
-// A boundary divided where it has edges.
+// Division of a boundary into smooth patches along its edges.
 #pragma once
 
 #include <mortise/body/boundary_faces.h>

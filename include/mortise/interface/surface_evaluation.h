@@ -34,10 +34,10 @@ namespace mortise
     std::vector<double> xi_1, xi_2, weight;
   };
 
-  /// Gauss points on [0,1] and what n points per direction make on faces: the
+  /// Gauss rule on [0,1] and rules with n points per direction on faces: the
   /// tensor product on the square, first coordinate fastest, and the same in
-  /// collapsed coordinates on the triangle, (s,t) -> (s (1-t), t) with
-  /// dA = (1-t) ds dt, exact for total degree 2n-2.
+  /// collapsed coordinates on the triangle, (s,t) -> (s (1-t), t) with dA
+  /// = (1-t) ds dt, exact for total degree 2n-2.
   struct GaussRule
   {
     explicit GaussRule(const unsigned int n);

@@ -1,5 +1,5 @@
-// One curved face of a body's surface as plain data, with what follows from its
-// points alone: box, size, frame, corner normals, area.
+// A curved face of a body's surface as plain data, with box, size, frame,
+// vertex normals and area.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -13,10 +13,9 @@
 
 namespace mortise
 {
-  /// Linear picture of a face about its centre, used for search, initial
-  /// guesses and everything far away. The chart of a point x is center_xi +
-  /// dual[i] . (x - center), exact for an affine face and blind to motion along
-  /// @p normal.
+  /// Linearisation of a face about its centre for search and initial guesses.
+  /// The chart of a point x is center_xi + dual[i] . (x - center), exact for an
+  /// affine face and independent of the position along @p normal.
   struct FaceFrame
   {
     double           center_xi = 0.5; ///< see center_coordinate()
@@ -66,8 +65,7 @@ namespace mortise
     std::uint64_t id    = 0; ///< global, unique on its side of the interface
     unsigned int  owner = 0; ///< rank that owns the face
 
-    /// Anything its owner wants to travel with the face (for instance dof
-    /// indices).
+    /// Data that travel with the face (for instance dof indices).
     std::vector<char> payload;
 
     // Derived by finalize():
@@ -112,9 +110,9 @@ namespace mortise
   double
   face_area(const SurfaceFace &face, const unsigned int n = 0);
 
-  /// How far @p face lies off the smooth surface that it stands for: size times
-  /// angle by 4, the angle that of its own normals at the vertices against
-  /// those averaged over the faces around. Zero where faces meet smoothly.
+  /// Distance of @p face from the smooth surface that it approximates: size
+  /// times angle / 4, with the angle between its own vertex normals and the
+  /// averaged ones. Zero where faces meet smoothly.
   double
   sagitta(const SurfaceFace &face);
 

@@ -1,5 +1,5 @@
-// What lies between a point of the slave and its partner: a partner must not be
-// seen through a body. It never decides which faces belong to the interface.
+// Test whether a body lies between a point of the slave and its partner, which
+// excludes the pair.
 #pragma once
 
 #include <mortise/interface/integration_cells.h>
@@ -13,18 +13,17 @@ namespace mortise
   class Visibility
   {
   public:
-    /// Faces of the whole boundaries of both bodies that are near to the slave
-    /// faces of this rank, finalized. They count as curved as they are: where
-    /// bodies are thinner than their faces bend, straight ones lie on the other
-    /// side of the points.
+    /// Finalized faces of the whole boundaries of both bodies near to owned
+    /// slave faces. They have to be curved: in bodies thinner than the sagitta
+    /// of their faces straight ones lie on the wrong side of the points.
     Visibility(const std::vector<SurfaceFace> &slave_boundary,
                const std::vector<SurfaceFace> &master_boundary);
     ~Visibility();
 
-    /// By point of a pair: is there a face between it and its partner, other than faces @p slave
-    /// and @p master (ids) on which they lie? What lies in the outer twentieths
-    /// of the way, and no farther from its ends than @p safe [length], in which no body ends, is
-    /// their neighbourhood.
+    /// By point of a pair: is there a face between it and its partner, other
+    /// than their own faces @p slave and @p master (ids)? Faces in the outer
+    /// twentieths of the way, and no farther from its ends than the length
+    /// @p safe within which no body ends, do not count.
     std::vector<bool>
     hidden(std::uint64_t            slave,
            std::uint64_t            master,
