@@ -1,6 +1,5 @@
-// Coupling of two surfaces by multipliers: D and M as one matrix over the
-// numbering of the scene, what preconditioners need of it, and how well it
-// couples.
+// Mortar coupling of two surfaces: D and M as one matrix in the numbering of
+// the scene, its parts for preconditioners, and its quality.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -17,7 +16,7 @@
 
 namespace mortise
 {
-  /// One interface with everything that was integrated over it.
+  /// One interface with its integrals.
   struct Coupling
   {
     InterfaceLaw                      law;
@@ -25,16 +24,16 @@ namespace mortise
     std::vector<std::vector<Frame>>   frames; ///< see slave_frames()
     std::vector<LocalCoupling>        local;  ///< by slave face
     std::unique_ptr<MultiplierSpace>  multipliers;
-    /// By owned multiplier, of contact; else empty.
+    /// By owned multiplier of contact; else empty.
     std::vector<NormalMultiplier> normal_multipliers;
   };
 
-  /// By coupling and slave face; after the integration of all that share a
-  /// slave surface.
+  /// By coupling and slave face; after the integration of all interfaces that
+  /// share a slave surface.
   std::vector<std::vector<PartnerState>>
   partner_states(const std::vector<Coupling> &couplings);
 
-  /// Who owns which rows and columns.
+  /// Owned rows and columns.
   struct CouplingPartition
   {
     const dealii::IndexSet &owned_displacement;
@@ -42,50 +41,50 @@ namespace mortise
     MPI_Comm                comm;
   };
 
-  /// The constraint B u = 0 of all interfaces: B = [D, -M], where bodies slide
-  /// its component along the normal of each slave node; multipliers x
-  /// displacements that are free. Displacements are values at nodes, which the
-  /// partition numbers: the traces have them. @p with_frames: bodies slide or hang on springs. Collective.
+  /// The constraint matrix B = [D, -M] of all interfaces, multipliers x free
+  /// displacements; of sliding bodies its normal component at each slave node.
+  /// Displacements are values at nodes. @p with_frames: with sliding bodies or
+  /// springs. Collective.
   CouplingMatrix
   assemble_by_node(const std::vector<Coupling> &couplings,
                    const CouplingPartition     &partition,
                    bool                         with_frames);
 
-  /// Set the stiffness of the law of @p coupling at the nodes of slave faces,
-  /// where it is compliant.
+  /// Set the stiffness at the nodes of slave faces from the law of @p coupling,
+  /// if that is a spring.
   void
   set_springs(Coupling &coupling);
 
-  /// C with B u - C lambda = g: int psi K^{-1} psi of springs, K their
-  /// stiffness; lumped where multipliers are dual, which is as good as these
-  /// are. Rows of ties are zero. Collective.
+  /// The compliance S with B u - S lambda = g: S = int psi K^{-1} psi with the
+  /// stiffness K of springs, lumped for dual multipliers. Rows of ties are
+  /// zero. Collective.
   SparseMatrix
   assemble_compliance(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition);
 
-  /// Set which multipliers take part, for what preconditioners see of it. @p active: by owned
-  /// multiplier. Collective.
+  /// Set LocalCoupling::active_share of slave faces for the penalties of
+  /// preconditioners. @p active: by owned multiplier. Collective.
   void
   select_multipliers(const std::vector<bool> &active,
                      const dealii::IndexSet  &owned_multiplier,
                      MPI_Comm                 comm,
                      Coupling                &coupling);
 
-  /// What a multiplier feels of rigid motions: that of component c over a bound
-  /// of int |psi|.
+  /// Moments of a multiplier with rigid motions: component c, divided by a
+  /// bound of int |psi|.
   struct MultiplierMoment
   {
     dealii::Tensor<1, dim> weight; ///< int psi_c
     dealii::Tensor<2, dim> moment; ///< [c]: int psi_c x, a length
   };
 
-  /// By owned multiplier of @p coupling; zero where it has no weight anywhere. Collective.
+  /// By owned multiplier of @p coupling. Collective.
   std::vector<MultiplierMoment>
   multiplier_moments(const Coupling         &coupling,
                      const dealii::IndexSet &owned_multiplier,
                      MPI_Comm                comm);
 
-  /// How exactly constant and linear fields pass an interface.
+  /// Errors of constant and linear fields on an interface.
   struct TransferErrors
   {
     /// max_i |sum_j D_ij - sum_j M_ij| / max_i |sum_j D_ij| over the
@@ -102,7 +101,7 @@ namespace mortise
                   const dealii::IndexSet &owned_multiplier,
                   MPI_Comm                comm);
 
-  /// What the multipliers carry from the slave to the master.
+  /// Resultants of the tractions from the slave on the master.
   struct Resultants
   {
     dealii::Tensor<1, dim> force;  ///< int lambda
@@ -117,40 +116,40 @@ namespace mortise
   Resultants
   resultants(const Coupling &coupling, const Vector &multiplier, MPI_Comm comm);
 
-  /// By slave face of this rank and row of MultiplierSpace::rows(), the value
-  /// of what
-  /// has @p multiplier for coefficients; zero where nothing is coupled. Collective.
+  /// By slave face of this rank and row of MultiplierSpace::rows(): the value
+  /// of the function with the coefficients @p multiplier; zero on faces without
+  /// multipliers. Collective.
   std::vector<std::vector<double>>
   values_by_row(const Coupling &coupling,
                 const Vector   &multiplier,
                 MPI_Comm        comm);
 
-  /// Coefficients of the multiplier on the slave faces of this rank, those of
-  /// psi_k, by slave face: entry c (degree + 1)^2 + k. Collective.
+  /// By slave face of this rank: the coefficients of psi_k for component c,
+  /// entry c (degree + 1)^2 + k. Collective.
   std::vector<std::vector<double>>
   multiplier_coefficients(const Coupling &coupling,
                           const Vector   &multiplier,
                           MPI_Comm        comm);
 
-  /// The multiplier as polynomials on the slave faces of this rank, which do
-  /// the same work on the slave: by slave face, entry c (degree + 1)^2 + k as
-  /// in FaceTrace. Dual multipliers jump from face to face and say less of the
-  /// traction than the forces on the slave do. Collective.
+  /// The multiplier as polynomials that do the same work on the slave, which
+  /// approximate the traction better than discontinuous dual functions: by
+  /// slave face of this rank, entry c (degree + 1)^2 + k as in FaceTrace.
+  /// Collective.
   std::vector<std::vector<double>>
   multiplier_on_faces(const Coupling &coupling,
                       const Vector   &multiplier,
                       MPI_Comm        comm);
 
-  /// Add int psi . n offset to the right hand side of B u = g: the gap that is
-  /// left between the bodies, on top of that between their meshes. @p offset: at
-  /// points of the slave, a length. Collective.
+  /// Add int psi . n offset to the right hand side of B u = g. @p offset: the
+  /// gap in addition to the mesh gap, a length, at points of the slave.
+  /// Collective.
   void
   add_offset(
     const Coupling                                                  &coupling,
     const std::function<double(const dealii::Point<dim> &position)> &offset,
     Vector                                                          &rhs);
 
-  /// What undoes multiplier_coefficients(), for the owned multipliers.
+  /// The inverse of multiplier_coefficients(), for owned multipliers.
   void
   set_multiplier(const Coupling                         &coupling,
                  const std::vector<std::vector<double>> &coefficients,

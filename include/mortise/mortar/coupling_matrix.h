@@ -1,5 +1,5 @@
-// The constraint B as D and M are: scalar, one value for a node of multipliers
-// and a node of displacements, whatever the components.
+// The constraint matrix B with scalar entries, as D and M have: one value per
+// node of multipliers and node of displacements for all components.
 #pragma once
 
 #include <mortise/base/sparse_matrix.h>
@@ -8,25 +8,25 @@
 
 namespace mortise
 {
-  /// B = R B_c. The rows of B_c move one component of displacements each, with
-  /// the values of a row of entries, which components mostly share; R are the
-  /// frames of multipliers, the identity where bodies are tied. Displacements
-  /// are numbered by node, their components one after the other.
+  /// B = R B_c. A row of B_c acts on one component of the displacement and has
+  /// the values of a row of entries, which components mostly share. R holds the
+  /// frames of multipliers and is the identity for ties. Displacements are
+  /// numbered by node, their components one after the other.
   class CouplingMatrix
   {
   public:
     /// A row of B_c.
     struct Row
     {
-      dealii::types::global_dof_index entries   = 0; ///< row, of the same rank
+      dealii::types::global_dof_index entries   = 0; ///< row of the same rank
       unsigned int                    component = 0;
     };
 
     CouplingMatrix() = default;
 
-    /// @p entries: rows x nodes for dim components; those rows that no other refers to are empty.
-    /// @p rows: by owned row, those of an entity of the mesh one after the
-    /// other, in it by component. @p frames: multipliers x rows, of size 0 for the identity.
+    /// @p entries: rows x nodes; rows that @p rows do not refer to are empty.
+    /// @p rows: by owned row, ordered by entity of the mesh and within it by
+    /// component. @p frames: R, multipliers x rows, of size 0 for the identity.
     CouplingMatrix(SparseMatrix          &&entries,
                    const std::vector<Row> &rows,
                    SparseMatrix          &&frames);
@@ -65,7 +65,7 @@ namespace mortise
       return frames_of_rows.m() > 0;
     }
 
-    /// R, where it is not the identity.
+    /// R, unless it is the identity.
     const SparseMatrix &
     frames() const
     {
@@ -92,26 +92,26 @@ namespace mortise
       scalar().add_to_owned(dst.begin(), of_columns);
     }
 
-    /// dst = B u, without regard to what is constrained. Collective.
+    /// dst = B u with the columns of constrained displacements. Collective.
     void
     vmult_free(Vector &dst, const Vector &u) const
     {
       multiply(dst, scalar().on_columns(u.begin()));
     }
 
-    /// dst += B^T lambda, likewise. Collective.
+    /// dst += B^T lambda with these columns. Collective.
     void
     Tvmult_add_free(Vector &dst, const Vector &lambda) const
     {
       scalar().add_to_owned(dst.begin(), forces(lambda));
     }
 
-    /// diag(B T B^T) by owned multiplier, T diagonal, by owned displacement.
+    /// diag(B T B^T) by owned multiplier; T diagonal, by owned displacement.
     /// Collective.
     Vector
     diagonal_of_square(const Vector &T) const;
 
-    /// By column of scalar() and component; zero where constrained. Collective.
+    /// By column of scalar() and component; zero if constrained. Collective.
     std::vector<double>
     on_columns(const Vector &by_displacement) const
     {

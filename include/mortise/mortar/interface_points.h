@@ -1,5 +1,4 @@
-// The sides of an interface at its quadrature points, where bodies are
-// displaced.
+// Evaluation of both sides of an interface at its quadrature points.
 #pragma once
 
 #include <mortise/mortar/coupling.h>
@@ -10,15 +9,15 @@
 
 namespace mortise
 {
-  /// In the numbering of the traces.
+  /// Displacement in the numbering of the traces.
   struct TraceDisplacement
   {
-    Vector free;       ///< coefficients; those of others do not matter
-    Vector prescribed; ///< what is added to these
+    Vector free;       ///< owned coefficients
+    Vector prescribed; ///< added to them
   };
 
-  /// The gap that is left between bodies beside that of their meshes, at points
-  /// of the slave, a length; null: none.
+  /// The gap in addition to the mesh gap, a length, at points of the slave;
+  /// null: zero.
   using Offset = std::function<double(const dealii::Point<dim> &position)>;
 
   class InterfacePoints
@@ -30,17 +29,17 @@ namespace mortise
                     const Offset            &offset,
                     MPI_Comm                 comm);
 
-    /// Choose the slave face of the points to come.
+    /// Choose the slave face.
     void
     reinit(unsigned int slave);
 
-    /// Point @p q of @p points, which the slave face and the master face @p m share, without a
-    /// traction.
+    /// Point @p q of @p points, common to the slave face and the master face
+    /// @p m; without its traction.
     InterfacePoint
     operator()(unsigned int m, const IntegrationPoints &points, unsigned int q);
 
   private:
-    /// Of the functions of a face, by component.
+    /// By component and function of a face.
     using Coefficients = std::array<std::vector<double>, dim>;
 
     Coefficients

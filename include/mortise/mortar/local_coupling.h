@@ -1,14 +1,12 @@
-// Integrals over one slave face and its partners: of shape functions, and of
-// multipliers, which are the local blocks of D and M. They are the same for the
-// three components.
+// Integrals over one slave face and its partners: the element matrices D_e and
+// M_e, the same for the three components.
 //
 // Multipliers belong to the nodes of the slave face (Gauss-Lobatto points on
-// quadrilaterals). Standard ones are the nodal functions phi_i themselves. Dual
-// ones are psi = A phi with A = W M^{-1}, M = int phi phi^T, W = diag(int
-// phi_i), so that int psi_i phi_j = w_i delta_ij and the sum of all is 1: see
-// Lamichhane and Wohlmuth (2007). They take the place of standard ones on faces
-// that are covered as a whole and whose weights w_i are all positive:
-// quadrilaterals that are not distorted too much, and triangles of degree 1.
+// quadrilaterals). Standard ones are the nodal functions phi_i. Dual ones are
+// psi = A phi, A = W M^{-1}, M = int phi phi^T, W = diag(int phi_i), so that
+// int psi_i phi_j = w_i delta_ij and sum psi_i = 1: Lamichhane and Wohlmuth
+// (2007). They are used on fully covered faces with positive weights w_i:
+// moderately distorted quadrilaterals and triangles of degree 1.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -34,8 +32,8 @@ namespace mortise
     struct Partner
     {
       unsigned int master; ///< among InterfaceHandler::master_faces()
-      /// In values at nodes: is the master so much coarser that preconditioners
-      /// let the slave follow it, rather than move both?
+      /// Is the master so much coarser that preconditioners move it alone and
+      /// let the slave follow? For values at nodes.
       bool                       leads = false;
       dealii::FullMatrix<double> mixed; ///< int N_i^slave N_j^master
       dealii::FullMatrix<double>
@@ -55,18 +53,16 @@ namespace mortise
     std::vector<dealii::Tensor<1, dim>> position_moment; ///< int psi_i x_slave
     std::vector<Partner>                partners;
     std::vector<Stiffness>              springs; ///< by node; empty: a tie
-    /// Standard multipliers that stand for pressures, where the normal turns:
-    /// the traction of psi_k at node i of n, at k n + i; else empty, and it is
-    /// the normal at node k there. It is psi_k n, n interpolated from the
-    /// normals at nodes, as a polynomial of the face that does the same work on
-    /// those: a body then turns freely in its bore. psi_k n_k would hold it,
-    /// since psi_k has both signs from degree 2 on.
+    /// Standard multipliers along a normal that turns: entry k n + i is the
+    /// traction of psi_k at node i of n, the projection of psi_k n, n
+    /// interpolated between nodes, onto the polynomials of the face. A body
+    /// then turns freely in its bore, which psi_k n_k would prevent, since
+    /// psi_k changes sign from degree 2 on. Empty: psi_k n_k.
     std::vector<dealii::Tensor<1, dim>> along_normals;
-    double                              penalty =
-      0.; ///< scale of jump penalties: about E / h of the softer side, or of
-          ///< the slave where a master leads, since it is what moves
+    double penalty = 0.; ///< of jumps: about E / h of the softer side, or of
+                         ///< the slave if a master leads
 
-    /// How much of the face's multipliers take part, see select_multipliers().
+    /// Fraction of active multipliers, see select_multipliers().
     double active_share = 1.;
 
     bool
@@ -76,9 +72,9 @@ namespace mortise
     }
   };
 
-  /// Clip @p interface and integrate; one entry per slave face. @p may_lead: let slaves follow
-  /// where that pays. @p frames: slave_frames() where multipliers are along normals,
-  /// else empty. Collective.
+  /// Clip @p interface and integrate; one entry per slave face. @p may_lead:
+  /// may Partner::leads be set? @p frames: slave_frames() for multipliers along
+  /// normals, else empty. Collective.
   std::vector<LocalCoupling>
   integrate_coupling(InterfaceHandler                      &interface,
                      bool                                   with_master_mass,

@@ -1,5 +1,5 @@
-// What the multiplier space needs to know of the slave faces around this rank:
-// their dofs, degrees, rims and how well they are covered.
+// Slave faces around this rank with the data from which a multiplier space
+// follows: dofs, degrees, rims and coverage.
 #pragma once
 
 #include <mortise/interface/body_surface.h>
@@ -9,29 +9,28 @@
 
 namespace mortise
 {
-  /// How much of a slave face has a partner.
+  /// Coverage of a slave face by partners.
   enum class Cover : unsigned char
   {
     none,    ///< no multipliers
-    sliver,  ///< little, or less than another interface has of it: it goes on
-             ///< with the multipliers of faces beside it
+    sliver,  ///< little, or less than by another interface: extends multipliers
+             ///< of neighbours
     partial, ///< less than nine tenths: multipliers of degree 1
     full
   };
 
-  /// @p covered: the fraction; @p most: no interface has more of the face.
+  /// @p covered: fraction; @p most: no other interface covers more of the face.
   Cover
   cover_of(double covered, bool most);
 
-  /// What a slave face meets on the other side.
+  /// Partners of a slave face.
   struct PartnerState
   {
-    Cover cover = Cover::none;
-    std::array<bool, dim>
-      can_follow{}; ///< by component: some displacement there is free, of
-                    ///< the slave or of the master
-    bool has_dual = false; ///< multipliers are dual: see LocalCoupling
-    std::vector<dealii::Tensor<1, dim>> along_normals; ///< see LocalCoupling
+    Cover                 cover = Cover::none;
+    std::array<bool, dim> can_follow{}; ///< by component: some displacement of
+                                        ///< slave or master is free
+    bool                                has_dual = false; ///< see LocalCoupling
+    std::vector<dealii::Tensor<1, dim>> along_normals;    ///< see LocalCoupling
   };
 
   /// A slave face of an owned or ghost cell. Vertices and edges are numbered as

@@ -1,5 +1,4 @@
-// What a slave face says about the multipliers on it: the reduction beside rims
-// by one face alone.
+// Rules of a single slave face for the reduction of multipliers beside rims.
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>
@@ -12,23 +11,23 @@
 
 namespace mortise
 {
-  /// What the faces around one dof say about its multiplier.
+  /// Results of the rules of all faces around a dof for its multiplier.
   struct MultiplierRecord
   {
     using Dofs = std::set<dealii::types::global_dof_index>;
 
     bool kept         = true;  ///< not above the reduced degree of a face
-    bool on_full_face = false; ///< some face around it is well covered
+    bool on_full_face = false; ///< some face around it has full coverage
     bool vertex       = false;
-    bool blocked      = false; ///< vertices: the displacement is
+    bool blocked      = false; ///< vertices: the displacement is blocked ...
     bool made_up      = false; ///< ... and a mode is dropped instead
     bool on_rim       = false; ///< vertices: end of an edge across a rim ...
     bool across_kept  = false; ///< ... that has modes left
     bool can_follow = false; ///< some displacement is free on a face around it
     Dofs neighbours; ///< across the rim or from a blocked vertex, off all rims
     Dofs diagonal;   ///< other vertices, off all rims
-    Dofs merged;     ///< must have the same value
-    /// Vertices on rims that give the value of one with none of the above.
+    Dofs merged;     ///< have the same value
+    /// Vertices on rims that determine the value if all of the above are empty.
     Dofs beside;
 
     /// A blocked vertex that is at the end of no rim.
@@ -38,8 +37,7 @@ namespace mortise
       return blocked && !on_rim;
     }
 
-    /// A vertex on a rim that finds no free one on the faces around it to
-    /// take its value from.
+    /// A vertex on a rim without a free vertex on the faces around it.
     bool
     is_stranded() const
     {
@@ -50,13 +48,14 @@ namespace mortise
   using MultiplierRecords =
     std::map<dealii::types::global_dof_index, MultiplierRecord>;
 
-  /// By dof on the slave: the dof of the first component there, its component.
+  /// By dof of the slave: the dof of the first component at its node, its
+  /// component.
   using MultiplierPlaces =
     std::map<dealii::types::global_dof_index,
              std::pair<dealii::types::global_dof_index, unsigned int>>;
 
-  /// Add what @p face says about component @p c. As many multipliers are left
-  /// as there are free displacements, or fewer:
+  /// Add the rules of @p face for component @p c, by which there are at most as
+  /// many multipliers as free displacements:
   ///
   /// - quadrilaterals: in each direction one degree less for each rim at its
   ///   two ends;
@@ -69,21 +68,20 @@ namespace mortise
                          unsigned int          c,
                          MultiplierRecords    &records);
 
-  /// Behind apply_multiplier_rules() for all faces: where the displacement of
-  /// a quadrilateral's vertex is blocked, but that of no edge there, the
-  /// multiplier stays and the highest mode inside goes in its place, from
-  /// degree 2 on; at degree 1 the vertex takes the mean of its neighbours.
+  /// After apply_multiplier_rules() for all faces: at a blocked vertex of a
+  /// quadrilateral without a blocked edge the multiplier stays and the highest
+  /// mode inside is dropped instead; at degree 1 the vertex has the mean of its
+  /// neighbours.
   void
   make_up_for_blocked_vertices(const MultiplierFace &face,
                                unsigned int          c,
                                MultiplierRecords    &records);
 
-  /// At the margin of the slave and at its kinks edges of @p faces may hang on
-  /// one of a larger cell that has no face there. What displacements have there
-  /// follows the modes of that edge, which are multipliers, too, with the
-  /// reduction beside rims: add these to @p places, and their @p records, for
-  /// each of @p n_directions components. Where @p presses_only they are left
-  /// out, since no face gives them Bernstein coefficients. Behind
+  /// At the boundary and at kinks of the slave, edges of @p faces may hang on
+  /// an edge of a larger cell without a face on the slave. The modes of that
+  /// edge are multipliers, too, with the reduction beside rims: add them to
+  /// @p places and @p records for @p n_directions components, unless
+  /// @p presses_only, since no face has their Bernstein coefficients. After
   /// apply_multiplier_rules() for all faces.
   void
   add_edges_of_larger_cells(const std::vector<MultiplierFace> &faces,

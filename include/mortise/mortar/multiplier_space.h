@@ -1,23 +1,18 @@
-// The multipliers of one interface: the trace space of the slave's
-// displacements, component by component, reduced where that keeps the coupling
-// stable.
+// The multiplier space of one interface: the trace space of the slave's
+// displacements, component by component, reduced for stability (inf-sup).
 //
-// The reduction, without any flag from the user, per component c:
-// - rims: where all displacements of a slave face's edge are prescribed
-// (Dirichlet, or the dofs of an
-//   earlier interface), the degree across the edge is one less in that face, so
-//   that there are as many multipliers as free displacements and constants stay
-//   representable; at degree 1 the vertex on the rim takes the mean of its
-//   neighbours off the rim; where no vertex of a patch of faces is free, one
-//   constant is left on it, where any displacement of either side is free;
-// - hanging nodes and mixed degrees: the conforming trace space, by the body's
-// constraints;
-// - faces covered in part: those covered by less than nine tenths have only
-// multipliers of degree 1, those
-//   covered by less than a tenth go on with the values at the vertices that
-//   they share with better covered ones, so that constants pass there, too.
-// Sources: Bernardi, Maday, Patera (1994); Wohlmuth (2000); Seshaiyer, Suri
-// (2000).
+// The reduction of each component:
+// - rims: if all displacements of a slave face's edge are prescribed
+//   (Dirichlet, or dofs of an earlier interface), the degree across the edge is
+//   one less in that face, so that there are as many multipliers as free
+//   displacements and constants remain; at degree 1 the vertex on the rim has
+//   the mean of its neighbours off the rim; on a patch of faces without a free
+//   vertex one constant remains if some displacement of either side is free;
+// - hanging nodes and mixed degrees: the conforming trace space;
+// - partial coverage: multipliers of degree 1 below nine tenths; below a tenth
+//   the extension of the values at vertices shared with other faces, so that
+//   constants remain. Sources: Bernardi, Maday, Patera (1994); Wohlmuth (2000);
+//   Seshaiyer, Suri (2000).
 #pragma once
 
 #include <deal.II/lac/affine_constraints.h>
@@ -37,8 +32,7 @@ namespace mortise
 {
   struct Coupling;
 
-  /// The multipliers of one coupling among those that this rank owns of all
-  /// couplings.
+  /// The multipliers of one coupling among the owned ones of all couplings.
   struct MultiplierRange
   {
     unsigned int first = 0, size = 0;
@@ -60,7 +54,7 @@ namespace mortise
     {
       Index               index;
       unsigned int        direction; ///< component, 0 along normals
-      std::vector<double> of_values; ///< what gives it from those at the nodes
+      std::vector<double> of_values; ///< weights of the values at nodes
     };
 
     /// Multipliers on one face: value_c(xi) = sum_k psi_k(xi) sum_j weight_j
@@ -74,22 +68,22 @@ namespace mortise
       std::vector<unsigned int> begin;
       std::vector<Index>  index; ///< numbering of all multipliers of the scene
       std::vector<double> weight;
-      /// By entry: has an earlier component a multiplier there whose row of B
-      /// has the same entries?
+      /// By entry: is there a multiplier of an earlier component at the node
+      /// whose row of B has the same entries?
       std::vector<bool> is_represented;
-      /// Those that are no value at a node, but a coefficient.
+      /// Multipliers that are coefficients, not values at nodes.
       std::vector<Coefficient> coefficients;
-      /// By component, the same for all along normals: is there a multiplier
-      /// that is one on the whole face? If not, constant tractions do not pass.
+      /// By component (equal for all along normals): is the constant function
+      /// on the face a multiplier, so that constant tractions are exact?
       std::array<bool, dim> hold_constants{};
-      /// By node: the directions of its multipliers, in rows, those of the
-      /// axes where all components are held.
+      /// By node: the directions of its multipliers, in rows; the axes if all
+      /// components are held.
       std::vector<Frame> frames;
       /// See LocalCoupling.
       std::vector<dealii::Tensor<1, dim>> along_normals;
 
-      /// Calls visit(node, direction) for the nodes where @p row has a part of
-      /// the traction: direction times the sum of its multipliers.
+      /// Calls visit(node, direction) for the nodes with a traction from
+      /// @p row: direction times the sum of its multipliers.
       template <typename Visit>
       void
       for_each_direction(const unsigned int row, const Visit &visit) const
@@ -109,12 +103,11 @@ namespace mortise
       }
     };
 
-    /// Decide which multipliers @p coupling has, whose slave is a boundary of @p body. @p partners: by slave
-    /// face. @p blocked: whether a locally owned displacement dof (position in
-    /// the owned range) is prescribed by a boundary condition or belongs to an
-    /// earlier interface. Where the law is one-sided, multipliers have the sign
-    /// of the pressure: values at nodes where they are dual, else Bernstein
-    /// coefficients of the same polynomials. Collective.
+    /// Choose the multipliers of @p coupling, whose slave belongs to @p body.
+    /// @p partners: by slave face. @p blocked: by owned displacement dof,
+    /// whether it is prescribed or belongs to an earlier interface. Multipliers
+    /// of a one-sided law have the sign of the pressure: values at nodes if
+    /// dual, else Bernstein coefficients of the same polynomials. Collective.
     MultiplierSpace(const Body                      &body,
                     const Coupling                  &coupling,
                     const std::vector<PartnerState> &partners,
@@ -127,30 +120,31 @@ namespace mortise
       return owned_dofs.size();
     }
 
-    /// The number of the first of these; valid after number().
+    /// Global index of the first one; valid after number().
     Index
     first() const
     {
       return first_number;
     }
 
-    /// Displacement dofs (DoFHandler's numbering, owned) that the owned
-    /// multipliers sit on.
+    /// Owned displacement dofs (DoFHandler's numbering) of the owned
+    /// multipliers.
     const std::vector<Index> &
     slave_dofs() const
     {
       return owned_dofs;
     }
 
-    /// Those of this rank; valid after number().
+    /// Owned multipliers; valid after number().
     const MultiplierRange &
     range() const
     {
       return owned_range;
     }
 
-    /// Number the owned multipliers from @p first on and collect the rows of this rank's slave
-    /// faces. @p first_owned: the number that this rank owns of couplings before. Collective.
+    /// Number the owned multipliers from @p first on and collect the rows of
+    /// slave faces. @p first_owned: number of owned multipliers of earlier
+    /// couplings. Collective.
     void
     number(const BodySurface &slave, Index first, unsigned int first_owned = 0);
 
@@ -174,14 +168,13 @@ namespace mortise
       return numbered.owned;
     }
 
-    /// The constraint in rows that move one component each: a multiplier is a
-    /// combination of them. Where all directions are tied, both are the same
-    /// but for their numbers.
+    /// The rows of B_c (see CouplingMatrix), which act on one component each
+    /// and of which multipliers are combinations; for ties one row is one
+    /// multiplier.
     struct ComponentRows
     {
       Rows rows; ///< of all directions, in numbers of component rows
-      /// (multiplier, component row, weight); those that several faces see are
-      /// there several times.
+      /// (multiplier, component row, weight), repeated for each face.
       std::vector<std::tuple<Index, Index, double>> frames;
     };
 
@@ -189,13 +182,13 @@ namespace mortise
     unsigned int
     n_component_rows(const BodySurface &slave) const;
 
-    /// Valid after number(). @p first: the number of the first row that this
-    /// rank owns. Collective.
+    /// Valid after number(). @p first: index of the first owned row.
+    /// Collective.
     ComponentRows
     component_rows(const BodySurface &slave, Index first) const;
 
   private:
-    /// The rows with the owned multipliers numbered from @p first on. Collective.
+    /// Rows with owned multipliers numbered from @p first on. Collective.
     Rows
     make_rows(const BodySurface &slave, Index first) const;
 
@@ -207,7 +200,7 @@ namespace mortise
     std::vector<std::vector<dealii::Tensor<1, dim>>> along_normals; ///< by face
     std::vector<Index>                               owned_dofs;
     std::vector<bool> at_vertices; ///< by owned multiplier
-    /// By owned multiplier: the dof of the first component there, its
+    /// By owned multiplier: the dof of the first component at its node, its
     /// component.
     std::vector<std::pair<Index, unsigned int>> places;
     dealii::AffineConstraints<double>

@@ -1,5 +1,5 @@
-// Integrals of hierarchical functions on faces, turned into those of nodal
-// functions of the same or a lower degree.
+// Change of basis on faces from hierarchical functions to nodal ones of the
+// same or a lower degree.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -13,7 +13,7 @@
 
 namespace mortise
 {
-  /// What the rows or columns of a block are made of and become.
+  /// Functions of the rows or columns of a block before and after.
   struct BlockSide
   {
     FaceShape    shape;
@@ -46,9 +46,8 @@ namespace mortise
   std::vector<dealii::Point<2>>
   face_nodes(FaceShape shape, unsigned int degree);
 
-  /// F_r^T A F_c where F_r, F_c say how the values at the nodes of the rows'
-  /// and the columns' face follow from those of others; as it is where none
-  /// hangs.
+  /// F_r^T A F_c, where F_r and F_c are the constraints of hanging nodes on the
+  /// faces of rows and columns; A if there are none.
   dealii::FullMatrix<double>
   resolve_hanging(dealii::FullMatrix<double> A,
                   const FaceNodes           &rows,

@@ -1,5 +1,5 @@
-// What multipliers along normals stand for: areas, directions and gaps, from
-// which signs and results of contact follow.
+// Integrals of multipliers along normals: area, direction and weighted gap, for
+// the active set and the results of contact.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -15,23 +15,24 @@ namespace mortise
 {
   struct Coupling;
 
-  /// One multiplier: the pressure at a node of the slave, or a coefficient of
-  /// it that has its sign.
+  /// A multiplier of contact: the pressure at a node of the slave, or a
+  /// Bernstein coefficient of the pressure.
   struct NormalMultiplier
   {
     double                 area = 0.; ///< int psi
-    dealii::Point<dim>     place;     ///< int psi x over it
+    dealii::Point<dim>     place;     ///< int psi x / area
     dealii::Tensor<1, dim> normal;    ///< int psi n
     dealii::Tensor<1, dim> moment;    ///< int psi x cross n, about the origin
-    /// int psi n . (x_master - x_slave) of the meshes: a volume, negative where
-    /// they overlap.
+    /// Weighted gap int psi n . (x_master - x_slave) of the meshes, a volume;
+    /// negative on penetration.
     double gap = 0.;
-    /// Pressure by gap that is worth as much, about E / h of the softer side,
-    /// force per volume.
+    /// Complementarity parameter c, about E / h of the softer side, force per
+    /// volume.
     double stiffness = 0.;
   };
 
-  /// By owned multiplier of @p coupling, whose directions are normal. Collective.
+  /// By owned multiplier of @p coupling, which has HeldDirections::normal.
+  /// Collective.
   std::vector<NormalMultiplier>
   normal_multipliers(const Coupling         &coupling,
                      const dealii::IndexSet &owned_multiplier,

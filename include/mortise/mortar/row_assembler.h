@@ -1,5 +1,5 @@
-// Sums of dense blocks in a sparse matrix, each row and column of a block a
-// combination of global ones.
+// Assembly of dense blocks into a sparse matrix, where each row and column of a
+// block expands into global ones.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -23,13 +23,13 @@ namespace mortise
     unsigned int                                        offset;
   };
 
-  /// The same with its numbers, written function by function.
+  /// An Expansion that owns its numbers, filled function by function.
   class OwnExpansion
   {
   public:
     OwnExpansion() = default;
 
-    /// @p functions of others.
+    /// The given @p functions of @p all.
     OwnExpansion(const Expansion                 &all,
                  const std::vector<unsigned int> &functions)
     {
@@ -43,7 +43,7 @@ namespace mortise
         }
     }
 
-    /// A term of the next function.
+    /// Add a term to the present function.
     void
     add(const dealii::types::global_dof_index term, const double factor)
     {
@@ -51,7 +51,7 @@ namespace mortise
       weight.push_back(factor);
     }
 
-    /// It has all its terms.
+    /// End the present function.
     void
     close()
     {
@@ -66,7 +66,7 @@ namespace mortise
       weight.clear();
     }
 
-    /// Functions.
+    /// Number of functions.
     unsigned int
     size() const
     {
@@ -91,8 +91,8 @@ namespace mortise
     std::vector<double>                          weight;
   };
 
-  /// Entries sum_ij (row expansion of i) block_ij (column expansion of j).
-  /// First the places of all blocks are recorded, then their entries added.
+  /// Adds sum_ij (row expansion of i) block_ij (column expansion of j): first
+  /// record the sparsity of all blocks, then add their entries.
   class RowAssembler
   {
   public:
@@ -105,7 +105,7 @@ namespace mortise
            const Expansion &column,
            unsigned int     n_columns);
 
-    /// Behind the last record(), in front of the first add().
+    /// To be called after the last record() and before the first add().
     void
     allocate();
 
@@ -127,8 +127,8 @@ namespace mortise
     find(Index row) const;
     unsigned int
     find_or_insert(Index row);
-    /// Where @p wanted stand in @p pattern: mostly where those of another
-    /// component of the same block did, in an earlier call with this @p guess.
+    /// Positions of @p wanted in @p pattern, mostly the same as in the last
+    /// call with this @p guess, for another component of the same block.
     const std::vector<unsigned int> &
     find_places(const std::vector<Index> &wanted,
                 const std::vector<Index> &pattern,
@@ -142,8 +142,8 @@ namespace mortise
     std::vector<std::vector<unsigned int>> sets_of;
     std::vector<std::vector<Index>>        patterns;   ///< columns, ascending
     std::vector<unsigned int>              pattern_of; ///< by recorded row
-    std::vector<std::size_t>               begin;      ///< of values, likewise
-    std::vector<double>                    values;
+    std::vector<std::size_t> begin; ///< of values, by recorded row
+    std::vector<double>      values;
     std::vector<std::vector<unsigned int>> guesses; ///< see find_places()
   };
 } // namespace mortise

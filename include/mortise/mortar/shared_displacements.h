@@ -1,6 +1,5 @@
-// Displacements that several interfaces of a scene move: which interface goes
-// first in choosing those that its multipliers determine, and which are then
-// taken.
+// Order in which interfaces that share displacements choose their multipliers,
+// so that the constraints of all are independent.
 #pragma once
 
 #include <mortise/body/spaces/numbering.h>
@@ -10,13 +9,14 @@
 
 namespace mortise
 {
-  /// The constraints of all interfaces are independent of each other if each
-  /// interface determines displacements of its slave that none before it moves:
-  /// the matrix is then triangular by blocks. What an interface moves is the
-  /// slave and the part of the master that it meets. So where a surface is
-  /// slave in one interface and master in another, the former goes first;
-  /// where interfaces go round in circles, as around an edge that bodies share,
-  /// or share a slave, the one that takes the least part of others does.
+  /// The constraints of all interfaces are linearly independent if each
+  /// interface determines displacements of its slave that no earlier one
+  /// couples: B is then block triangular. An interface couples its slave and
+  /// the covered part of its master. A surface that is slave in one interface
+  /// and master in another is therefore first used as slave. In a cycle, as
+  /// around an edge that bodies share, and among interfaces with a common
+  /// slave, the one that couples the smallest part of the other slaves is
+  /// first.
   class SharedDisplacements
   {
   public:
@@ -26,15 +26,14 @@ namespace mortise
                         const FieldNumbering                         &numbering,
                         MPI_Comm                                      comm);
 
-    /// Numbers of the interfaces; whatever order they are given in, it is the
-    /// same.
+    /// Numbers of the interfaces, independent of their order in the scene.
     const std::vector<unsigned int> &
     order() const
     {
       return sequence;
     }
 
-    /// What interface @p i moves is taken from now on.
+    /// Mark the displacements that interface @p i couples as taken.
     void
     take(unsigned int i)
     {

@@ -1,5 +1,5 @@
-// Frames at the nodes of slave faces: the normal of the true surface, one for
-// each node that faces share, the mean of theirs, and two tangents.
+// Frames (n, t1, t2) at the nodes of slave faces: the averaged normal of the
+// faces that share a node, and two tangents.
 #pragma once
 
 #include <mortise/body/body.h>
@@ -10,36 +10,36 @@
 
 namespace mortise
 {
-  /// Orthonormal, in rows: the outward normal n, and tangents t1, t2 = n x t1.
+  /// Orthonormal rows: the outward normal n, tangents t1 and t2 = n x t1.
   using Frame = dealii::Tensor<2, dim>;
 
-  /// The frame of a normal of unit length. t1 lies in the plane of n and of the
-  /// axis that is most across it.
+  /// The frame of a unit normal n; t1 lies in the plane of n and the axis at
+  /// the largest angle to it.
   Frame
   frame_of(const dealii::Tensor<1, dim> &normal);
 
-  /// By function of a face: do faces that share its dof have the same node
-  /// there? Not where nodes hang or degrees meet. @p dofs: of a component.
+  /// By function of a face: do faces that share its dof share its node, too?
+  /// Not at hanging nodes or between degrees. @p dofs: of a component.
   std::vector<bool>
   have_shared_nodes(const TraceBasis                                   &basis,
                     const std::vector<dealii::types::global_dof_index> &dofs,
                     const Body                                         &body);
 
-  /// By slave face and node, nodes as in TraceBasis. Where nodes hang, degrees
-  /// meet or edges are sharp, faces keep normals of their own. All normals are
-  /// the surface's direction if it has one. Collective.
+  /// By slave face and node (see TraceBasis). At hanging nodes, between degrees
+  /// and at sharp edges faces have normals of their own. If the surface has a
+  /// direction, it is the normal. Collective.
   std::vector<std::vector<Frame>>
   slave_frames(const Body &body, const BodySurface &slave);
 
-  /// A node of this rank where the normals of faces are more than 30 degrees
-  /// off their mean. Collective.
+  /// A node of this rank at which a face's normal differs from the mean by more
+  /// than 30 degrees. Collective.
   std::optional<dealii::Point<dim>>
   find_sharp_edge(const Body &body, const BodySurface &slave);
 
-  /// Whether nothing of the normal displacement is left free at a node, by
-  /// owned displacement dof; dofs of the first component stand for nodes.
-  /// @p blocked: likewise, whether a displacement is prescribed or belongs to
-  /// an earlier interface. Collective.
+  /// By owned displacement dof of the first component: is the normal
+  /// displacement of its node constrained? @p blocked: by owned displacement
+  /// dof, whether it is prescribed or belongs to an earlier interface.
+  /// Collective.
   std::vector<bool>
   blocked_normals(const Body                            &body,
                   const BodySurface                     &slave,

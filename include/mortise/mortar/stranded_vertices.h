@@ -1,6 +1,5 @@
-// Vertices of a slave of degree 1 that find no free vertex around them to take
-// their multiplier from: each patch of them shares one constant. It never
-// decides which vertices are stranded.
+// Patches of slave vertices of degree 1 without a free vertex around them; the
+// multiplier of a patch is one constant.
 #pragma once
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -18,16 +17,16 @@ namespace mortise
   public:
     using Index = dealii::types::global_dof_index;
 
-    /// Connect the stranded dofs over the faces around this rank, those of
-    /// owned and ghost cells. The keys of may_follow are the stranded dofs
-    /// known here, all owned ones among them; the values say whether the other
-    /// side is free on some face around. Collective.
+    /// Connect stranded dofs over the faces of owned and ghost cells. The keys
+    /// of @p may_follow are the stranded dofs known here, all owned ones among
+    /// them; its values tell whether the other side is free on some face
+    /// around. Collective.
     StrandedVertices(const Body                        &body,
                      const std::vector<MultiplierFace> &faces,
                      const std::map<Index, bool>       &may_follow);
 
-    /// The dof that carries the constant of the patch that an owned stranded
-    /// dof is in; nothing if nothing can follow it.
+    /// The dof with the constant of the patch of an owned stranded @p dof;
+    /// nothing if no displacement is free there.
     std::optional<Index>
     representative(Index dof) const
     {
@@ -36,8 +35,7 @@ namespace mortise
       return static_cast<Index>(smallest(dof));
     }
 
-    /// Add the dofs that representative() gives for owned dofs, those of far
-    /// ranks too.
+    /// Add the representatives of owned dofs, which any rank may own.
     void
     add_representatives(dealii::IndexSet &set) const;
 
@@ -50,7 +48,8 @@ namespace mortise
       for (auto &[dof, state] : states)
         state = {smallest(dof), follow(dof)};
     }
-    /// Pass the smallest dof of each face to its stranded vertices; whether one
+
+    /// Pass the smallest dof of each face to its stranded vertices. True if one
     /// changed.
     bool
     spread(const std::vector<MultiplierFace> &faces);

@@ -1,6 +1,5 @@
-// How much the sides of an interface break its law between the functions of the
-// multipliers: as an energy, what a coupling that holds only in the mean costs;
-// and how deep bodies are inside each other.
+// Violation of an interface law at quadrature points, where multipliers enforce
+// it in the mean only: its energy, and the largest penetration.
 #pragma once
 
 #include <mortise/mortar/interface_points.h>
@@ -9,7 +8,7 @@
 
 namespace mortise
 {
-  /// What multipliers put on one face, at a point of both sides.
+  /// Traction of the multipliers on one side at a point.
   struct TractionAtPoint
   {
     dealii::Point<2>       xi; ///< as CellFace has it
@@ -17,8 +16,8 @@ namespace mortise
     dealii::Tensor<1, dim> normal;      ///< outward, of unit length
     dealii::Tensor<1, dim> traction;    ///< on this side, force per area
     double                 weight = 0.; ///< an area
-    /// Components that have a multiplier; without it nothing moves there, and
-    /// any traction is right.
+    /// Components with a multiplier; in others displacements are prescribed and
+    /// any traction is admissible.
     std::array<bool, dim> is_known{};
 
     template <typename Archive>
@@ -29,7 +28,7 @@ namespace mortise
     }
   };
 
-  /// By owned face of a surface that has partners.
+  /// Tractions on an owned face with partners.
   struct TractionsOnFace
   {
     Body::CellIterator           cell;
@@ -42,19 +41,17 @@ namespace mortise
   {
     std::vector<double> energies; ///< by slave face
     TractionsOnFaces    on_slave, on_master;
-    /// By owned face of the slave and of the master: part of it presses, part
-    /// is open.
+    /// By owned face of the slave and of the master: is part of it active and
+    /// part inactive?
     std::vector<bool> slave_at_edge, master_at_edge;
     double            penetration = 0.; ///< largest_penetration()
   };
 
-  /// Twice the energy that it takes to mend what is broken, by slave face: the
-  /// integral of InterfaceLaw::violation(). With the wave number k = pi p / h
-  /// of what multipliers of degree p on faces with sides of h leave,
-  /// half-spaces have c = k / (2 (1/E_1 + 1/E_2)). A cell of depth t behind a
-  /// face may be all of a body, which bends: but under contact E times (k t)^3
-  /// / 6, if that
-  /// is less. @p tractions: multiplier_on_faces(). Clips again. Collective.
+  /// By slave face: the integral of InterfaceLaw::violation() with c = k / (2
+  /// (1/E_1 + 1/E_2)) of half-spaces, k = pi p / h the wave number of errors
+  /// with multipliers of degree p on faces of size h. Except in contact, E is E
+  /// (k t)^3 / 6 if that is less, since a body may be one cell of depth t that
+  /// bends. @p tractions: multiplier_on_faces(). Clips again. Collective.
   Violations
   violation_energies(const Coupling                         &coupling,
                      const TraceDisplacement                &displacement,
@@ -62,9 +59,8 @@ namespace mortise
                      const Offset                           &offset,
                      MPI_Comm                                comm);
 
-  /// The most by which the surfaces overlap at the quadrature points of the
-  /// interface, along the normals of the slave's faces; zero where they do not.
-  /// A length. Clips again. Collective.
+  /// Largest penetration at the quadrature points along the normals of the
+  /// slave's faces, a length; zero without. Clips again. Collective.
   double
   largest_penetration(const Coupling          &coupling,
                       const TraceDisplacement &displacement,
