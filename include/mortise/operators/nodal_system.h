@@ -1,5 +1,5 @@
-// The bulk of a scene without a matrix, in values at nodes: its levels, the
-// product with the stiffness, loads, and the way back to hierarchical
+// The matrix-free operator of all bodies with values at nodes: multigrid
+// levels, products with the stiffness, loads, and the transfer to hierarchical
 // coefficients.
 #pragma once
 
@@ -23,12 +23,12 @@ namespace mortise
   class NodalSystem
   {
   public:
-    /// What the constructor reads and does not keep.
+    /// Arguments of the constructor, not kept.
     struct Scene
     {
       const FieldNumbering                    &numbering;
       const dealii::AffineConstraints<double> &constraints; ///< of the scene
-      bool preconditioned = true; ///< by the levels, which see interfaces then
+      bool preconditioned = true; ///< by multigrid with penalties of interfaces
     };
 
     /// @p pressures may be null. Collective; throws InputError for tangled cells.
@@ -37,13 +37,14 @@ namespace mortise
                 const Scene                      &scene,
                 MPI_Comm                          comm);
 
-    /// Take @p couplings, whose traces have the nodes of the levels, in place of those before:
-    /// for leading_displacements() and update_penalties(). Collective.
+    /// Replace the interfaces by @p couplings, whose traces have the nodes of
+    /// the levels, and update leading_displacements() and the penalties.
+    /// Collective.
     void
     couple(const std::vector<Coupling> &couplings);
 
-    /// Show the ties of what is active, LocalCoupling::active_share, to coarse
-    /// levels. Collective.
+    /// Update the penalties of coarse levels to the active set, see
+    /// LocalCoupling::active_share. Collective.
     void
     update_penalties(const std::vector<Coupling> &couplings);
 
@@ -54,9 +55,9 @@ namespace mortise
       return all_levels;
     }
 
-    /// Vectors of displacements and of pressures on the layouts of the finest
-    /// level: zero where components are constrained, or nodes hang, but where
-    /// something else is said.
+    /// Vectors of displacements and pressures on the layouts of the finest
+    /// level. Unless stated otherwise they are zero at constrained components
+    /// and hanging nodes.
     void
     initialize(Vector &displacement) const
     {
@@ -98,7 +99,7 @@ namespace mortise
     void
     apply_pressure_mass(Vector &dst, const Vector &p) const;
 
-    /// 1 at the nodes of @p body that do not hang; others are left alone.
+    /// Set @p p to 1 at the nodes of @p body that do not hang.
     void
     set_constant_pressure(const Body &body, Vector &p) const;
 
@@ -116,8 +117,7 @@ namespace mortise
       return stiffness_diagonal;
     }
 
-    /// The same, its mean over the components of a node that are not
-    /// constrained.
+    /// diag(K), averaged over the free components of each node.
     Vector
     node_diagonal() const
     {
@@ -150,51 +150,49 @@ namespace mortise
     using Coefficients =
       std::function<double(unsigned int, dealii::types::global_dof_index)>;
 
-    /// The values at nodes of the function with these coefficients, also where
-    /// it is prescribed. Collective.
+    /// The values at nodes, prescribed ones included, of the function with
+    /// these coefficients. Collective.
     Vector
     values_at_nodes(const Coefficients &coefficient) const;
 
-    /// K u + G^T p by node, what stresses resist with, also where components
-    /// are
-    /// constrained; @p p is not read without bodies in mixed form. Collective.
+    /// Internal forces K u + G^T p by node, also at constrained components;
+    /// @p p is not read without bodies in mixed form. Collective.
     Vector
     internal_forces(const Vector &u, const Vector &p) const;
 
-    /// Set displacements and pressures of @p rhs to K u, zero where components are constrained, and G u, where @p u may
-    /// be other than zero at such. Collective.
+    /// Set displacements and pressures of @p rhs to K u, zero at constrained
+    /// components, and G u, for @p u that need not be zero there. Collective.
     void
     apply_to_constrained(const Vector &u, SystemVector &rhs) const;
 
-    /// int b.v + int t.v - int sigma_0 : grad v by node (see
-    /// for_each_loaded_cell()), also where components are
-    /// constrained. @p loads: by body. Collective.
+    /// int b.v + int t.v - int sigma_0 : grad v by node, also at constrained
+    /// components, see for_each_loaded_cell(). @p loads: by body. Collective.
     Vector
     external_forces(const std::vector<Loads> &loads) const;
 
-    /// What @p functionals on cells of @p body have for displacements, by node, also where
-    /// components are constrained. Collective.
+    /// The @p functionals on cells of @p body by node, also at constrained
+    /// components. Collective.
     Vector
     by_node(const Body &body, const CellFunctionals &functionals) const;
 
-    /// Set external forces of @p load, and add them to its right hand side, but where components are constrained, and
-    /// what thermal strains are to the pressures. Collective.
+    /// Set external forces of @p load, and add them at free components, and the
+    /// thermal strains of pressures, to its right hand side. Collective.
     void
     add_loads(const std::vector<Loads> &loads, SceneLoad &load) const;
 
-    /// Add what thermal strains are to the pressures.
+    /// Add the thermal strains to the right hand side of the pressures.
     void
     add_expansion(const std::vector<Loads> &loads, Vector &pressure_load) const;
 
-    /// Set @p rhs to the sum of @p functionals on cells of @p body, zero where constrained.
-    /// Collective.
+    /// Set @p rhs to the sum of @p functionals on cells of @p body, zero at
+    /// constrained components. Collective.
     void
     assemble_functional(const Body            &body,
                         const CellFunctionals &functionals,
                         SystemVector          &rhs) const;
 
-    /// What undoes for_each_coefficient(): the values at nodes, zero where
-    /// constrained. Collective.
+    /// The inverse of for_each_coefficient(): values at nodes, zero at
+    /// constrained components. Collective.
     void
     set_displacement(const Coefficients &coefficient,
                      Vector             &displacement) const
@@ -203,14 +201,14 @@ namespace mortise
       stiffness->clear_constrained(displacement);
     }
 
-    /// What undoes for_each_pressure_coefficient(): zero where nodes hang.
+    /// The inverse of for_each_pressure_coefficient(); zero at hanging nodes.
     /// Collective.
     void
     set_pressure(const Coefficients &coefficient, Vector &pressure) const;
 
-    /// Hierarchical coefficients in the numbering of the scene's bodies, one
-    /// per dof of each owned cell: calls set(body, dof, value). Prescribed ones
-    /// are left out. @p displacement: values at nodes. Collective.
+    /// Calls set(body, dof, value) with the hierarchical coefficient of each
+    /// dof of owned cells that is not prescribed. @p displacement: values at
+    /// nodes. Collective.
     void
     for_each_coefficient(
       const Vector                            &displacement,
@@ -218,8 +216,7 @@ namespace mortise
                                dealii::types::global_dof_index dof,
                                double value)> &set) const;
 
-    /// The same of the pressures, one per dof of the PressureSpace of each
-    /// owned cell of bodies in mixed form.
+    /// The same for the PressureSpace of bodies in mixed form.
     void
     for_each_pressure_coefficient(
       const Vector                            &pressure,
@@ -228,8 +225,8 @@ namespace mortise
                                double value)> &set) const;
 
   private:
-    /// [K G^T; G -C] (u, p), without regard to what is constrained; @p dst_p and @p p are not used
-    /// without bodies in mixed form.
+    /// [K G^T; G -C] (u, p) with constrained components; @p dst_p and @p p are
+    /// not used without bodies in mixed form.
     void
     apply_free(Vector       &dst_u,
                Vector       &dst_p,

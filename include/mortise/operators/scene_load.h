@@ -1,5 +1,5 @@
-// What acts on a scene at one time, as the right hand side of its system:
-// loads, and prescribed displacements, which the operator does not see.
+// Loads and prescribed displacements of a scene at one time as the right hand
+// side of its system.
 #pragma once
 
 #include <deal.II/lac/vector.h>
@@ -14,8 +14,7 @@
 
 namespace mortise
 {
-  /// Strain, the same in all directions, by which a body would expand without
-  /// stress; empty: none.
+  /// Isotropic strain of a body without stress; empty: none.
   using ThermalStrain = std::function<double(const dealii::Point<dim> &)>;
 
   /// Loads on one body.
@@ -37,9 +36,9 @@ namespace mortise
     LevelVector<double> external = {};
   };
 
-  /// Calls @p visit with the owned cells that may have loads and int b.v + int
-  /// t.v - int sigma_0 : grad v in the cell's numbering, sigma_0 the stress of
-  /// the thermal strain where nothing moves.
+  /// Calls @p visit with each owned cell that may have loads and int b.v + int
+  /// t.v - int sigma_0 : grad v in its numbering, sigma_0 the stress of the
+  /// thermal strain without displacement.
   void
   for_each_loaded_cell(
     const Body                                                &body,
@@ -47,8 +46,8 @@ namespace mortise
     const std::function<void(const Body::CellIterator &,
                              const dealii::Vector<double> &)> &visit);
 
-  /// Calls @p visit with the owned cells of a body in mixed form and -int 3 strain q in
-  /// the numbering of its pressures.
+  /// Calls @p visit with each owned cell of a body in mixed form and -int 3
+  /// strain q in the numbering of its pressures.
   void
   for_each_expanding_cell(
     const Body                                                &body,

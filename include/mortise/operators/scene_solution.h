@@ -1,4 +1,4 @@
-// The way from the unknowns of a scene to the fields of its bodies, and back.
+// Conversion between the unknowns of a scene and the fields of its bodies.
 #pragma once
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -12,7 +12,7 @@ namespace mortise
   /// A field of one body in the numbering of its DoFHandler, with ghost values.
   using BodyVector = dealii::LinearAlgebra::distributed::Vector<double>;
 
-  /// What was solved for on one body.
+  /// The solution on one body.
   struct BodySolution
   {
     BodyVector    displacement;
@@ -20,12 +20,12 @@ namespace mortise
     ThermalStrain thermal_strain = {};
   };
 
-  /// Zero on all @p bodies, with room for their spaces.
+  /// Zero solutions in the spaces of @p bodies.
   std::vector<BodySolution>
   zero_solutions(const Bodies &bodies);
 
-  /// The displacements, by body, that are @p field(body, component, x) at vertices and linear
-  /// between them. Collective.
+  /// By body: the displacement with the values @p field(body, component, x) at
+  /// vertices, linear between them. Collective.
   template <typename Field>
   std::vector<BodySolution>
   linear_displacements(const Bodies &bodies, const Field &field)
@@ -47,8 +47,8 @@ namespace mortise
     return result;
   }
 
-  /// The solution by body: constraints distributed, what is prescribed added.
-  /// Collective.
+  /// The solution by body with constraints distributed and prescribed values
+  /// added. Collective.
   std::vector<BodySolution>
   body_solutions(const Bodies       &bodies,
                  const SceneFields  &fields,
@@ -56,8 +56,9 @@ namespace mortise
                  const SceneLoad    &load,
                  const SystemVector &solution);
 
-  /// What undoes body_solutions(), for displacements and pressures: @p solutions less what is
-  /// @p prescribed in them, as unknowns of @p system; multipliers are zero. Collective.
+  /// The inverse of body_solutions() for displacements and pressures:
+  /// @p solutions less the @p prescribed values, as unknowns of @p system with
+  /// multipliers of zero. Collective.
   SystemVector
   system_vector(const SceneFields               &fields,
                 const BlockSystem               &system,

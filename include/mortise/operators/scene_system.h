@@ -20,8 +20,8 @@ namespace mortise
 
   /// The constraints of all bodies (conformity and Dirichlet, each in its
   /// body's numbering, not closed) in the numbering of the scene, closed.
-  /// Bodies without the field have empty ones. Inhomogeneous where theirs are:
-  /// see prescribed_values().
+  /// Bodies without the field have empty ones. Inhomogeneities are kept, see
+  /// prescribed_values().
   dealii::AffineConstraints<double>
   scene_constraints(
     const FieldNumbering                                 &numbering,

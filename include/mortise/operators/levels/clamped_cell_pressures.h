@@ -1,6 +1,5 @@
-// The pressures of cells with a face on which the displacement is prescribed:
-// there the Schur complement of the cell stands in P instead of a mass matrix.
-// It never communicates.
+// In cells with a face on a Dirichlet boundary P contains the Schur complement
+// of the cell in place of a mass matrix.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -16,9 +15,9 @@ namespace mortise
   public:
     ClampedCellPressures() = default;
 
-    /// Finds the cells of @p level, whose products @p elasticity has, pressures included. Bodies
-    /// of high degree have none: their dense matrices would take longer than
-    /// they save. Collective.
+    /// Find these cells of @p level; @p elasticity has the products with
+    /// pressures. Bodies of high degree are left out, since dense matrices
+    /// would cost more than they save. Collective.
     ClampedCellPressures(const NodalLevel                   &level,
                          const MatrixFreeElasticity<double> &elasticity);
 

@@ -1,4 +1,4 @@
-// Between two levels of degrees on the same mesh.
+// Prolongation and restriction between two degrees on the same mesh.
 #pragma once
 
 #include <mortise/operators/levels/nodal_level.h>

@@ -1,5 +1,5 @@
-// The functions that a matrix on a level is made for, by what they are at the
-// nodes of its cells, and sums over cells.
+// Basis functions of a matrix on a level, given by their values at the nodes of
+// cells, and assembly over cells.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -12,8 +12,8 @@
 
 namespace mortise
 {
-  /// Given by the values at the nodes of the level that do not hang, or by
-  /// those that a coarsening keeps.
+  /// The functions of the nodes of the level that do not hang, or of those that
+  /// a coarsening keeps.
   class LevelFunctions
   {
   public:
@@ -23,11 +23,11 @@ namespace mortise
     {
       Index        node; ///< of the matrix
       double       weight;
-      unsigned int constrained; ///< bits of components for which it is none
+      unsigned int constrained; ///< bits of its constrained components
     };
 
-    /// What the values of a cell follow from: at node i from the entries
-    /// ends[i - 1], ..., of node nodes[index] each.
+    /// Master nodes of the values in a cell: entries ends[i - 1], ... for its
+    /// node i, each of node nodes[index].
     struct Masters
     {
       std::vector<Index>        nodes;
@@ -35,7 +35,7 @@ namespace mortise
       std::vector<unsigned int> indices; ///< by entry
       std::vector<unsigned int> ends;    ///< by node
 
-      /// They are the nodes themselves and nothing is constrained.
+      /// They are the nodes of the cell and free.
       bool plain = true;
     };
 
@@ -60,13 +60,13 @@ namespace mortise
     static MatrixFreeElasticity<double>::CellFunctions
     columns(const Masters &masters);
 
-    /// Adds W^T A W, A the matrix of a cell and W what columns() are.
+    /// Adds W^T A W, A the matrix of a cell and W the columns().
     void
     add(const dealii::FullMatrix<double> &matrix,
         const Masters                    &masters,
         NodalBlockMatrixBuilder          &builder);
 
-    /// Adds what stands for these functions already.
+    /// Adds a matrix of these functions.
     void
     add_projected(const dealii::FullMatrix<double> &matrix,
                   const std::vector<Index>         &nodes,

@@ -1,5 +1,5 @@
-// A symmetric matrix by nodes in compressed rows, 3 x 3 entries for a row and a
-// column, and the way to put one together.
+// A symmetric matrix in block compressed row format (BCSR) with a 3 x 3 block
+// per pair of nodes, and its assembly.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -14,15 +14,15 @@
 
 namespace mortise
 {
-  /// Rows and columns of components that are constrained are zero.
+  /// Rows and columns of constrained components are zero.
   struct NodalBlockMatrix
   {
-    /// Component c of node n has index 3 n + c; ghosts: the columns of owned
-    /// rows, and what else was asked for.
+    /// Component c of node n has index 3 n + c. Ghosts: the columns of owned
+    /// rows, and those given to finish().
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
     std::vector<std::size_t>  begin;   ///< by owned node
     std::vector<unsigned int> columns; ///< local nodes
-    /// Nine per column: entry (r, c) is the one with number 3 c + r.
+    /// Nine per column, entry (r, c) at 3 c + r.
     std::vector<double> values;
 
     unsigned int
@@ -36,13 +36,13 @@ namespace mortise
   std::vector<unsigned int>
   constrained_components(const NodalBlockMatrix &blocks);
 
-  /// The same matrix for solvers that take rows; constrained components get a
-  /// diagonal as large as others. Collective.
+  /// The same matrix by rows; constrained components have a diagonal as large
+  /// as others. Collective.
   SparseMatrix
   as_sparse_matrix(const NodalBlockMatrix &blocks);
 
-  /// Collects rows of any nodes: first what couples, then values. Those of
-  /// other ranks' nodes go there.
+  /// Assembles rows of any nodes, first their sparsity, then their values, and
+  /// sends them to their owners.
   class NodalBlockMatrixBuilder
   {
   public:
@@ -67,7 +67,7 @@ namespace mortise
       couple(nodes, {});
     }
 
-    /// Nothing couples after it. Collective.
+    /// Ends the sparsity pattern. Collective.
     void
     close();
 
@@ -75,8 +75,8 @@ namespace mortise
     double *
     block(unsigned int row, unsigned int column);
 
-    /// @p ghosts: nodes that vectors are to have beside those of rows. Nothing
-    /// is left here. Collective.
+    /// Move the matrix out. @p ghosts: further ghost nodes of its vectors.
+    /// Collective.
     NodalBlockMatrix
     finish(const dealii::IndexSet &ghosts);
 

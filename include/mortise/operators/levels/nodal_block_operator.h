@@ -1,4 +1,4 @@
-// Products with a matrix of NodalBlockMatrix.
+// Products with a NodalBlockMatrix.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>

@@ -1,5 +1,5 @@
-// One level of the matrix-free system: its space, where its components stand in
-// vectors, which are constrained, and the coupling that preconditioners see.
+// One level of the p-multigrid: its space, the layout of its vectors,
+// constrained components, and the penalties of interfaces.
 #pragma once
 
 #include <deal.II/base/partitioner.h>
@@ -20,43 +20,42 @@ namespace mortise
     std::shared_ptr<const NodalSpace> space;
     /// Component c of node n has index 3 n + c. Ghosts: of owned cells.
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
-    /// Owned components that are prescribed or hang, indices in vectors.
+    /// Indices of owned components that are prescribed or hang.
     std::vector<unsigned int> constrained;
     /// Of interfaces; null without.
     std::shared_ptr<const NodalPenalties> penalties;
   };
 
   /// The level of the scene on @p space, without penalties. @p numbering and
-  /// @p constraints are those of the scene, which hold or let hang whole faces or nothing.
-  /// Collective.
+  /// @p constraints: of the scene, which constrain whole faces. Collective.
   NodalLevel
   make_nodal_level(std::shared_ptr<const NodalSpace>        space,
                    const FieldNumbering                    &numbering,
                    const dealii::AffineConstraints<double> &constraints,
                    MPI_Comm                                 comm);
 
-  /// 1 where components are constrained, 0 elsewhere; with the ghost values of
-  /// @p layout, which owns what that of the level does. Collective.
+  /// 1 at constrained components, 0 elsewhere, with ghost values; @p layout
+  /// owns the same range as that of the level. Collective.
   LevelVector<double>
   constrained_components(
     const NodalLevel                                                 &level,
     const std::shared_ptr<const dealii::Utilities::MPI::Partitioner> &layout);
 
-  /// The displacements of @p level, number @p number of the scene, with those of the
-  /// faces that the slave faces of this rank meet as ghosts. Collective.
+  /// The layout of @p level, number @p number of the scene, with the partners
+  /// of owned slave faces as ghosts. Collective.
   std::shared_ptr<const dealii::Utilities::MPI::Partitioner>
   interface_layout(const NodalLevel            &level,
                    unsigned int                 number,
                    const std::vector<Coupling> &couplings);
 
-  /// A part for each kind of interface that there is. Collective.
+  /// One part for each kind of interface. Collective.
   std::shared_ptr<const NodalPenalties>
   make_nodal_penalties(const NodalLevel            &level,
                        unsigned int                 number,
                        const std::vector<Coupling> &couplings);
 
-  /// K of one level, or K + J. Vectors are zero where components are
-  /// constrained, and stay so.
+  /// K of one level, or K + J, for vectors that are zero at constrained
+  /// components.
   template <typename Number>
   class LevelOperator : public NodalOperator<Number>
   {
@@ -76,7 +75,7 @@ namespace mortise
       this->clear_constrained(dst);
     }
 
-    /// As vmult(), without regard to what is constrained.
+    /// As vmult(), with constrained components.
     void
     vmult_free(LevelVector<Number> &dst, const LevelVector<Number> &src) const;
 
@@ -89,8 +88,7 @@ namespace mortise
       return level.constrained;
     }
 
-    /// Ghost values and those of hanging nodes of the function that @p v holds.
-    /// Collective.
+    /// Set the values of @p v at ghosts and hanging nodes. Collective.
     void
     complete(const LevelVector<Number> &v) const
     {
@@ -107,8 +105,8 @@ namespace mortise
       v.zero_out_ghost_values();
     }
 
-    /// What local products left in @p v brought to the nodes that do not hang
-    /// and to their owners. Collective.
+    /// Add the results of local products in @p v at ghosts and hanging nodes to
+    /// owned nodes. Collective.
     void
     gather(LevelVector<Number> &v) const
     {

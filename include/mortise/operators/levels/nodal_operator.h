@@ -1,4 +1,4 @@
-// What smoothers need to know of an operator on values at nodes.
+// Interface of the operators that smoothers work with.
 #pragma once
 
 #include <deal.II/lac/la_parallel_vector.h>
@@ -10,8 +10,8 @@ namespace mortise
   template <typename Number>
   using LevelVector = dealii::LinearAlgebra::distributed::Vector<Number>;
 
-  /// Symmetric, positive definite where components are not constrained. Vectors
-  /// are zero where they are, and stay so.
+  /// Symmetric and positive definite on the free components. Vectors are zero
+  /// at constrained ones.
   template <typename Number>
   class NodalOperator
   {
@@ -33,12 +33,12 @@ namespace mortise
     virtual const std::vector<unsigned int> &
     constrained() const = 0;
 
-    /// Each value of diagonal() by the mean over the components of its node
-    /// that are not constrained; 1 at those that are.
+    /// Replace each value of @p diagonal by the mean over the free components
+    /// of its node; 1 at constrained ones.
     void
     average_components(LevelVector<Number> &diagonal) const;
 
-    /// Zero at constrained components.
+    /// Set constrained components to zero.
     void
     clear_constrained(LevelVector<Number> &v) const
     {

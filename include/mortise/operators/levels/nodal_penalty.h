@@ -1,4 +1,4 @@
-// The penalty by which coarser levels see ties, between nodes, and its product.
+// The jump penalty of interfaces on coarse levels, and products with it.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
@@ -11,15 +11,13 @@
 
 namespace mortise
 {
-  /// The jump penalty J = sum over interfaces of gamma int [[u]].[[v]], gamma ~
-  /// E / h of the softer side, between the nodes that this rank's slave faces
-  /// and their partners have; the same for each component. Where bodies slide,
-  /// that of the jumps along normals, gamma int [[u.n]] [[v.n]]. K + J is
-  /// regular even where K is not; it is for preconditioning and never part of
-  /// the equations.
+  /// J = sum over interfaces of gamma int [[u]].[[v]], gamma ~ E / h of the
+  /// softer side, for the nodes of owned slave faces and their partners; of
+  /// sliding bodies gamma int [[u.n]] [[v.n]]. K + J, which may be regular
+  /// where K is not, serves preconditioning alone.
   struct NodalPenalty
   {
-    /// Nodes that couple with the same others, as those inside a face do.
+    /// Nodes that couple with the same nodes, as those inside a face do.
     struct Group
     {
       std::vector<unsigned int> rows;    ///< indices of first components
@@ -27,8 +25,7 @@ namespace mortise
       std::vector<double>       values;  ///< row by row
     };
     std::vector<Group> groups;
-    /// Where bodies slide: by node, those of both sides in one direction. Else
-    /// empty.
+    /// By node of sliding bodies, equally directed on both sides; else empty.
     std::vector<dealii::Tensor<1, dim>> normals;
   };
 
@@ -55,7 +52,7 @@ namespace mortise
     add_diagonal(Number *diagonal) const;
 
   private:
-    /// What products with one penalty read.
+    /// One penalty in the order of products.
     struct Part
     {
       explicit Part(const NodalPenalty &penalty);

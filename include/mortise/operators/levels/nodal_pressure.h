@@ -1,5 +1,5 @@
-// The pressures of a matrix-free system: where they stand in vectors, and those
-// at hanging nodes.
+// The pressures of the matrix-free operator: layout of vectors and hanging
+// nodes.
 #pragma once
 
 #include <mortise/operators/levels/nodal_level.h>
@@ -27,8 +27,7 @@ namespace mortise
       v.reinit(layout);
     }
 
-    /// Ghost values and those at hanging nodes of the function that @p v holds.
-    /// Collective.
+    /// Set the values of @p v at ghosts and hanging nodes. Collective.
     void
     complete(const LevelVector<double> &v) const
     {
@@ -45,8 +44,8 @@ namespace mortise
       v.zero_out_ghost_values();
     }
 
-    /// What local products left in @p v brought to the nodes that do not hang
-    /// and to their owners. Collective.
+    /// Add the results of local products in @p v at ghosts and hanging nodes to
+    /// owned nodes. Collective.
     void
     gather(LevelVector<double> &v) const
     {
@@ -54,7 +53,8 @@ namespace mortise
       v.compress(dealii::VectorOperation::add);
     }
 
-    /// The same for a diagonal, without what couples hanging nodes; 1 at these.
+    /// The same for a diagonal without the coupling of hanging nodes; 1 at
+    /// these.
     void
     gather_diagonal(LevelVector<double> &v) const;
 

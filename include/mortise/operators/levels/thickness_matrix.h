@@ -1,4 +1,4 @@
-// The matrix of the functions of a ThicknessCoarsening.
+// Assembly of the matrix on the functions of a ThicknessCoarsening.
 #pragma once
 
 #include <mortise/body/spaces/thickness_coarsening.h>

@@ -30,9 +30,8 @@ namespace mortise
     }
   };
 
-  /// @p level: of degree one in all bodies. With @p coarsening the matrix is
-  /// that of the functions on the coarser mesh, P^T (K + J) P, and needs none
-  /// on the finer one. Collective.
+  /// K + J on @p level, of degree one in all bodies, or with @p coarsening
+  /// directly P^T (K + J) P on the coarser mesh. Collective.
   VertexMatrix
   assemble_vertex_matrix(const NodalLevel       &level,
                          const VertexCoarsening *coarsening = nullptr);

@@ -1,5 +1,5 @@
-// Coarser levels of vertices where no coarser mesh is known: some of them stay,
-// the others follow from those nearby.
+// Coarse levels of vertices without a coarser mesh: a subset of the vertices,
+// from which the others are interpolated.
 #pragma once
 
 #include <mortise/body/spaces/vertex_coarsening.h>
@@ -11,8 +11,8 @@ namespace mortise
   /// coupled in one body, corners, edges and faces of bodies first; the others'
   /// values are weighted means of the nearest that stay, exact for linear
   /// functions, hence for rigid motions, unless those around a vertex lie in a
-  /// plane beside it, as some do in edges. Selected are the same on any number
-  /// of ranks. Collective.
+  /// plane beside it, as some do in edges. The selection is the same on any
+  /// number of ranks. Collective.
   VertexCoarsening
   select_vertices(const VertexMatrix &fine);
 } // namespace mortise

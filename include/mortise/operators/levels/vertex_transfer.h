@@ -1,4 +1,4 @@
-// Between the vertices of a mesh and those of a coarser one: functions, and the
+// Interpolation P between the vertices of a mesh and of a coarser one, and the
 // matrix P^T A P.
 #pragma once
 
@@ -37,20 +37,20 @@ namespace mortise
     }
   };
 
-  /// Those of all local nodes of @p layout, three indices for a node, whose
-  /// owned ones are the fine ones of @p coarsening. Collective.
+  /// The rows of all local nodes of @p layout (three indices per node), whose
+  /// owned nodes are the fine ones of @p coarsening. Collective.
   InterpolationRows
   interpolation_rows(const dealii::Utilities::MPI::Partitioner &layout,
                      const VertexCoarsening                    &coarsening);
 
-  /// Drops from @p coarse the components that are constrained at the vertices that
-  /// stay; @p constrained: indices of owned fine ones. Collective.
+  /// Drop from @p coarse the components that are constrained at its vertices;
+  /// @p constrained: indices of owned fine ones. Collective.
   void
   constrain(const std::vector<unsigned int> &constrained,
             const VertexCoarsening          &coarsening,
             NodalBlockMatrix                &coarse);
 
-  /// P^T A P, constrained where the vertices that stay are; vectors get what P
+  /// P^T A P with the constraints of the coarse vertices and the ghosts that P
   /// needs. Collective.
   NodalBlockMatrix
   coarsen(const NodalBlockMatrix &fine, const VertexCoarsening &coarsening);
@@ -60,7 +60,7 @@ namespace mortise
   class VertexTransfer
   {
   public:
-    /// @p coarse: what coarsen() made.
+    /// @p coarse: by coarsen().
     VertexTransfer(const VertexCoarsening &coarsening,
                    const NodalBlockMatrix &coarse);
 
