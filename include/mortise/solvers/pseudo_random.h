@@ -1,5 +1,4 @@
-// Numbers without structure, for vectors that are to have parts of all
-// frequencies. They are the same in every run.
+// Reproducible pseudo-random numbers for vectors with all frequencies.
 #pragma once
 
 namespace mortise

@@ -1,4 +1,4 @@
-// The measure of error that all solvers report. It never preconditions.
+// The residual norm that all solvers report.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -8,8 +8,7 @@
 
 namespace mortise
 {
-  /// The true residual of the whole system in a norm that does not depend on
-  /// units:
+  /// The true residual of the whole system in a norm independent of units:
   ///
   ///     |(r_u, r_p, r_lambda)|^2 = r_u . D_u^{-1} r_u + r_p . D_p^{-1} r_p +
   ///     r_lambda . D_lambda^{-1} r_lambda
@@ -35,7 +34,7 @@ namespace mortise
       return std::sqrt(product(r, r));
     }
 
-    /// The product that belongs to it. Collective.
+    /// The scalar product of norm(). Collective.
     double
     product(const SystemVector &a, const SystemVector &b) const;
 
@@ -45,22 +44,22 @@ namespace mortise
       const SystemVector &rhs, &x, &r;
     };
 
-    /// Note the residual in @p report, and whether that is converged: relative to the right hand
-    /// side it is at most @p tolerance; or all that is left of it is rounding, its backward error
-    /// against |K| |u| + |B|^T |lambda| + |f| (Oettli, Prager 1964), and @p relative_error, an
-    /// estimate of the error in the energy norm over that of the solution, is
-    /// below 1e-6. Collective.
+    /// Set the residual of @p report and whether it is converged: at most
+    /// @p tolerance relative to the right hand side; or rounding, by its
+    /// backward error against |K| |u| + |B|^T |lambda| + |f| (Oettli, Prager
+    /// 1964), while @p relative_error, an estimate in the energy norm, is below
+    /// 1e-6. Collective.
     void
     judge(const Solved                  &solved,
           double                         tolerance,
           const std::function<double()> &relative_error,
           SolveReport                   &report) const;
 
-    /// A lower bound of the energy of displacements that balance a right hand
-    /// side of norm @p rhs_norm without multipliers: f D_u^{-1} f over the largest eigenvalue of
-    /// D_u^{-1} K, 22 at most (degree 8 on tetrahedra). Where multipliers
-    /// balance it and displacements are zero to rounding, what is small beside
-    /// it is rounding.
+    /// Lower bound of the energy of displacements that balance a right hand
+    /// side of norm @p rhs_norm without multipliers: f D_u^{-1} f over the
+    /// largest eigenvalue of D_u^{-1} K, at most 22 (degree 8 on tetrahedra).
+    /// Much smaller energies are rounding of displacements where multipliers
+    /// balance the loads.
     static double
     least_energy(const double rhs_norm)
     {
@@ -89,8 +88,7 @@ namespace mortise
     }
 
   private:
-    /// The norm of the terms that compute() adds up, with diag(K) for |K|: a
-    /// lower bound.
+    /// Norm of the terms of compute() with diag(K) for |K|, a lower bound.
     double
     magnitude(const SystemVector &rhs, const SystemVector &x) const;
 

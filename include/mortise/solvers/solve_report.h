@@ -1,4 +1,4 @@
-// What a solver tells about one solve.
+// Report of one linear solve.
 #pragma once
 
 #include <string>
@@ -8,17 +8,17 @@ namespace mortise
   struct SolveReport
   {
     std::string  method;         ///< direct | condensed | saddle point
-    std::string  preconditioner; ///< what was used, in words
+    std::string  preconditioner; ///< in words
     unsigned int iterations =
       0; ///< of the outer iteration; 0 for a direct solve
     double relative_residual = 0.; ///< |(f - K u - B^T lambda, g - B u)| / |(f,
                                    ///< g)|, as of ScaledResidual
-    /// What rounding leaves of it with the numbers of this system; 0 where the
-    /// tolerance was reached, so that it was not looked at.
-    double attainable    = 0.;
-    bool   converged     = false;
-    bool   prepared      = true; ///< did the set-up give a preconditioner?
-    double setup_seconds = 0.;   ///< since the last report
+    /// The residual that rounding allows with this system; 0 (not computed) if
+    /// the tolerance was reached.
+    double attainable = 0.;
+    bool   converged  = false;
+    bool prepared = true; ///< was the set-up of the preconditioner successful?
+    double setup_seconds = 0.; ///< since the last report
     double solve_seconds = 0.;
   };
 } // namespace mortise

@@ -1,4 +1,4 @@
-// What a caller may ask of a solver.
+// Options of the linear solvers.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,7 @@ namespace mortise
 {
   enum class SolverMethod
   {
-    automatic, ///< chosen by the size of the system; the report says which and
-               ///< why
+    automatic, ///< see choose_solver()
     saddle_point,
     condensed,
     direct
@@ -22,21 +21,21 @@ namespace mortise
     SolverMethod method = SolverMethod::automatic;
     double tolerance = 1e-10; ///< of the relative residual, see ScaledResidual
     unsigned int max_iterations = 1000;
-    /// Up to so many multipliers C is factorised by all ranks together: 12,000
-    /// of 870,000 dofs on 64 ranks take 0.11 s of processor time for all solves
-    /// with it, 0.28 s by parts; 83,000 of 10.7 million dofs on two ranks 15.5
-    /// + 27.8 s of setup and solve, 11.1 + 29.4 s by parts.
+    /// Largest number of multipliers for which all ranks factorise C together,
+    /// else by parts. Measured: 12,000 of 870,000 dofs on 64 ranks take 0.11 s
+    /// of processor time for all solves, 0.28 s by parts; 83,000 of 10.7
+    /// million dofs on two ranks 15.5 + 27.8 s of setup and solve, 11.1 + 29.4
+    /// s by parts.
     unsigned int max_gathered = 30000;
 
-    /// So many earlier solutions are kept to start from, see
-    /// SuccessiveSolutions.
+    /// Number of earlier solutions that are kept, see SuccessiveSolutions.
     unsigned int successive = 0;
 
-    double energy_share = 0.03; ///< of it, see energy_tolerance()
+    double energy_share = 0.03; ///< see energy_tolerance()
 
-    /// Iterative solvers go on until the root of the estimated energy of the
-    /// error, too, is below this fraction of the solution's: on fine meshes a
-    /// small residual alone says little.
+    /// Iterative solvers also bound the estimated error in the energy norm,
+    /// relative to the solution, since on fine meshes a small residual does not
+    /// imply it.
     double
     energy_tolerance() const
     {
@@ -48,8 +47,7 @@ namespace mortise
     std::function<void(unsigned int, double)> monitor;
   };
 
-  /// "auto", "saddle point", "condensed", "direct": the names of a parameter
-  /// file.
+  /// The names in parameter files, in the order of SolverMethod.
   std::vector<std::string>
   solver_method_names();
 

@@ -12,12 +12,13 @@
 namespace mortise
 {
   /// A basis of right hand sides, orthonormal in the product of ScaledResidual,
-  /// and their solutions. Where loads are a few fields with factors that depend
-  /// on time, start() is the solution as soon as there are as many.
+  /// and their solutions. If loads are n fields with factors in time, start()
+  /// is the solution from step n + 1 on.
   class SuccessiveSolutions
   {
   public:
-    /// At most @p capacity are kept, two vectors of the system each; a further one starts anew.
+    /// At most @p capacity pairs are kept, two vectors of the system each; a
+    /// further one replaces all.
     explicit SuccessiveSolutions(const unsigned int capacity)
       : capacity(capacity)
     {}
@@ -28,11 +29,12 @@ namespace mortise
       return basis.empty();
     }
 
-    /// The combination of solutions whose right hand side comes nearest to @p rhs. Collective.
+    /// The combination of solutions with the right hand side nearest to @p rhs.
+    /// Collective.
     SystemVector
     start(const SystemVector &rhs, const ScaledResidual &residual) const;
 
-    /// @p x solves the system for @p rhs. Collective.
+    /// Add @p x, the solution for @p rhs. Collective.
     void
     add(const SystemVector   &rhs,
         const SystemVector   &x,

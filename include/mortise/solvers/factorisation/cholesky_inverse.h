@@ -1,5 +1,5 @@
-// The inverse of a matrix for a preconditioner: a factorisation that is kept in
-// single precision where that is accurate enough.
+// Cholesky factorisation for a preconditioner, in single precision if that is
+// accurate enough.
 #pragma once
 
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
@@ -9,7 +9,7 @@
 
 namespace mortise
 {
-  /// @p Work: the precision in which the one in single precision is computed.
+  /// @p Work: precision in which the factors in single precision are computed.
   template <typename Work>
   class CholeskyInverse
   {
@@ -17,9 +17,9 @@ namespace mortise
     /// y = matrix x.
     using Product = std::function<void(Vector &y, const Vector &x)>;
 
-    /// @p rows: those of the matrix. @p product: with it, in double precision. @p zero: a vector with the
-    /// entries of the rows. False, on every rank, when the matrix is not
-    /// positive definite. Collective.
+    /// @p rows, @p product: the matrix, the latter in double precision.
+    /// @p zero: a vector with the entries of the rows. False on all ranks if
+    /// the matrix is not positive definite. Collective.
     bool
     initialize(const NodalMatrix &rows,
                const Product     &product,

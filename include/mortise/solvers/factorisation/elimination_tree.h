@@ -1,6 +1,6 @@
-// What a sparse Cholesky factorisation does in which order: nested dissection
-// and the dense blocks that follow from it. Sources: Liu (1990), "The role of
-// elimination trees in sparse factorisation"; METIS.
+// Elimination order and supernodes of a sparse Cholesky factorisation by nested
+// dissection. Sources: Liu (1990), "The role of elimination trees in sparse
+// factorisation"; METIS.
 #pragma once
 
 #include <deal.II/base/array_view.h>
@@ -51,8 +51,8 @@ namespace mortise
 
   constexpr int on_all_ranks = -1;
 
-  /// Which rank has each supernode: whole subtrees, so that the rank with the
-  /// most entries of the factor has few, and what is above them on all ranks.
+  /// The rank of each supernode: whole subtrees, balanced by entries of the
+  /// factor, and on_all_ranks above them.
   std::vector<int>
   deal_out(const std::vector<Supernode> &supernodes, int n_ranks);
 } // namespace mortise

@@ -1,5 +1,5 @@
-// The dense matrix that a supernode of a factorisation is computed from.
-// Source: Liu (1992), "The multifrontal method for sparse matrix solution".
+// The dense frontal matrix of a supernode. Source: Liu (1992), "The
+// multifrontal method for sparse matrix solution".
 #pragma once
 
 #include <mortise/solvers/factorisation/elimination_tree.h>
@@ -8,14 +8,13 @@
 
 namespace mortise
 {
-  /// The columns of a supernode, with its rows below, and what they update;
-  /// columnwise, the lower triangle. Both are kept by others.
+  /// The columns of a supernode with its rows below, and the update matrix;
+  /// columnwise, the lower triangle. Both belong to the caller.
   template <typename Number>
   class Front
   {
   public:
-    /// @p columns: zeros, @p stride apart; @p rest becomes the square of the
-    /// rows below.
+    /// @p columns: zeros, @p stride apart; @p rest: the update matrix, resized.
     Front(const Supernode     &supernode,
           Number              *columns,
           int                  stride,
@@ -30,9 +29,9 @@ namespace mortise
                rest.data() + std::size_t(n_below) * (j - width) - width;
     }
 
-    /// The columns become [L_11^{-1}; -L_21 L_11^{-1}], so that both halves of
-    /// a solve with them are one product, the rest what remains for the parent.
-    /// False when the columns are not positive definite.
+    /// Compute the columns [L_11^{-1}; -L_21 L_11^{-1}], with which each half
+    /// of a solve is one product, and the update matrix of the parent. False if
+    /// they are not positive definite.
     bool
     eliminate();
 

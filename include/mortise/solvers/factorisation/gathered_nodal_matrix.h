@@ -1,4 +1,4 @@
-// The rows of all ranks, for a matrix that is factorised on all.
+// The rows of all ranks, for factorisation on all of them.
 #pragma once
 
 #include <mortise/solvers/factorisation/elimination_tree.h>
@@ -11,7 +11,7 @@ namespace mortise
 {
   struct GatheredNodalMatrix : MatrixGraph
   {
-    /// @p rows must stay alive: a rank alone refers to them. Collective.
+    /// @p rows must stay alive, since a single rank refers to them. Collective.
     GatheredNodalMatrix(const NodalMatrix &rows, MPI_Comm comm);
     GatheredNodalMatrix(const GatheredNodalMatrix &) = delete;
 
@@ -29,11 +29,11 @@ namespace mortise
     dealii::ArrayView<const unsigned int> variants; ///< as in NodalMatrix
     std::vector<std::size_t>              begin_values;
     dealii::ArrayView<const double>       values;
-    /// To diagonals of at most one, by node: its components share it, as they
-    /// share rows in which it is a column. 0: not possible.
+    /// Scaling to diagonals of at most one, by node for all components. 0: not
+    /// possible.
     std::vector<double> scale;
 
   private:
-    NodalMatrix gathered; ///< where there are several ranks
+    NodalMatrix gathered; ///< with several ranks
   };
 } // namespace mortise

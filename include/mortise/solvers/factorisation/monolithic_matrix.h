@@ -8,8 +8,8 @@
 
 namespace mortise
 {
-  /// One numbering of (u, p, lambda), rank by rank: what a rank owns of u, then
-  /// of p, then of lambda.
+  /// One numbering of (u, p, lambda), rank by rank: owned entries of u, then of
+  /// p, then of lambda.
   class MonolithicNumbering
   {
   public:

@@ -1,5 +1,5 @@
-// A sparse factorisation (MUMPS) of a distributed matrix, kept for repeated
-// solves. It never refines and never checks how good a solution is.
+// Sparse factorisation (MUMPS) of a distributed matrix for repeated solves,
+// without iterative refinement.
 #pragma once
 
 #include <mortise/base/sparse_matrix.h>
@@ -22,11 +22,10 @@ namespace mortise
     MumpsFactorisation();
     ~MumpsFactorisation();
 
-    /// Factorise @p matrix; it is not referred to afterwards. Ranks without
-    /// rows take part.
-    /// False when the factorisation broke down, or when a matrix that was to be
-    /// positive definite is not; throws std::bad_alloc on every rank when
-    /// memory ran out on one. Collective.
+    /// Factorise @p matrix, which is not kept. Ranks without rows take part.
+    /// False if the factorisation breaks down or a positive definite matrix is
+    /// not; throws std::bad_alloc on all ranks if memory runs out on one.
+    /// Collective.
     bool
     initialize(const SparseMatrix &matrix, MatrixKind kind);
 
@@ -35,8 +34,8 @@ namespace mortise
     bool
     solve(double *x, const double *b) const;
 
-    /// Rows of a positive semidefinite matrix that depend on the others, by
-    /// their numbers; the same on all ranks. Collective.
+    /// Rows of a positive semidefinite matrix that depend on the others; the
+    /// same on all ranks. Collective.
     std::vector<dealii::types::global_dof_index>
     null_rows() const;
 

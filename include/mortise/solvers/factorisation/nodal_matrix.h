@@ -1,5 +1,4 @@
-// Rows of a symmetric matrix by node: what a factorisation is made of. It never
-// refers to the matrix that it came from.
+// Owned rows of a symmetric matrix by node, the input of factorisations.
 #pragma once
 
 #include <mortise/base/sparse_matrix.h>
@@ -9,10 +8,9 @@
 
 namespace mortise
 {
-  /// The owned rows of a matrix whose nodes have a number of components that do
-  /// not couple with each other. Nodes of a rank are numbered behind those of
-  /// the rank before. A component that a node lacks has a row that is zero but
-  /// for a diagonal as large as the others'.
+  /// The components of the nodes do not couple with each other. Nodes are
+  /// numbered rank by rank. A component that a node lacks has a diagonal, as
+  /// large as the others, alone.
   struct NodalMatrix
   {
     unsigned int n_components = 1;
@@ -20,7 +18,7 @@ namespace mortise
     std::vector<int>          entries;
     std::vector<unsigned int> lengths; ///< by node
     std::vector<int>          columns; ///< by node: nodes, global
-    /// By node: 1 where all components have the same values, else n_components.
+    /// By node: 1 if all components have the same values, else n_components.
     std::vector<unsigned int> variants;
     std::vector<double>       values; ///< by node, variant, column
 
@@ -35,21 +33,19 @@ namespace mortise
   NodalMatrix
   rows_as_nodes(const SparseMatrix &matrix);
 
-  /// matrix += @p other, whose rows are nodes of one component in the same
-  /// order.
+  /// matrix += @p other, whose rows are the nodes, of one component.
   void
   add(NodalMatrix &matrix, const SparseMatrix &other);
 
-  /// Without the off-diagonal entries of rows and columns that are not @p active, by local entry of
-  /// a vector. Collective.
+  /// The matrix without off-diagonal entries of rows and columns that are not
+  /// @p active, by local entry of a vector. Collective.
   NodalMatrix
   select(const NodalMatrix       &matrix,
          const std::vector<bool> &active,
          MPI_Comm                 comm);
 
-  /// The nodes that couple with others. (Entry, diagonal) of what is left goes
-  /// to
-  /// @p lone. Collective.
+  /// The nodes that couple with others; (entry, diagonal) of the others is
+  /// added to @p lone. Collective.
   NodalMatrix
   take_coupled(const NodalMatrix                   &matrix,
                MPI_Comm                             comm,
@@ -59,8 +55,8 @@ namespace mortise
   SparseMatrix
   as_matrix(const NodalMatrix &rows, MPI_Comm comm);
 
-  /// y = A x with A = @p matrix = as_matrix(rows), both vectors with the entries of @p rows; y is
-  /// zero where there are none. Collective.
+  /// y = A x, A = @p matrix = as_matrix(rows), for vectors with the entries of
+  /// @p rows; other entries of y are zero. Collective.
   void
   multiply(const NodalMatrix  &rows,
            const SparseMatrix &matrix,

@@ -1,8 +1,6 @@
-// The inverse of a matrix that is too large to be on one rank: corrections by
-// factorisations of what the nodes of a rank and those that they couple with
-// have among each other, of which a rank keeps those of its own nodes
-// (restricted additive Schwarz). A rank never sees more. It suits matrices
-// whose inverses decay from a node to its neighbours, as mass matrices' do.
+// Restricted additive Schwarz iteration with overlap one: each rank factorises
+// the submatrix of its nodes and their neighbours. It suits matrices whose
+// inverses decay from a node to its neighbours, as those of mass matrices do.
 // Sources: Demko, Moss, Smith (1984); Cai, Sarkis (1999).
 #pragma once
 
@@ -21,14 +19,14 @@ namespace mortise
     /// y = matrix x.
     using Product = std::function<void(Vector &y, const Vector &x)>;
 
-    /// False, on every rank, when the matrix is not positive definite or
-    /// corrections do not fall fast enough. @p product: with it, faster than with rows; it
-    /// is kept. @p zero: a vector with the entries of the rows. Collective.
+    /// False on all ranks if the matrix is not positive definite or corrections
+    /// do not decrease fast enough. @p product: a fast product with the matrix,
+    /// kept. @p zero: a vector with the entries of the rows. Collective.
     bool
     initialize(const NodalMatrix &rows, Product product, const Vector &zero);
 
-    /// x = matrix^{-1} b to six digits: a fixed number of corrections, so that
-    /// it is linear. Collective.
+    /// x = matrix^{-1} b to six digits, linear in b since the number of
+    /// corrections is fixed. Collective.
     void
     solve(Vector &x, const Vector &b) const;
 
@@ -40,7 +38,8 @@ namespace mortise
     }
 
   private:
-    /// Until they are six digits smaller, for a vector without structure.
+    /// Count corrections until they are six digits smaller, for a pseudo-random
+    /// vector.
     bool
     count_solves();
     void

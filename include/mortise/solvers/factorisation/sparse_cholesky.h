@@ -1,8 +1,8 @@
-// A sparse Cholesky factorisation by dense blocks for the many solves of a
-// preconditioner; measured in doc/measurements/sparse_cholesky.md. Its subtrees
-// are dealt out to the ranks; of what is above them each rank treats one
-// component; the matrix, while it is factorised, is on all.
-// Sources: Duff, Reid (1983); Liu (1992), "The multifrontal method".
+// Supernodal sparse Cholesky factorisation for the many solves of a
+// preconditioner, see doc/measurements/sparse_cholesky.md. Subtrees are
+// distributed over the ranks; above them each rank treats one component. All
+// ranks hold the matrix during factorisation. Sources: Duff, Reid (1983); Liu
+// (1992), "The multifrontal method".
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
@@ -14,7 +14,8 @@
 
 namespace mortise
 {
-  /// Multiplications that a factorisation of @p rows takes, one component. Collective.
+  /// Number of multiplications to factorise one component of @p rows.
+  /// Collective.
   double
   factorisation_work(const NodalMatrix &rows, MPI_Comm comm);
 
@@ -23,8 +24,8 @@ namespace mortise
   class SparseCholesky
   {
   public:
-    /// Factorise the matrix of these rows, once for all components where they
-    /// have the same. False, on every rank, when it is not positive definite.
+    /// Factorise the matrix of these rows, once for all components with the
+    /// same values. False on all ranks if it is not positive definite.
     /// Collective.
     bool
     initialize(const NodalMatrix &rows, MPI_Comm comm);
@@ -63,7 +64,8 @@ namespace mortise
                     n_components,
                     &vector[indices[i] * n_components]);
     }
-    /// Sums over the ranks of what is on all of them.
+
+    /// Sum the common part of vectors over the ranks.
     void
     add_up_common() const;
     void
@@ -97,15 +99,15 @@ namespace mortise
     std::vector<unsigned int> permutation;    ///< of each node in the order
     std::vector<Supernode>    supernodes;
     std::vector<int>          owner; ///< rank or on_all_ranks
-    /// The one that this rank treats of what is on all ranks; -1: each.
+    /// Component of common supernodes that this rank treats; -1: all.
     int                       common_component = -1;
     std::vector<unsigned int> own, common;    ///< supernodes
     std::vector<unsigned int> common_indices; ///< of nodes
     /// Nodes, components, of subtrees.
     std::vector<int>          part_counts, part_starts;
     std::vector<unsigned int> part_places; ///< of nodes, rank by rank
-    /// By supernode, see Front::eliminate(); one for all components where that
-    /// does for them.
+    /// By supernode, see Front::eliminate(); one if all components have the
+    /// same values.
     std::vector<dealii::AlignedVector<Number>> panels;
     /// By component, in the order of elimination.
     mutable std::vector<Number>           vector;

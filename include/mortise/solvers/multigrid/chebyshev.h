@@ -1,5 +1,4 @@
-// A smoother: Chebyshev polynomials in the operator scaled by its diagonal, one
-// value for a node.
+// Chebyshev smoother with the diagonal as preconditioner, one value per node.
 #pragma once
 
 #include <mortise/operators/levels/nodal_operator.h>
@@ -11,19 +10,18 @@ namespace mortise
   class Chebyshev
   {
   public:
-    /// Smooths what belongs to eigenvalues of D^{-1} A between @p smallest and the
-    /// largest, which is estimated, by a polynomial whose degree goes with the
-    /// root of their ratio: as well whatever the elements are; with @p correction,
-    /// which makes D^{-1} respect a constraint, among what satisfies it.
-    /// @p matrix and @p correction must stay alive. Collective. Not valid when
-    /// A is not positive definite.
+    /// Smooths errors of eigenvalues of D^{-1} A between @p smallest and the
+    /// largest, which is estimated; the degree grows as the root of their
+    /// ratio. With @p correction D^{-1} acts within the kernel of the
+    /// constraint. @p matrix and @p correction must stay alive. Not valid if A
+    /// is not positive definite. Collective.
     Chebyshev(const NodalOperator<Number>       &matrix,
               double                             smallest,
               const InterfaceCorrection<Number> *correction = nullptr);
 
-    /// Take @p correction in place of the one before. Without leaders on either side nothing else
-    /// changes, since a constraint makes no eigenvalue larger. False as
-    /// is_valid(). Collective.
+    /// Replace the correction. The spectrum is estimated again only with
+    /// independent displacements, since a constraint makes no eigenvalue
+    /// larger. False as is_valid(). Collective.
     bool
     update(const InterfaceCorrection<Number> *correction);
 
@@ -33,7 +31,7 @@ namespace mortise
       return largest > 0.;
     }
 
-    /// x += p(A) (b - A x); with @p from_zero x is taken for zero. Collective.
+    /// x += p(A) (b - A x); with @p from_zero for x = 0. Collective.
     void
     smooth(LevelVector<Number>       &x,
            const LevelVector<Number> &b,

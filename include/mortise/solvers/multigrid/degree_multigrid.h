@@ -1,8 +1,7 @@
-// Multigrid in the degree: Chebyshev smoothers on the degree and those of
-// lower_degree(), the vertex functions by VertexMultigrid. On the finest level
-// smoothers stay among what satisfies the constraint; the others see the tie by
-// penalties (NodalLevel). Where bodies have flat cells, the functions of
-// ThicknessCoarsening are the only other level.
+// p-multigrid: Chebyshev smoothers on the degrees p, lower_degree(p), ..., and
+// VertexMultigrid on degree one. On the finest level smoothers act within the
+// kernel of the constraint; coarse levels contain the penalties of NodalLevel.
+// With flat cells the only coarse level is ThicknessCoarsening.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -13,9 +12,8 @@
 
 namespace mortise
 {
-  /// An approximate inverse of the elasticity block, with the springs in it,
-  /// symmetric and positive definite on what projector() leaves, hence usable
-  /// between projections in conjugate gradients and GMRES.
+  /// Approximate inverse of K + B^T S^{-1} B of springs, symmetric and positive
+  /// definite on the range of projector(), for conjugate gradients and GMRES.
   class DegreeMultigrid
   {
   public:
@@ -24,9 +22,8 @@ namespace mortise
     DegreeMultigrid(const BlockSystem &system, std::size_t max_gathered);
     ~DegreeMultigrid();
 
-    /// False, on every rank, when the matrix turned out not to be positive
-    /// definite or the multipliers not to be independent; nothing else may be
-    /// called then.
+    /// False on all ranks if the matrix is not positive definite or the
+    /// multipliers are linearly dependent; nothing else may be called then.
     bool
     is_valid() const;
 
@@ -44,7 +41,8 @@ namespace mortise
     void
     vmult(Vector &dst, const Vector &src) const;
 
-    /// What springs carry for the last dst, zero for ties; with springs alone.
+    /// Multipliers of springs for the last dst, zero for ties; only with
+    /// springs.
     const Vector &
     spring_multipliers() const;
 
@@ -52,7 +50,7 @@ namespace mortise
     const ConstraintProjector *
     projector() const;
 
-    /// What was built, in words.
+    /// The levels in words.
     std::string
     description() const;
 

@@ -1,6 +1,6 @@
-// The level of vertices: multigrid on the meshes that were refined, below them
-// on ever fewer of the vertices (select_vertices), the coarsest level
-// factorised. It knows nothing of higher degrees.
+// Multigrid for degree one: on the hierarchy of refined meshes, then on subsets
+// of the vertices (select_vertices), with a factorisation of the coarsest
+// level.
 #pragma once
 
 #include <mortise/body/spaces/thickness_coarsening.h>
@@ -16,17 +16,19 @@ namespace mortise
   class VertexMultigrid
   {
   public:
-    /// @p level: of degree one in all bodies, kept by reference. @p smooth_finest: false where the
-    /// caller smooths what is on the finest mesh. Collective.
+    /// @p level: of degree one in all bodies, kept by reference.
+    /// @p smooth_finest: false if the caller smooths on the finest mesh.
+    /// Collective.
     VertexMultigrid(const NodalLevel &level, bool smooth_finest);
 
-    /// On the functions of @p thickness, for the finest level of @p system; the caller smooths that. Collective.
+    /// On the functions of @p thickness for the finest level of @p system,
+    /// which the caller smooths. Collective.
     VertexMultigrid(const BlockSystem           &system,
                     const ThicknessCoarsening   &thickness,
                     const std::vector<WeakJump> &jumps);
     ~VertexMultigrid();
 
-    /// False where a matrix is not positive definite.
+    /// False if a matrix is not positive definite.
     bool
     is_valid() const;
 

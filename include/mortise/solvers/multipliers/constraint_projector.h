@@ -8,9 +8,8 @@
 
 namespace mortise
 {
-  /// P = I - T B^T C^{-1} B with C = B T B^T + S and T the lifting given. For P
-  /// u and lambda = C^{-1} B u, B P u = S lambda: springs carry what opens
-  /// them.
+  /// P = I - T B^T C^{-1} B with C = B T B^T + S and T of the Lifting. With
+  /// lambda = C^{-1} B u, P u satisfies B P u = S lambda.
   class ConstraintProjector
   {
   public:
@@ -19,18 +18,18 @@ namespace mortise
                         const CouplingRows &rows,
                         const Lifting      &lifting);
 
-    /// From @p r what multipliers of ties can carry, to @p lambda: r := P^T r = r - B^T y and lambda
-    /// += y with y = C^{-1} B T r, but for those of springs, which carry what
-    /// opens them and nothing else. Collective.
+    /// Move from @p r to @p lambda the forces that multipliers of ties can
+    /// balance: r := P^T r = r - B^T y, lambda += y, y = C^{-1} B T r; y = 0
+    /// for springs, whose lambda follows from their opening. Collective.
     void
     remove_multipliers(Vector &r, Vector &lambda) const;
 
-    /// Project @p u, and of @p lambda what springs carry, onto B u - S lambda = g to rounding.
-    /// Collective.
+    /// Project @p u and the @p lambda of springs onto B u - S lambda = g to
+    /// rounding. Collective.
     void
     satisfy(Vector &u, Vector &lambda, const Vector &g) const;
 
-    /// Zero where no springs carry @p lambda.
+    /// Set the multipliers of ties to zero.
     void
     clear_ties(Vector &lambda) const
     {

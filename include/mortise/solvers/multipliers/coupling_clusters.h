@@ -1,5 +1,5 @@
-// Which rows of B are one dense block of a CouplingProduct, and which entries
-// stand by themselves.
+// Grouping of the rows of B into dense blocks and single entries for
+// CouplingProduct.
 #pragma once
 
 #include <deal.II/base/index_set.h>
@@ -12,39 +12,37 @@
 
 namespace mortise
 {
-  /// The displacements that owned rows move, in the numbering of the system.
+  /// Columns of owned rows of B in the numbering of the system.
   dealii::IndexSet
   touched_displacements(const BlockSystem &system, const CouplingRows &rows);
 
-  /// Of the nodes that rows move: do all their components lead? Collective.
+  /// By node of the columns: are all its components independent? Collective.
   std::vector<bool>
   leading_nodes(const BlockSystem &system, const CouplingRows &rows);
 
-  /// Shared rows with their dense part and what stands by itself.
+  /// The SharedRows as a dense part and single entries.
   struct SplitRows
   {
     /// @p leads: leading_nodes().
     SplitRows(const SharedRows &shared, const std::vector<bool> &leads);
 
     const SharedRows *shared;
-    /// By row: the column among shared->nodes of the only node that follows;
-    /// -1: there are several.
+    /// By row: the column among shared->nodes of its only dependent node; -1:
+    /// there are several.
     std::vector<int> own;
-    /// Columns of the dense part: those of nodes that follow, and of nodes
-    /// that lead.
+    /// Columns of the dense part: of dependent, then of independent nodes.
     std::array<std::vector<unsigned int>, 2> columns;
   };
 
-  /// Neighbouring rows that are one block, since they move nearly the same
-  /// nodes.
+  /// Neighbouring rows with nearly the same nodes, which form one block.
   struct CouplingCluster
   {
     std::size_t begin = 0, end = 0; ///< of shared rows
     int         n_rows = 0;
     std::array<std::vector<unsigned int>, 2>
-      nodes; ///< ascending; that follow, that lead
+      nodes; ///< ascending; dependent, independent
 
-    /// Unless that takes longer than apart.
+    /// Add @p rows unless separate blocks cost less; true if added.
     bool
     add(const SplitRows &rows);
   };

@@ -1,8 +1,7 @@
-// Products with B and B^T by dense blocks: a block is the rows of neighbouring
-// entities of the slave's mesh, and stands once for the components that have
-// the same entries, also where one of them lacks rows or columns, since
-// displacements are prescribed. Rows of dual multipliers move one node of the
-// slave each; that entry stands by itself.
+// Products with B and B^T by dense blocks of the rows of neighbouring entities
+// of the slave's mesh. A block serves all components with the same entries,
+// even if one lacks rows or columns at prescribed displacements. The single
+// slave entry of dual multipliers is kept apart.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>
@@ -15,8 +14,7 @@
 
 namespace mortise
 {
-  /// Leading displacements are left where they are by multipliers; the others
-  /// follow.
+  /// T is zero for independent displacements.
   enum class CoupledNodes : unsigned char
   {
     all,
@@ -30,7 +28,7 @@ namespace mortise
     /// @p rows: of system.constraint. Collective.
     CouplingProduct(const BlockSystem &system, const CouplingRows &rows);
 
-    /// The owned displacements that multipliers of any rank move.
+    /// The owned displacements with a column in B of any rank.
     const std::vector<unsigned int> &
     indices() const
     {
@@ -44,30 +42,30 @@ namespace mortise
       trace.reinit(layout);
     }
 
-    /// jump = B u, @p trace the values of u at indices(); those of other than @p nodes are taken
-    /// for zero or not, as is quicker. Collective.
+    /// jump = B u, @p trace the values of u at indices(); nodes other than
+    /// @p nodes are zero and may be left out. Collective.
     void
     multiply(Vector                    &jump,
              const LevelVector<Number> &trace,
              CoupledNodes               nodes = CoupledNodes::all) const;
 
-    /// @p trace = the values of B^T y at indices(); it is zero elsewhere. Those at other than @p nodes
-    /// may be left out. Collective.
+    /// @p trace = the values of B^T y at indices(), where alone it is not zero;
+    /// nodes other than @p nodes may be left out. Collective.
     void
     multiply_transposed(LevelVector<Number> &trace,
                         const Vector        &y,
                         CoupledNodes         nodes = CoupledNodes::all) const;
 
   private:
-    /// Rows of multipliers by node, for all components, and the nodes of the
-    /// displacements that they move.
+    /// Rows by node of multipliers for all components, and the nodes of their
+    /// columns.
     struct Block
     {
       std::vector<int>          rows;  ///< by node and component; -1: none
       std::vector<unsigned int> nodes; ///< among those of values
-      /// So many in front follow, the others lead.
+      /// The first nodes are dependent, the others independent.
       unsigned int        n_following = 0;
-      std::vector<int>    own_node;  ///< by node: moved by it alone; -1: none
+      std::vector<int>    own_node;  ///< by node: the single entry; -1: none
       std::vector<Number> own_entry; ///< likewise
 
       /// Entries of a row, padded.
@@ -95,7 +93,7 @@ namespace mortise
                               const double *y,
                               CoupledNodes  nodes) const;
 
-    /// Those of the matrix, if it has some.
+    /// Of the matrix; null without.
     const SparseMatrix         *frames = nullptr;
     mutable std::vector<double> by_component; ///< rows of B_c, with frames
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
@@ -104,7 +102,7 @@ namespace mortise
     dealii::AlignedVector<Number> entries; ///< by block, rows padded
     /// Of a trace; -1: none.
     std::vector<int> entry_of_value;
-    /// Displacements by node and component, 0 where they are prescribed.
+    /// Displacements by node and component, 0 if prescribed.
     mutable std::vector<Number>           values;
     mutable dealii::AlignedVector<Number> workspace; ///< of one block
   };

@@ -1,6 +1,5 @@
-// The rows of B by entity and node, once for the components that share their
-// entries, also where one of them lacks columns, since displacements are
-// prescribed.
+// The rows of B by entity and node, once for all components with the same
+// entries.
 #pragma once
 
 #include <mortise/solvers/multipliers/multiplier_nodes.h>
@@ -20,14 +19,13 @@ namespace mortise
     std::vector<double>       values; ///< by row and node
   };
 
-  /// All owned rows. Multipliers of a component move displacements of this
-  /// component only. Rows of several components share their entries
-  /// (SharedRows) also where a displacement of one component is prescribed.
+  /// All owned rows. A row has columns of its component only. Components share
+  /// entries (SharedRows) even if displacements of one are prescribed.
   struct CouplingRows
   {
     explicit CouplingRows(const CouplingMatrix &B);
 
-    /// Nodes that this rank's rows move: the columns of matrix.scalar().
+    /// Number of nodes of the columns, those of matrix.scalar().
     unsigned int
     n_nodes() const
     {
@@ -35,8 +33,7 @@ namespace mortise
     }
 
     const CouplingMatrix &matrix;
-    /// By node and component: the displacement, of any rank; -1: it is
-    /// prescribed.
+    /// By node and component: the displacement, of any rank; -1: prescribed.
     std::vector<int>                     displacements;
     MultiplierNodes                      multipliers;
     std::vector<std::vector<SharedRows>> rows; ///< by entity

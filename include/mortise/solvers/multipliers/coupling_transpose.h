@@ -1,5 +1,5 @@
-// T B^T by rows, T diagonal, for the displacements that owned rows of B move,
-// with the multipliers of all ranks.
+// T B^T by rows, T diagonal, for the columns of owned rows of B, with the
+// multipliers of all ranks.
 #pragma once
 
 #include <mortise/operators/levels/nodal_level.h>

@@ -1,7 +1,6 @@
-// Jacobi's method among the displacements that satisfy the constraint: the
-// inverse D^{-1} of a diagonal becomes P D^{-1} P^T with P = I - T B^T C^{-1}
-// B, C = B T B^T. Sources: Braess, Sarazin (1997); Braess, Dahmen, Wieners
-// (1999).
+// Jacobi's method in the kernel of the constraint: D^{-1} becomes P D^{-1} P^T,
+// P = I - T B^T C^{-1} B, C = B T B^T. Sources: Braess, Sarazin (1997); Braess,
+// Dahmen, Wieners (1999).
 #pragma once
 
 #include <mortise/solvers/multipliers/coupling_product.h>
@@ -11,8 +10,8 @@
 
 namespace mortise
 {
-  /// Works on the few displacements that multipliers move. Where none leads, T
-  /// is D^{-1} and P D^{-1} P^T = T - T B^T C^{-1} B T.
+  /// Works on the displacements with a column in B. Without independent ones T
+  /// = D^{-1} and P D^{-1} P^T = T - T B^T C^{-1} B T.
   template <typename Number>
   class InterfaceCorrection
   {
@@ -22,20 +21,20 @@ namespace mortise
                         const CouplingProduct<Number> &product,
                         const Lifting                 &lifting);
 
-    /// Do displacements lead on any rank?
+    /// Are there independent displacements on any rank?
     bool
     has_leaders() const
     {
       return some_lead;
     }
 
-    /// To the diagonal of K, what follows leading displacements.
+    /// Add LeadingDisplacement::followers to the diagonal of K.
     void
     add_followers(LevelVector<Number> &diagonal) const;
 
     /// subtract(i, c_i) with c = (D^{-1} - P D^{-1} P^T) r, r_i = residual(i),
-    /// for the indices i of owned displacements that multipliers move. @p
-    /// inverse: D^{-1}. Collective.
+    /// for the owned displacements i with a column in B. @p inverse: D^{-1}.
+    /// Collective.
     template <typename Residual, typename Subtract>
     void
     correct(const Residual            &residual,
@@ -64,22 +63,22 @@ namespace mortise
           subtract(indices[k], weights[k] * trace.local_element(k));
     }
 
-    /// x := x - T B^T y with y = C^{-1} (B x - S lambda), lambda what springs
-    /// carry, and they carry y more. Collective.
+    /// x := x - T B^T y, y = C^{-1} (B x - S lambda), and add y to lambda, the
+    /// multipliers of springs. Collective.
     void
     project(LevelVector<Number> &x) const;
 
-    /// Springs: what they carry for the x that a smoother works on is kept
-    /// here, since what opens a stiff one is less than the rounding of x. None
-    /// do.
+    /// Set the multipliers of springs to zero. They are kept beside the x of a
+    /// smoother, since the opening of a stiff spring is less than the rounding
+    /// of x.
     void
     release_springs() const
     {
       carried = 0.;
     }
 
-    /// d := keep d + take C^{-1} B (...), the multipliers of the last
-    /// correct(), and carry d more.
+    /// Add d := keep d + take y to the multipliers of springs, y those of the
+    /// last correct().
     void
     load_springs(double keep, double take) const
     {
@@ -87,7 +86,7 @@ namespace mortise
       carried += added;
     }
 
-    /// r += B^T of what they carry. Collective.
+    /// r += B^T lambda of springs. Collective.
     void
     add_spring_forces(LevelVector<Number> &r) const
     {
@@ -114,7 +113,7 @@ namespace mortise
     project_residual(LevelVector<Number> &r) const;
 
   private:
-    /// trace := B^T C^{-1} B trace; it is zero but at @p from, and needed at @p to.
+    /// trace := B^T C^{-1} B trace, nonzero at @p from, needed at @p to.
     void
     apply(CoupledNodes from, CoupledNodes to) const
     {

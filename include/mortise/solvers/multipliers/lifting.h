@@ -1,6 +1,6 @@
-// T, a cheap approximation of the inverse stiffness for forces B^T lambda on
-// interfaces: each node by itself. The projector and the Schur complement
-// B T B^T of the solvers are made of it.
+// Approximate Schur complement C = B T B^T + S of the multipliers, with a
+// diagonal approximation T of K^{-1} and the compliance S of springs. Source:
+// Braess and Sarazin (1997).
 #pragma once
 
 #include <mortise/solvers/factorisation/cholesky_inverse.h>
@@ -15,11 +15,10 @@
 
 namespace mortise
 {
-  /// T = diag(K)^{-1} on the nodes of interfaces but zero for leading
-  /// displacements; one value for a node, so that multipliers of all
-  /// components see the same wherever no boundary condition tells them apart.
-  /// Iterations are the same or up to 3 in 19 fewer than with a value for each
-  /// component. C = B T B^T + S is factorised, S the compliance of springs.
+  /// T = diag(K)^{-1}, averaged over the components of a node, so that C is the
+  /// same for all components; zero for independent displacements. Iterations
+  /// are equal to those with a value per component, or up to 3 in 19 fewer. C
+  /// is factorised.
   class Lifting
   {
   public:
@@ -30,20 +29,20 @@ namespace mortise
             const CouplingProduct<float> &product,
             std::size_t                   max_gathered);
 
-    /// After other multipliers have become active. False as is_valid().
+    /// To be called after BlockSystem::active has changed. False as is_valid().
     /// Collective.
     bool
     update_active();
 
-    /// False when the multipliers are not independent of each other.
+    /// False if the multipliers are linearly dependent.
     bool
     is_valid() const
     {
       return valid;
     }
 
-    /// How C is inverted; empty for what does in most scenes, a factorisation
-    /// in single precision that all ranks share.
+    /// The factorisation in words; empty for the usual one, in single precision
+    /// on all ranks.
     std::string
     description() const;
 
@@ -58,14 +57,14 @@ namespace mortise
       return weights;
     }
 
-    /// y = C^{-1} jump, to four digits at least in the norm of C; both with the
-    /// rows of B, those that are active: y is zero elsewhere. Collective.
+    /// y = C^{-1} jump for active multipliers, zero for others, to at least
+    /// four digits in the norm of C. Collective.
     void
     apply_inverse_schur(Vector &y, const Vector &jump) const;
 
   private:
-    /// Factorise @p active rows and columns of C, entries those of multipliers, in single precision
-    /// where that is accurate enough. Collective.
+    /// Factorise the @p active rows and columns of C, in single precision if
+    /// that is accurate enough. Collective.
     void
     factorise(NodalMatrix active);
 
@@ -82,10 +81,10 @@ namespace mortise
     LevelVector<double>           weights;
     NodalMatrix schur; ///< kept once not all multipliers are active
 
-    /// (Entry, inverse of the diagonal) of multipliers that C couples with no
-    /// other, unless Schwarz treats all.
+    /// (Entry, inverse of the diagonal) of multipliers without off-diagonal
+    /// entries in C, unless Schwarz treats all.
     std::vector<std::pair<int, double>> lone;
-    /// For the others one of them; the last for what no other can.
+    /// One of these inverts the rest of C, the last if no other can.
     std::unique_ptr<SchwarzInverse>          schwarz;
     std::unique_ptr<CholeskyInverse<double>> cholesky;
     std::unique_ptr<MumpsFactorisation>      mumps;

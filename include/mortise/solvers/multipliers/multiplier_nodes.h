@@ -1,5 +1,4 @@
-// The rows of B by node: multipliers of one component each that belong
-// together.
+// Grouping of the rows of B by node: the multipliers of its components.
 #pragma once
 
 #include <deal.II/base/partitioner.h>
@@ -18,9 +17,8 @@ namespace mortise
     int first_row = 0, n_rows = 0; ///< of all components
   };
 
-  /// The owned rows of B_c by entity: a component that does not follow the one
-  /// before begins another. What rows stand for does not matter, only that
-  /// each node has one row of a component at most.
+  /// The owned rows of B_c by entity, which ends where the component decreases.
+  /// Each node has at most one row per component.
   struct MultiplierNodes
   {
     explicit MultiplierNodes(const CouplingMatrix &B);

@@ -1,5 +1,5 @@
-// The rows of T B^T by node of displacements, once for the components that have
-// the same entries.
+// The rows of T B^T by node of displacements, once for all components with the
+// same entries.
 #pragma once
 
 #include <mortise/solvers/multipliers/coupling_transpose.h>
@@ -15,10 +15,10 @@ namespace mortise
                            const CouplingRows &B,
                            const NodeNumbers  &numbers);
 
-    /// By moved node: has it one row for all components, which holds for those
-    /// multipliers that has_multiplier() knows, or none, since T is zero there?
+    /// By node: have all components the same row, for those multipliers that
+    /// exist (has_multiplier()), or none, since T is zero?
     std::vector<char>         is_common;
-    std::vector<int>          row_of; ///< by moved node and component; -1: none
+    std::vector<int>          row_of; ///< by node and component; -1: none
     std::vector<unsigned int> begin;  ///< by row
     std::vector<int>          nodes;  ///< of multipliers, ascending
     std::vector<double>       values;

@@ -7,7 +7,8 @@
 
 namespace mortise
 {
-  /// B T B^T; what all components share is computed once. @p coupling: B. @p weights: T, diagonal, by owned displacement. Collective.
+  /// B T B^T, computed once for components with the same entries. @p coupling:
+  /// B. @p weights: T, diagonal, by owned displacement. Collective.
   NodalMatrix
   weighted_square(const CouplingRows        &coupling,
                   const LevelVector<double> &weights);
