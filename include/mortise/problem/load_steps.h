@@ -1,4 +1,4 @@
-// Which time a run goes to next.
+// Control of load steps.
 #pragma once
 
 #include <mortise/problem/input/step_parameters.h>
@@ -7,12 +7,12 @@
 
 namespace mortise
 {
-  /// The planned times, and smaller steps to them where one fails: a step that
-  /// fails is halved, after an easy one the next is twice as long.
+  /// The planned times with steps between them: a step that fails is halved,
+  /// after an easy one the length is doubled.
   class LoadSteps
   {
   public:
-    /// @p divisible: may a step be halved? A linear scene gains nothing by it.
+    /// @p divisible: may a step be halved? That is useless in linear scenes.
     LoadSteps(const StepParameters &parameters, bool divisible);
 
     bool
@@ -28,7 +28,7 @@ namespace mortise
       return reached;
     }
 
-    /// Where the next step goes.
+    /// The time at the end of the next step.
     double
     next() const;
 
@@ -39,25 +39,25 @@ namespace mortise
       return n_accepted;
     }
 
-    /// Is the time that was reached one of those to write fields at?
+    /// Are fields to be written at the time that was reached?
     bool
     output_due() const
     {
       return at_planned && (n_planned % output_every == 0 || finished());
     }
 
-    /// Reached so far, of the whole; between 0 and 1.
+    /// Fraction of the end time that was reached.
     double
     share() const
     {
       return reached / times.back();
     }
 
-    /// The step to next() is done, without trouble if @p easy.
+    /// The step to next() has converged, with few iterations if @p easy.
     void
     accept(bool easy);
 
-    /// Try a step of half the length instead. False if none is allowed.
+    /// Halve the step. False if it is not allowed.
     bool
     halve();
 
@@ -66,7 +66,7 @@ namespace mortise
     void
     resume(double time, unsigned int n_steps, double length);
 
-    /// The longest step that is tried now; what resume() needs.
+    /// The present limit of steps, for resume().
     double
     longest() const
     {

@@ -1,4 +1,4 @@
-// What the driver keeps in a checkpoint beside the values of the scene.
+// State of the driver in a checkpoint, beside the values of the scene.
 #pragma once
 
 #include <mortise/output/checkpoint_file.h>
@@ -28,8 +28,8 @@ namespace mortise
   Sections
   to_sections(const RunCheckpoint &checkpoint);
 
-  /// Of the checkpoint in @p directory. Collective; throws InputError if there is
-  /// none or its sections are not what to_sections() gives.
+  /// Read it from the checkpoint in @p directory. Collective; throws InputError
+  /// if there is none or its sections are not those of to_sections().
   RunCheckpoint
   read_run_checkpoint(const std::string &directory, MPI_Comm comm);
 

@@ -1,4 +1,4 @@
-// What a run writes: fields, checkpoints, the summary; and what could not be.
+// Output of a run: fields, checkpoints, summary, and errors of writing them.
 #pragma once
 
 #include <mortise/output/checkpoint_file.h>
@@ -19,13 +19,15 @@ namespace mortise
       , run(run)
     {}
 
-    /// The fields of a step, see FieldFiles. Collective, as all that follows.
+    /// The fields of a step, see FieldFiles. Collective, as all functions
+    /// below.
     void
     write_fields(const LoadSteps      &steps,
                  const StepEvaluation &evaluation,
                  const NumbersByCell  &estimates);
 
-    /// @p of_run: what the driver keeps, beside the values of @p evaluation on @p bodies.
+    /// @p of_run: sections of the driver, beside the values of @p evaluation on
+    /// @p bodies.
     void
     write_checkpoint(const Sections       &of_run,
                      const StepEvaluation &evaluation,
@@ -35,11 +37,12 @@ namespace mortise
     void
     write_summary(Summary &summary);
 
-    /// How much of @p steps is done, and how long the rest may take.
+    /// Print the completed fraction of @p steps and the estimated remaining
+    /// time.
     void
     print_progress(const LoadSteps &steps);
 
-    /// Progress is estimated from this share on.
+    /// Progress counts from this fraction on.
     void
     begin_at(const double share)
     {
@@ -55,7 +58,7 @@ namespace mortise
     FieldFiles files;
 
   private:
-    /// What was done after so many seconds.
+    /// Fraction that was completed at a time.
     struct Clock
     {
       double share = 0., seconds = 0.;

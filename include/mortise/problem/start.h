@@ -1,4 +1,4 @@
-// What a process settles before MPI starts: processors, memory, signals.
+// Preparation of a process before MPI starts: processors, memory, signals.
 #pragma once
 
 namespace mortise

@@ -1,4 +1,4 @@
-// Where a run stands: what a step begins with and returns.
+// State of a run, argument and result of a load step.
 #pragma once
 
 #include <mortise/contact/multiplier_places.h>
@@ -9,16 +9,15 @@
 
 namespace mortise
 {
-  /// Of the last step that was accepted.
+  /// After the last accepted step.
   struct State
   {
     double       time = 0.;
-    SystemVector solution; ///< without what is prescribed; no size: unloaded
-    /// Which multipliers of contact press; absent where none have been
-    /// determined.
+    SystemVector solution; ///< without prescribed values; empty: unloaded
+    /// Active set of contact; absent before it is known.
     std::optional<ActivePlaces> pressing;
-    /// By interface, how far a preload brings its sides together, a length;
-    /// empty before the first step.
+    /// By interface, the shortening of its preload, a length; empty before the
+    /// first step.
     std::vector<double> shortenings;
   };
 } // namespace mortise

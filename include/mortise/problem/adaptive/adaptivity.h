@@ -1,5 +1,5 @@
-// The cycles of a run with a target: which meshes and degrees come next, from
-// what adapt/ has for the error.
+// Adaptive cycles of a run with a target error: meshes and degrees of the next
+// cycle from the estimates of adapt/.
 #pragma once
 
 #include <mortise/adapt/cycle_errors.h>
@@ -20,15 +20,16 @@ namespace mortise
   class Adaptivity
   {
   public:
-    /// @p run must live on; it has a target.
+    /// @p run, which has a target, must live on.
     explicit Adaptivity(const RunContext &run)
       : run(run)
       , goal(given_quantity(run.parameters))
       , of_cycle(run.parameters.solver.tolerance, run.comm)
     {}
 
-    /// Cut the meshes of @p bodies, or make new ones, as chosen by the last add(), if there was one; those bodies lose
-    /// their spaces. Collective; throws InputError where gmsh cannot.
+    /// Refine or remake the meshes of @p bodies as planned by the last add(),
+    /// if any; these bodies lose their spaces. Collective; throws InputError if
+    /// gmsh fails.
     void
     refine(Bodies &bodies);
 
@@ -36,22 +37,22 @@ namespace mortise
     CellDegrees
     degrees() const;
 
-    /// The solution of the cycle before in the spaces that @p bodies have now; empty in
-    /// the first cycle and on a new mesh. Collective.
+    /// The last solution in the present spaces of @p bodies; empty in the first
+    /// cycle and on a new mesh. Collective.
     const std::vector<BodySolution> &
     start(const Bodies &bodies)
     {
       return of_cycle.start(bodies, goes_on());
     }
 
-    /// Likewise, of the dual problem of quantity(). Collective.
+    /// The same for the dual problem of quantity(). Collective.
     const std::vector<BodySolution> &
     dual_start(const Bodies &bodies)
     {
       return of_cycle.dual_start(bodies, goes_on());
     }
 
-    /// That were added.
+    /// Number of cycles that were added.
     unsigned int
     n_cycles() const
     {
@@ -64,14 +65,14 @@ namespace mortise
       return *run.parameters.adaptivity.target_error;
     }
 
-    /// That the target is of; nothing: the energy norm.
+    /// The goal functional; nothing: the energy norm.
     const std::optional<Quantity> &
     quantity() const
     {
       return goal;
     }
 
-    /// The next cycle has been solved, see CycleErrors::add(). Collective.
+    /// Add a cycle, see CycleErrors::add(). Collective.
     void
     add(const Bodies                      &bodies,
         const std::vector<BodySolution>   &solutions,
@@ -86,7 +87,7 @@ namespace mortise
       return of_cycle;
     }
 
-    /// The estimate that meets the target.
+    /// The largest estimate that meets the target.
     double
     met_at() const
     {
@@ -100,48 +101,49 @@ namespace mortise
       return at_most && *at_most <= met_at();
     }
 
-    /// Why there is no next cycle, although the target is not reached, in
+    /// The limit that prevents the next cycle before the target is reached, in
     /// words; else empty.
     std::string
     limit() const;
 
-    /// What a checkpoint needs beside the solution of the last cycle; of a run
-    /// that writes none empty.
+    /// Data of a checkpoint beside the last solution; empty without
+    /// checkpoints.
     const KeptCycles &
     checkpoint() const
     {
       return kept;
     }
 
-    /// Go on after the cycle of which checkpoint() is @p given. Throws InputError if it is of another quantity(),
-    /// std::out_of_range if it cannot be.
+    /// Continue after the cycle whose checkpoint() is @p given. Throws
+    /// InputError for another quantity(), std::out_of_range for impossible
+    /// data.
     void
     resume(KeptCycles given);
 
-    /// After resume(): the meshes of that cycle from those of the first, before
-    /// there are spaces. Collective; throws InputError where gmsh cannot, and
-    /// if they are other ones.
+    /// After resume(), before there are spaces: make the meshes of that cycle
+    /// from the first ones. Collective; throws InputError if gmsh fails or
+    /// makes other meshes.
     void
     restore_meshes(Bodies &bodies);
 
-    /// After both, in the spaces of degrees(): the solution of that cycle.
+    /// After both, in the spaces of degrees(): set the solution of that cycle.
     /// Collective.
     void
     restore(const Bodies &bodies, const std::vector<BodySolution> &solutions);
 
   private:
-    /// Last estimates are at least so much of the error, about
+    /// Lower bound of the effectivity of final estimates
     /// (doc/guide/adaptivity.md).
     static constexpr double least_effectivity = 0.9;
 
-    /// Do spaces of the next cycle contain those of the last one?
+    /// Do the spaces of the next cycle contain those of the last one?
     bool
     goes_on() const
     {
       return n_cycles() > 0 && next.meshes.empty();
     }
 
-    /// The next degrees, splits and meshes, unless the target is reached.
+    /// Plan degrees, splits and meshes unless the target is reached.
     /// Collective.
     void
     plan(const Bodies &bodies);
@@ -153,13 +155,14 @@ namespace mortise
     const std::optional<Quantity> goal;
     CycleErrors                   of_cycle;
     MeshPlan                      next;
-    unsigned int n_meshes = 0; ///< how often there were new ones
-    /// By body, those of the mesh; null: the file's.
+    unsigned int                  n_meshes = 0; ///< number of remeshings
+    /// By body, sizes of the mesh; null: those of the file.
     std::vector<std::shared_ptr<const SizeField>> sizes;
     KeptCycles                                    kept;
   };
 
-  /// The last cycle; @p exact may be null, @p errors are those of the whole solution. Collective.
+  /// Summary of the last cycle. @p exact may be null; @p errors: of the whole
+  /// solution. Collective.
   AdaptivitySummary
   summary_of(const Adaptivity                  &adaptivity,
              const Bodies                      &bodies,
@@ -170,7 +173,7 @@ namespace mortise
   std::string
   found(const Adaptivity &adaptivity, const Bodies &bodies);
 
-  /// That the target is not reached, why, and what was.
+  /// The message that the target is not reached, with reason and estimate.
   std::string
   missed(const Adaptivity &adaptivity);
 } // namespace mortise

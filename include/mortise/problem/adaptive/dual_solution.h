@@ -1,7 +1,6 @@
-// The quantity whose error a run with a target is to make small as a
-// functional, and its dual problem: whose solution says what an error anywhere
-// does to it. Source: Becker and Rannacher, An optimal control approach to a
-// posteriori error estimation (2001).
+// The goal functional and its dual problem, whose solution weights errors by
+// their effect on the goal. Source: Becker and Rannacher, An optimal control
+// approach to a posteriori error estimation (2001).
 #pragma once
 
 #include <mortise/adapt/cycle_errors.h>
@@ -15,8 +14,8 @@
 
 namespace mortise
 {
-  /// All components of the displacement or force of which @p quantity is one. Throws
-  /// InputError where a point lies outside its body. Collective.
+  /// The displacement or force of which @p quantity is a component. Throws
+  /// InputError if its point lies outside the body. Collective.
   dealii::Tensor<1, dim>
   all_components(const Quantity                  &quantity,
                  const Bodies                    &bodies,
@@ -28,13 +27,14 @@ namespace mortise
               const Bodies        &bodies,
               const ExactSolution &exact);
 
-  /// The derivative by what is solved for. Throws InputError where a
-  /// point lies outside. Collective.
+  /// The derivative by the unknowns. Throws InputError if its point lies
+  /// outside the body. Collective.
   LinearFunctional
   derivative(const Quantity &quantity, const Discretisation &discretisation);
 
-  /// Solve the system of @p discretisation with the shortenings of @p preloads, whose last solution is @p solutions with
-  /// @p forces, for the derivative of @p quantity; @p start may be empty. Collective.
+  /// Solve the dual problem of @p quantity, with the shortenings of
+  /// @p preloads, at the solution @p solutions with @p forces; @p start may be
+  /// empty. Collective.
   DualSolution
   solve_dual(const RunContext                &run,
              const Discretisation            &discretisation,

@@ -1,4 +1,4 @@
-// What a checkpoint has of adaptive cycles, and whether it can be.
+// State of adaptive cycles in a checkpoint, and checks of it.
 #pragma once
 
 #include <mortise/adapt/cycle_errors.h>
@@ -17,7 +17,7 @@ namespace mortise
   struct KeptCell
   {
     std::uint64_t coarse = 0;
-    std::string   children; ///< which child from level to level, as bytes
+    std::string   children; ///< number of the child on each level, as bytes
     CellState     state;
 
     template <typename Archive>
@@ -28,10 +28,10 @@ namespace mortise
     }
   };
 
-  /// Coordinates of the vertices of a cell of SizeField, then sizes there.
+  /// Coordinates of the vertices of a cell of SizeField, then their sizes.
   using SizesOfCell = std::array<double, 16>;
 
-  /// Of Adaptivity::checkpoint().
+  /// See Adaptivity::checkpoint().
   struct KeptCycles
   {
     std::string                           quantity; ///< empty: the energy norm
@@ -48,21 +48,20 @@ namespace mortise
     }
   };
 
-  /// Throws std::out_of_range if @p kept cannot be of a run with @p bodies.
+  /// Throws std::out_of_range if @p kept is impossible with @p bodies.
   void
   check(const KeptCycles &kept, const std::vector<BodyParameters> &bodies);
 
-  /// Throws std::out_of_range if no mesh can have it.
+  /// Throws std::out_of_range for an impossible cell.
   CellNumber
   number_of(const KeptCell &cell);
 
-  /// Throws std::out_of_range if it is none of tetrahedra that gmsh can be
-  /// asked for.
+  /// Throws std::out_of_range for a degenerate tetrahedron or impossible sizes.
   SizeField::Cell
   size_cell(const SizesOfCell &numbers);
 
-  /// Throws std::out_of_range if @p sizes ask for far more tetrahedra than
-  /// the @p n_cells of the mesh that was made by them.
+  /// Throws std::out_of_range if @p sizes require far more tetrahedra than the
+  /// @p n_cells of their mesh.
   void
   check_number(const std::vector<SizeField::Cell> &sizes, std::size_t n_cells);
 } // namespace mortise

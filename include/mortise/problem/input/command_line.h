@@ -29,11 +29,11 @@ namespace mortise
   CommandLine
   parse_command_line(const std::vector<std::string> &arguments);
 
-  /// What --help prints.
+  /// Text of --help.
   std::string
   help_text();
 
-  /// What --version prints.
+  /// Text of --version.
   std::string
   version_text();
 } // namespace mortise

@@ -1,5 +1,5 @@
-// Which bodies have a pressure of their own, and what that asks of the other
-// parameters.
+// Choice between displacement and mixed form of bodies, and its conditions on
+// other parameters.
 #pragma once
 
 #include <mortise/problem/input/parameters.h>
@@ -9,7 +9,7 @@
 
 namespace mortise
 {
-  /// All that the parameters name for cells of @p body.
+  /// All degrees that the parameters give to cells of @p body.
   std::set<unsigned int>
   given_degrees(const BodyParameters &body);
 
@@ -18,26 +18,24 @@ namespace mortise
     BodyParameters                                         &body,
     const std::function<unsigned int(unsigned int degree)> &changed);
 
-  /// The pressure has one less, and is continuous.
+  /// Pressures are continuous and of one degree less.
   constexpr unsigned int least_mixed_degree = 2;
 
-  /// Raise degrees of one where they keep a body from the mixed form, in which
-  /// it is to be otherwise.
+  /// Raise degrees of one in a body that would otherwise be in mixed form.
   void
   raise_to_mixed_form(BodyParameters &body);
 
-  /// Is the body in mixed form? As asked; by itself from nu = 0.49 on, but
-  /// below 0.5 only if all its degrees are above one, which the form needs.
+  /// Is the body in mixed form? Automatically from nu = 0.49 on, below 0.5 only
+  /// if all its degrees are above one.
   bool
   is_mixed(const BodyParameters &body);
 
-  /// Does the body lock: displacement form, of its own choice, with nu = 0.49
-  /// or more?
+  /// Does the body lock: automatic displacement form with nu = 0.49 or more?
   bool
   locks(const BodyParameters &body);
 
-  /// Throws InputError for a form that does not exist with the material, the
-  /// degrees, the solver or the exact solution of the scene.
+  /// Throws InputError for a form that is impossible with the material,
+  /// degrees, solver or exact solution.
   void
   check_formulations(const Parameters &parameters);
 } // namespace mortise

@@ -1,4 +1,4 @@
-// The law of an interface, from its parameters.
+// Construction of an InterfaceLaw from parameters.
 #pragma once
 
 #include <mortise/contact/interface_law.h>
@@ -6,7 +6,7 @@
 
 namespace mortise
 {
-  /// The stiffness of a spring throws InputError where it is not positive.
+  /// InterfaceLaw::stiffness throws InputError where it is not positive.
   InterfaceLaw
   interface_law(const Parameters          &parameters,
                 const InterfaceParameters &interface);

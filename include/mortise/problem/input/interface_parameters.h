@@ -28,19 +28,19 @@ namespace mortise
     bool           ignores_mesh_gap = false; ///< of contact
     std::string    multiplier       = "dual";
     std::string    offset           = "0";
-    /// Of a tie: the normal force it carries; up to which time.
+    /// Of a tie: its normal force, and the time until which that is given.
     std::optional<std::string> preload;
     std::optional<double>      preload_until;
-    /// For "spring" alone.
+    /// Of springs.
     std::optional<std::string> normal_stiffness, tangential_stiffness;
-    /// Adaptivity sets the least one, by how far sides have moved.
+    /// Adaptivity sets its lower bound from the relative motion of the sides.
     SearchDistance search_distance;
     unsigned int   quadrature_points = 0; ///< 0 ("auto"): by the degrees
 
-    /// A support: nothing moves in place of the master, which is the slave's
-    /// boundary again; what Offset would be is the displacement.
+    /// A support: the master is a rigid copy of the slave's boundary, and the
+    /// displacement takes the place of the offset.
     bool                                is_support = false;
-    std::optional<dealii::Tensor<1, 3>> direction; ///< else the normal
-    std::string displacement_path; ///< of the parameter that asks for it
+    std::optional<dealii::Tensor<1, 3>> direction;         ///< else the normal
+    std::string                         displacement_path; ///< of its parameter
   };
 } // namespace mortise

@@ -1,7 +1,6 @@
-// One parameter of a parameter file as one entry: its name, the member that it
-// sets (whose initialiser is the default), its meaning with the unit, and what
-// is allowed. Declaring, printing, reading and the check of its range all come
-// from that entry.
+// One entry per parameter: name, member (whose initialiser is the default),
+// meaning with the unit, and allowed values. Declaration, printing, reading and
+// checks follow from the entry.
 #pragma once
 
 #include <mortise/base/quotes.h>
@@ -18,8 +17,7 @@
 
 namespace mortise
 {
-  /// What a parameter may be: in words, and what is checked of it beside its
-  /// type.
+  /// Allowed values of a parameter in words and as checks.
   struct Allowed
   {
     std::string                 words;
@@ -50,8 +48,8 @@ namespace mortise
   template <typename T>
   constexpr bool is_choice = std::is_enum_v<T> || std::is_same_v<T, bool>;
 
-  /// The text that a parameter got, and what it stands for. All throw
-  /// InputError with where it is, what was got and what is allowed.
+  /// The text of a parameter and its conversions, which throw InputError with
+  /// the location, the value found and the allowed ones.
   struct ParameterValue
   {
     std::string    text;  ///< normalised
@@ -141,7 +139,7 @@ namespace mortise
     Allowed                                     allowed;
     std::function<void(const ParameterValue &)> set; ///< the member
     std::string value; ///< the default, or what was assigned last
-    std::string where; ///< its place, for messages
+    std::string where; ///< its location, for messages
   };
 
   /// Adds the entries of one subsection. Members must outlive them.

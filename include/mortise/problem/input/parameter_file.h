@@ -1,5 +1,5 @@
-// The lines of a parameter file in the syntax of dealii::ParameterHandler, each
-// with its origin, so that messages can name the line.
+// Lines of a parameter file in the syntax of dealii::ParameterHandler, with
+// their origins for messages.
 #pragma once
 
 #include <string>
@@ -51,8 +51,9 @@ namespace mortise
   Assignment
   scan_setting(const std::string &setting);
 
-  /// The text of @p file. Throws InputError if it is missing, a directory, or unreadable.
-  /// @p from says who asked, in brackets: "" or " (included at line 3 of scene.prm)".
+  /// The text of @p file. Throws InputError if it is missing, a directory, or
+  /// unreadable. @p from: "" or " (included at line 3 of scene.prm)", for
+  /// messages.
   std::string
   read_text_file(const std::string &file, const std::string &from = "");
 

@@ -1,5 +1,5 @@
-// All parameters of a scene, the values that they are assigned, and how they
-// are printed for people.
+// Declaration of all parameters, assignment of values, and the reference that
+// --parameters prints.
 #pragma once
 
 #include <mortise/problem/input/parameter_entry.h>
@@ -16,15 +16,15 @@ namespace mortise
   std::vector<ParameterEntry>
   declare_parameters(Parameters &parameters);
 
-  /// The part of them in the subsection of a body.
+  /// The entries of the subsection of a body.
   void
   declare_body(const ParameterSection &section, BodyParameters &body);
 
-  /// The part of those in its subsection Mesh.
+  /// The entries of its subsection Mesh.
   void
   declare_mesh(const ParameterSection &section, MeshParameters &mesh);
 
-  /// The part of those in the subsections of how a scene is solved.
+  /// The entries of the subsections Solver, Adaptivity and Steps.
   void
   declare_solver(const ParameterSection &section, SolverParameters &solver);
   void
@@ -33,15 +33,15 @@ namespace mortise
   void
   declare_steps(const ParameterSection &section, StepParameters &steps);
 
-  /// Note the value, and @p where it stands, in the entry that @p assignment names. Throws InputError
-  /// if there is none, with the nearest.
+  /// Set value and location (@p where) of the entry that @p assignment names.
+  /// Throws InputError with the nearest name if there is none.
   void
   assign(std::vector<ParameterEntry> &entries,
          const Assignment            &assignment,
          const std::string           &where);
 
-  /// A parameter file with every parameter at its default, each with its unit,
-  /// meaning and what is allowed as a comment: what --parameters prints.
+  /// The text of --parameters: a parameter file with all defaults, and unit,
+  /// meaning and allowed values as comments.
   std::string
   parameter_reference();
 } // namespace mortise

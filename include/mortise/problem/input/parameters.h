@@ -1,10 +1,9 @@
-// What a parameter file says, as plain data: one struct per subsection, with
-// the defaults. Meaning and units stand in the entries, as --parameters prints
-// them.
+// The parameters as plain data: one struct per subsection with the defaults.
+// Meanings and units are in the entries, see --parameters.
 //
 // Files have the syntax of dealii::ParameterHandler. `parameter_file.h` reads
-// the lines, `parameter_schema.h` declares the parameters (and prints them for
-// people): a new one is a member here and an entry there.
+// the lines, `parameter_schema.h` declares and prints the parameters: a new one
+// is a member here and an entry there.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -38,7 +37,7 @@ namespace mortise
     return components[0] + "; " + components[1] + "; " + components[2];
   }
 
-  /// What acts on one named boundary; what is absent does not.
+  /// Loads and supports of one named boundary.
   struct BoundaryParameters
   {
     std::optional<std::string> pressure;
@@ -46,10 +45,10 @@ namespace mortise
     std::optional<Components>  force, moment; ///< totals
     std::optional<Components>  displacement;
     std::array<double, 3>      displacement_axes{}; ///< rotation, degrees
-    std::optional<std::string> normal_displacement; ///< of all that alone
+    std::optional<std::string> normal_displacement; ///< excludes the others
   };
 
-  /// Unknowns of a body: displacement, or displacement and pressure.
+  /// Unknowns of a body.
   enum class Formulation
   {
     automatic, ///< mixed from nu = 0.49 on
@@ -99,7 +98,7 @@ namespace mortise
     bool         print_iterations = false;
   };
 
-  /// Meshes and degrees that follow from the error that is asked for.
+  /// Adaptivity with a target error.
   struct AdaptivityParameters
   {
     std::optional<double> target_error; ///< relative; absent: none
@@ -124,7 +123,7 @@ namespace mortise
     dealii::Point<3> point;
   };
 
-  /// What a boundary of a body bears, reported in the summary.
+  /// Force and moment on a boundary of a body, reported in the summary.
   struct ResultantQuantity
   {
     std::string  name;
@@ -164,7 +163,7 @@ namespace mortise
     std::string
     where(const std::string &path) const;
 
-    /// Throw InputError: what was @p got at @p path, and what is allowed.
+    /// Throw InputError with the value @p got at @p path and the allowed ones.
     [[noreturn]] void
     fail(const std::string &path,
          const std::string &got,
@@ -179,9 +178,8 @@ namespace mortise
            join_names(side.boundaries);
   }
 
-  /// Append the supports: interfaces that stand for displacements along normals
-  /// or along axes that are not those of the scene, one for each component.
-  /// Throws InputError.
+  /// Append the supports: interfaces that prescribe displacements along normals
+  /// or rotated axes, one per component. Throws InputError.
   void
   add_supports(Parameters &parameters);
 
@@ -200,7 +198,8 @@ namespace mortise
                    const std::string &file,
                    const Settings    &settings = {});
 
-  /// The parameters that @p assignments make, later ones first. Throws InputError.
+  /// The parameters of @p assignments, of which later ones count. Throws
+  /// InputError.
   Parameters
   parse_parameters(const std::vector<Assignment> &assignments,
                    const std::string             &file);
@@ -212,13 +211,13 @@ namespace mortise
                   const Settings    &settings,
                   MPI_Comm           comm);
 
-  /// Check the combinations, and the expressions: all that can be known without
-  /// the meshes. Throws InputError. Reads no files, writes none.
+  /// Check combinations and expressions without meshes or files. Throws
+  /// InputError.
   void
   validate(const Parameters &parameters);
 
-  /// Could @p directory be made and written? Creates nothing. Throws InputError on every rank.
-  /// Collective.
+  /// Check that the output directory can be made and written, without creating
+  /// it. Throws InputError on all ranks. Collective.
   void
   check_output_directory(const Parameters &parameters, MPI_Comm comm);
 

@@ -1,5 +1,5 @@
-// What parameters say of a run with a target: the number whose error is to
-// become small.
+// The goal of an adaptive run: a component of a displacement or force whose
+// error the target limits.
 #pragma once
 
 #include <mortise/problem/input/parameters.h>
@@ -26,16 +26,17 @@ namespace mortise
     }
   };
 
-  /// Nothing where Adaptivity/Quantity is empty; throws InputError where it
-  /// names nothing. @p parameters must live on.
+  /// Nothing if Adaptivity/Quantity is empty; throws InputError for an unknown
+  /// name. @p parameters must live on.
   std::optional<Quantity>
   given_quantity(const Parameters &parameters);
 
-  /// Throws InputError where a target goes together with what it cannot.
+  /// Throws InputError for parameters that are impossible with a target.
   void
   check_adaptivity(const Parameters &parameters);
 
-  /// With a target linear solves need no more digits than leave it what it is.
+  /// @p parameters with the tolerance of linear solves that the target
+  /// requires.
   Parameters
   with_tolerance(Parameters parameters);
 } // namespace mortise

@@ -1,4 +1,4 @@
-// What every stage of a run may use.
+// Parameters, log, timers and communicator of a run, for all its stages.
 #pragma once
 
 #include <mortise/base/run_log.h>

@@ -14,7 +14,7 @@ namespace mortise
     unsigned int          output_every  = 1; ///< of these times
     double                smallest_step = 1e-3;
 
-    /// Else there is one step, at time 1, and no word of time in the results.
+    /// If not, there is one step at time 1, and results have no times.
     bool
     given() const
     {

@@ -1,12 +1,12 @@
-// What a body bears across its boundaries, from the balance of nodes: K u + G^T
-// p less the loads that are given elsewhere, tested with the functions of the
-// boundary. It is exact on any mesh and of any degree as far as the balance of
-// the whole body goes, where the integral of stresses is as accurate as these.
+// Forces on the boundaries of bodies from the balance of nodes: K u + G^T p
+// less the loads given elsewhere, tested with the functions of the boundary.
+// Unlike integrals of stresses they balance exactly on any mesh and with any
+// degree.
 //
-// Where several boundaries prescribe the same component at a node they share
-// it: each gets what stresses say, and the same part of what these miss.
-// Source: Melbo and Kvamsdal, Goal oriented error estimators for Stokes
-// equations based on variationally consistent postprocessing (2003).
+// Boundaries that prescribe the same component at a node share its force: each
+// has the integral of its stresses and an equal part of the rest. Source: Melbo
+// and Kvamsdal, Goal oriented error estimators for Stokes equations based on
+// variationally consistent postprocessing (2003).
 #pragma once
 
 #include <mortise/problem/results/held_boundaries.h>
@@ -30,14 +30,14 @@ namespace mortise
                    const SolvedStep                &solved,
                    const std::vector<BodySolution> &solutions);
 
-    /// What acts on body @p body across @p boundary: loads, supports and interfaces there, about
-    /// @p point. Collective.
+    /// Force and moment about @p point on body @p body across @p boundary, of
+    /// loads, supports and interfaces there. Collective.
     ForceAndMoment
     on(unsigned int               body,
        dealii::types::boundary_id boundary,
        const dealii::Point<dim>  &point) const;
 
-    /// All loads, and all that supports bear. Collective.
+    /// Sums of loads and reactions. Collective.
     EquilibriumSummary
     equilibrium() const;
 
@@ -48,12 +48,12 @@ namespace mortise
     stresses_at_nodes(unsigned int                      b,
                       dealii::types::boundary_id        boundary,
                       const HeldBoundaries::Components &which) const;
-    /// What passes through @p boundary where it prescribes components.
+    /// Add forces at components that @p boundary prescribes.
     void
     add_borne(unsigned int               b,
               dealii::types::boundary_id boundary,
               LevelVector<double>       &forces) const;
-    /// What interfaces put on it where it does not.
+    /// Add forces of interfaces at its other components.
     void
     add_interfaces(unsigned int               b,
                    dealii::types::boundary_id boundary,
@@ -64,24 +64,24 @@ namespace mortise
     const std::vector<BodySolution>            &solutions;
     const HeldBoundaries                        held;
     std::vector<std::vector<TractionCondition>> tractions; ///< by body
-    /// What passes through boundaries that prescribe it, less what stresses say
-    /// where they share a node.
+    /// Forces on prescribing boundaries, at shared nodes less those of
+    /// stresses.
     LevelVector<double>    borne;
     LevelVector<double>    reactions; ///< of constrained components
     dealii::Tensor<1, dim> applied;
   };
 
-  /// A linear functional of what is solved for, and of what is prescribed.
+  /// A linear functional of unknowns and prescribed values.
   struct LinearFunctional
   {
     SystemVector rhs;
-    /// Values at nodes where components are constrained: the functional is the
-    /// energy product with the function that has them.
+    /// Values at constrained components: the functional is the energy product
+    /// with their lifting.
     Vector lift;
   };
 
-  /// Component @p c of what BoundaryForces::on() has for a force, less what does not depend on the
-  /// solution. Collective.
+  /// Component @p c of the force of BoundaryForces::on(), without the part that
+  /// is independent of the solution. Collective.
   LinearFunctional
   reaction_functional(const Discretisation      &discretisation,
                       unsigned int               body,

@@ -1,4 +1,4 @@
-// What a step with contact has computed, as users see it.
+// Results of contact in a load step.
 #pragma once
 
 #include <mortise/output/summary.h>
@@ -8,14 +8,15 @@
 
 namespace mortise
 {
-  /// Add to the interfaces of @p summary what is in contact. Throws InputError where a face
-  /// without a partner could have met one. Collective.
+  /// Add the results of contact to the interfaces of @p summary. Throws
+  /// InputError if a face without a partner could have come into contact.
+  /// Collective.
   void
   add_contact(const StepEvaluation &step, StepSummary &summary);
 
-  /// By slave face of interface @p i: coefficients of the pressure, of the gap (a
-  /// length) and of the status (1 where it presses, 0 where it does not), one
-  /// after the other; nothing without contact. Collective.
+  /// By slave face of interface @p i: coefficients of pressure, gap (a length)
+  /// and status (1: active, 0: inactive), one after the other; empty without
+  /// contact. Collective.
   std::vector<std::vector<double>>
   contact_fields(const StepEvaluation &step, unsigned int i);
 } // namespace mortise

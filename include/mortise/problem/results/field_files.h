@@ -1,6 +1,5 @@
-// The files of fields of a run: a VTU file for each body and interface, or in a
-// run of several steps one for each of them and each time, and a PVD file that
-// gathers them.
+// Files of fields: a VTU file for each body and interface, in a run of several
+// steps for each time, and a PVD file with all times.
 #pragma once
 
 #include <mortise/adapt/cell_states.h>
@@ -20,8 +19,8 @@ namespace mortise
       : run(run)
     {}
 
-    /// Write what was asked for, as step @p step at @p time. Returns what could
-    /// not be written. @p estimates: CycleErrors::by_cell(), or none. Collective.
+    /// Write the requested fields as step @p step at @p time. Returns errors of
+    /// writing. @p estimates: CycleErrors::by_cell(), or none. Collective.
     std::vector<OutputError>
     write(unsigned int          step,
           double                time,

@@ -1,5 +1,5 @@
-// Which boundaries prescribe which components of which nodes, and what the
-// multipliers of interfaces do at others.
+// Dirichlet boundaries: components and nodes with prescribed displacements, and
+// forces of multipliers on the other ones.
 #pragma once
 
 #include <mortise/problem/scene/discretisation.h>
@@ -20,7 +20,7 @@ namespace mortise
     /// Kept by reference. Collective.
     explicit HeldBoundaries(const Discretisation &discretisation);
 
-    /// What @p boundary of body @p body prescribes.
+    /// Prescribed components of @p boundary of body @p body.
     Components
     components(unsigned int body, dealii::types::boundary_id boundary) const
     {
@@ -28,21 +28,21 @@ namespace mortise
       return found == held[body].end() ? Components() : found->second;
     }
 
-    /// By body; only boundaries that prescribe something.
+    /// By body: boundaries with prescribed components.
     const std::vector<std::map<dealii::types::boundary_id, Components>> &
     all() const
     {
       return held;
     }
 
-    /// How many boundaries prescribe a component of a node.
+    /// By component of a node: the number of boundaries that prescribe it.
     const LevelVector<double> &
     numbers() const
     {
       return holders;
     }
 
-    /// Do boundaries share a component of a node?
+    /// Is a component of a node prescribed by several boundaries?
     bool
     any_shared() const
     {
@@ -53,17 +53,17 @@ namespace mortise
     LevelVector<double>
     forces_of(unsigned int i, const Vector &lambda) const;
 
-    /// B^T lambda by node, but nothing on components that the side of an
-    /// interface prescribes: its boundary bears them there. Collective.
+    /// B^T lambda by node, zero at components that the side of the interface
+    /// prescribes, whose boundary bears them. Collective.
     LevelVector<double>
     multiplier_forces(const Vector &lambda) const;
 
-    /// Set @p multiplier to B u with the same B. Collective.
+    /// Set @p multiplier to B u with this B. Collective.
     void
     constraint(const LevelVector<double> &u, Vector &multiplier) const;
 
   private:
-    /// One for the components of nodes that @p side prescribes, if it does any.
+    /// 1 at components that @p side prescribes, if any.
     std::optional<LevelVector<double>>
     held_by_side(const SideParameters &side) const;
 
@@ -80,7 +80,8 @@ namespace mortise
   LevelVector<double>
   zero_at_nodes(const Discretisation &discretisation);
 
-  /// One for the components @p which of the nodes on @p boundary of body @p body, see boundary_nodes(). Collective.
+  /// 1 at the components @p which of the nodes on @p boundary of body @p body,
+  /// see boundary_nodes(). Collective.
   LevelVector<double>
   nodes_with(const Discretisation             &discretisation,
              unsigned int                      body,

@@ -1,4 +1,4 @@
-// Are the points of Output/Points in their bodies?
+// Check that the points of Output/Points lie in their bodies.
 #pragma once
 
 #include <mortise/operators/scene_system.h>
@@ -6,8 +6,8 @@
 
 namespace mortise
 {
-  /// Warn of those that are not; throw InputError if one is what the Quantity
-  /// is of. Bodies of points have their spaces. Collective.
+  /// Warn of points outside; throw InputError for that of the Quantity. Bodies
+  /// have their spaces. Collective.
   void
   check_points(const RunContext &run, const Bodies &bodies);
 } // namespace mortise

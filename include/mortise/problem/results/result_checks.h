@@ -1,5 +1,5 @@
-// Are the loads of a scene, and then its results, numbers that a run can stand
-// for?
+// Checks that loads and results are finite and representable, and the message
+// of a solve that did not converge.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -21,8 +21,9 @@ namespace mortise
   std::string
   first_not_finite(const StepSummary &step);
 
-  /// What a solve that ended with @p report lacks of @p tolerance, and what to do about it. @p n_sets:
-  /// of contact, where these did not come to an end. @p advice: of SolverChoice.
+  /// Message of a solve with @p report that did not reach @p tolerance, with
+  /// advice. @p n_sets: of contact, if active sets did not converge. @p advice:
+  /// of SolverChoice.
   std::string
   not_converged(const SolveReport &report,
                 double             tolerance,

@@ -1,4 +1,4 @@
-// A step that was solved: what acts, and the unknowns.
+// A solved load step: loads and unknowns.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -14,10 +14,10 @@ namespace mortise
     const SceneData    &data;
     const SceneLoad    &load;
     const SystemVector &solution;
-    /// By owned multiplier: pressure and gap are zero but for rounding; empty
-    /// in a scene without contact.
+    /// By owned multiplier: are pressure and gap zero to rounding? Empty
+    /// without contact.
     const std::vector<bool> undecided;
-    /// By interface, what its preload adds to its offset, a length.
+    /// By interface, the shortening of its preload, a length.
     const std::vector<double> shortenings;
   };
 

@@ -1,5 +1,4 @@
-// What a step that was solved comes to: each of it is computed when somebody
-// asks, and once.
+// Lazy evaluation of a solved step: each result is computed once, on demand.
 #pragma once
 
 #include <mortise/mortar/violation.h>
@@ -33,8 +32,8 @@ namespace mortise
     const Discretisation &discretisation;
     const SolvedStep      solved;
 
-    /// By body. Collective, as all that follows: not to be asked for within a loop
-    /// over what a rank owns.
+    /// By body. Collective, as all functions below, hence not for loops over
+    /// owned objects.
     const std::vector<BodySolution> &
     solutions() const;
 
@@ -57,14 +56,14 @@ namespace mortise
     const Violations &
     violation(unsigned int i) const;
 
-    /// Of interface @p i: of the points of violation(), if that was asked for before.
+    /// Of interface @p i, from violation() if that is known.
     double
     penetration(unsigned int i) const;
 
   private:
     const TraceDisplacement &
     traces() const;
-    /// Left between the bodies of interface @p i, with what a preload takes.
+    /// Offset of interface @p i with its shortening.
     Offset
     offset(unsigned int i) const;
 

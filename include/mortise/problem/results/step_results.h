@@ -1,4 +1,4 @@
-// What a step has computed, as users see it: fields, errors, quantities.
+// Results of a load step for the summary: fields, errors, quantities.
 #pragma once
 
 #include <mortise/adapt/residuals.h>
@@ -15,13 +15,13 @@ namespace mortise
   std::vector<InterfaceViolation>
   violations(const StepEvaluation &step);
 
-  /// Of the bodies, with what acts on them at @p interfaces. Collective.
+  /// Of the bodies, with tractions at @p interfaces. Collective.
   Residuals
   residuals(const StepEvaluation                  &step,
             const std::vector<InterfaceViolation> &interfaces);
 
-  /// Add to @p summary the largest values in bodies, the balance of interfaces, errors against the exact solution, and the
-  /// Points that were asked for, then the equilibrium and the Resultants.
+  /// Add to @p summary the largest values in bodies, the balance of interfaces,
+  /// errors against the exact solution, Points, equilibrium and Resultants.
   /// Collective.
   void
   evaluate_step(const StepEvaluation &step, StepSummary &summary);

@@ -1,5 +1,5 @@
-// A scene on given meshes as a linear system: spaces, interfaces and operators,
-// which stand while loads change. Other meshes need another one.
+// The linear system of a scene on given meshes: spaces, interfaces and
+// operators, independent of loads.
 #pragma once
 
 #include <mortise/mortar/interface_points.h>
@@ -23,18 +23,19 @@ namespace mortise
                    Bodies           &bodies,
                    const CyclePlan  &cycle = {});
 
-    /// The right hand side at the time of @p data. Collective; throws InputError where prescribed
-    /// displacements change the volume of an incompressible body.
+    /// The right hand side at the time of @p data. Collective; throws
+    /// InputError if prescribed displacements change the volume of an
+    /// incompressible body.
     SceneLoad
     load(const SceneData &data) const;
 
-    /// The right hand side that is the sum of @p functionals on cells of @p body, nothing
-    /// prescribed. Collective.
+    /// The sum of @p functionals on cells of @p body as a right hand side
+    /// without prescribed values. Collective.
     SceneLoad
     load(const Body &body, const CellFunctionals &functionals) const;
 
-    /// Let the constraints of @p active multipliers hold, by owned one; the others
-    /// are zero. LinearSolver::update_active() must follow. Collective.
+    /// Set the @p active multipliers, by owned one; others are zero.
+    /// LinearSolver::update_active() must follow. Collective.
     void
     select(const std::vector<bool> &active)
     {
@@ -57,16 +58,17 @@ namespace mortise
     void
     show_active();
 
-    /// By owned multiplier: may it press only?
+    /// By owned multiplier: does it belong to contact?
     std::vector<bool>
     one_sided() const;
 
-    /// By owned multiplier, where that is of contact: the gap that @p x leaves, a length. @p load: of the same
-    /// time. Collective.
+    /// By owned multiplier of contact: the weighted gap of @p x, a length.
+    /// @p load: of the same time. Collective.
     Vector
     gaps(const SceneLoad &load, const SystemVector &x) const;
 
-    /// Motion @p k of @p free as unknowns: exact at vertices, and linear between them. Collective.
+    /// Motion @p k of @p free as unknowns, exact at vertices and linear between
+    /// them. Collective.
     SystemVector
     rigid_motion(const FreeMotions &free, unsigned int k) const;
 
@@ -74,7 +76,7 @@ namespace mortise
     std::vector<BodySolution>
     solutions(const SceneLoad &load, const SystemVector &solution) const;
 
-    /// What @p solutions, of the time of @p load, are on surfaces.
+    /// The traces of @p solutions, of the time of @p load.
     TraceDisplacement
     trace_displacement(const SceneLoad                 &load,
                        const std::vector<BodySolution> &solutions) const;
@@ -92,7 +94,8 @@ namespace mortise
     void
     check_multipliers() const;
 
-    /// What is known of every step: bodies, unknowns, interfaces.
+    /// The part of the summary that is the same in all steps: bodies, unknowns,
+    /// interfaces.
     StepSummary
     summary() const;
 
@@ -102,7 +105,7 @@ namespace mortise
       return spaces.bodies;
     }
 
-    /// By body, what is prescribed and where.
+    /// Prescribed displacements by body.
     const std::vector<std::vector<DirichletCondition>> &
     dirichlet() const
     {
@@ -127,8 +130,9 @@ namespace mortise
       return system;
     }
 
-    /// Pair surfaces where the solutions @p displaced, by body, have moved them. Of the bulk nothing is made
-    /// again; LinearSolver::update_interfaces() must follow. Collective; throws
+    /// Replace the pairing by that of the configuration displaced by the
+    /// solutions @p displaced, by body; the bulk is kept.
+    /// LinearSolver::update_interfaces() must follow. Collective; throws
     /// InputError as Pairing.
     void
     pair(const std::vector<BodySolution> &displaced)
@@ -137,7 +141,7 @@ namespace mortise
     }
 
   private:
-    /// A constant pressure of incompressible bodies that nothing determines.
+    /// A constant pressure of enclosed incompressible bodies.
     struct FreePressure
     {
       Enclosure   enclosure;
@@ -150,7 +154,7 @@ namespace mortise
     create_bulk();
     void
     find_free_pressures();
-    /// In the numbering of the scene, zero where nothing is prescribed.
+    /// Prescribed displacements in the numbering of the scene, others zero.
     Vector
     prescribed_vector(const SceneLoad &load) const;
 

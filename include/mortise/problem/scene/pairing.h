@@ -14,17 +14,17 @@ namespace mortise
   class Pairing
   {
   public:
-    /// Pair the sides of all interfaces where they are, the meshes or those that @p displaced
-    /// moves, by body; integrate, and choose multipliers, with slave and master
-    /// exchanged where other interfaces and prescribed displacements leave too
-    /// few to hold the bodies together. @p run and @p spaces must live on.
-    /// Collective; throws InputError where surfaces do not meet, a body can
-    /// move or constant tractions do not pass.
+    /// Pair the sides of all interfaces on the meshes, or displaced by the
+    /// solutions @p displaced, by body; integrate, and choose multipliers.
+    /// Slave and master are exchanged if other interfaces and prescribed
+    /// displacements leave too few multipliers to tie the bodies. @p run and
+    /// @p spaces must live on. Collective; throws InputError if surfaces do not
+    /// meet, a rigid motion is free or constant tractions are not exact.
     Pairing(const RunContext                &run,
             const SceneSpaces               &spaces,
             const std::vector<BodySolution> *displaced = nullptr);
 
-    /// By interface, with the sides as they are solved. Where bodies slide and
+    /// By interface, slave and master possibly exchanged. If bodies slide and
     /// the slave's boundary has edges, each of its smooth patches is an
     /// interface.
     const std::vector<InterfaceParameters> &
@@ -33,8 +33,8 @@ namespace mortise
       return interfaces;
     }
 
-    /// The slave of interface @p i by the parameters; sides() may have it as
-    /// master.
+    /// Body of the slave of interface @p i in the parameters, perhaps the
+    /// master in sides().
     unsigned int
     given_slave(unsigned int i) const;
 
@@ -44,24 +44,25 @@ namespace mortise
       return couplings;
     }
 
-    /// Let @p active multipliers take part, by owned one. Collective.
+    /// Set the @p active multipliers, by owned one, for penalties. Collective.
     void
     select(const std::vector<bool> &active);
 
-    /// Throws InputError that names the bodies which @p active multipliers, by owned one,
-    /// do not hold, and their motions. @p is_preloaded, by interface: its force is given
-    /// now, and its sides come as close as that takes. Collective.
+    /// Throws InputError with the bodies that have free rigid motions with the
+    /// @p active multipliers, by owned one. @p is_preloaded, by interface: is
+    /// its normal force given, so that its sides may approach each other?
+    /// Collective.
     void
     check_held(const std::vector<bool> &active,
                const std::vector<bool> &is_preloaded) const;
 
-    /// Those that @p active multipliers, by owned one, leave. @p is_preloaded as for check_held().
-    /// Collective.
+    /// Free rigid motions with the @p active multipliers; arguments of
+    /// check_held(). Collective.
     FreeMotions
     free_motions(const std::vector<bool> &active,
                  const std::vector<bool> &is_preloaded) const;
 
-    /// Does an interface let bodies slide?
+    /// Does an interface have multipliers along normals alone?
     bool
     slide() const
     {
@@ -99,30 +100,30 @@ namespace mortise
       return owned;
     }
 
-    /// What is known of interface @p i before anything is solved. Collective.
+    /// The part of the summary of interface @p i that needs no solution.
+    /// Collective.
     InterfaceSummary
     summary(unsigned int i) const;
 
-    /// How evenly the ranks share the interfaces.
+    /// Distribution of the interfaces over the ranks.
     std::vector<BalanceSummary>
     balance() const;
 
-    /// How many of the owned multipliers in @p indices (of all ranks) each
-    /// interface has: "name (12), other (3)", without those that have none.
-    /// Collective.
+    /// Numbers of the multipliers @p indices by interface, "name (12), other
+    /// (3)". Collective.
     std::string
     count_by_name(
       const std::vector<dealii::types::global_dof_index> &indices) const;
 
   private:
-    /// Find what faces each other, and integrate.
+    /// Find pairs and integrate.
     void
     find_and_integrate();
     void
     choose_multipliers();
     void
     find_pairs();
-    /// Where the gap between the meshes is not what is meant.
+    /// Warn if the mesh gap is not small.
     void
     warn_of_mesh_gap(unsigned int i) const;
     /// @p name: of the interface, or of a patch; @p slave: its faces.
@@ -133,7 +134,7 @@ namespace mortise
     std::vector<BoundaryFace>
     faces_of(const InterfaceParameters &given,
              const SideParameters      &side) const;
-    /// That of patch @p k; no body and no interface has it.
+    /// A unique name for patch @p k.
     std::string
     patch_name(const InterfaceParameters &given, unsigned int k) const;
     bool
@@ -141,18 +142,17 @@ namespace mortise
     {
       return couplings[i].interface->name() != interfaces[i].name;
     }
-    /// Patches that meet nothing are no interfaces, where others of the same
-    /// boundary do.
+    /// Drop patches without partners if others of their boundary have some.
     void
     drop_patches_apart();
     void
     integrate(const InterfaceParameters &given, Coupling &coupling) const;
-    /// Throws or warns where the surfaces of interface @p i do not meet.
+    /// Throws or warns if the surfaces of interface @p i do not meet.
     void
     check_overlap(unsigned int i) const;
     void
     number_multipliers();
-    /// Throws InputError where one has no area. Collective.
+    /// Throws InputError if one has no area. Collective.
     void
     set_normal_multipliers();
     std::vector<TieSupport>
@@ -161,13 +161,13 @@ namespace mortise
     std::vector<TieSupport>
     supports_of(const std::vector<bool> &active,
                 const std::vector<bool> &is_preloaded) const;
-    /// Throws InputError where constant tractions do not pass interface @p i, though its master
-    /// could follow. @p states: of its slave faces.
+    /// Throws InputError if constant tractions are not exact on interface @p i,
+    /// although displacements there are free. @p states: of its slave faces.
     void
     check_constants(unsigned int                     i,
                     const std::vector<PartnerState> &states) const;
-    /// Owned displacement dofs of body @p b that are prescribed or among @p taken, those of the
-    /// scene.
+    /// By owned displacement dof of body @p b: is it prescribed or @p taken (by
+    /// owned displacement of the scene)?
     std::vector<bool>
     blocked_dofs(unsigned int b, const std::vector<bool> &taken) const;
 

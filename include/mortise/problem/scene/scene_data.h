@@ -1,5 +1,5 @@
-// What the parameters of a scene mean as functions at one time: exact solution,
-// loads, prescribed displacements.
+// The parameters of a scene as functions at one time: exact solution, loads,
+// prescribed displacements.
 #pragma once
 
 #include <mortise/base/field_checks.h>
@@ -19,27 +19,25 @@ namespace mortise
   std::vector<Material>
   materials(const Parameters &parameters);
 
-  /// Is there a load or anything else that moves bodies, at any time? The
-  /// meshes of contact are no part of it, which may overlap.
+  /// Are there loads, prescribed displacements, offsets or temperatures at any
+  /// time? Penetration of meshes does not count.
   bool
   anything_acts(const Parameters &parameters);
 
-  /// May meshes that overlap press?
+  /// Does contact count the gaps between meshes?
   bool
   have_real_gaps(const Parameters &parameters);
 
-  /// What acts on a scene at one time. Both arguments of the constructor must
-  /// live on; @p checks is told of values that no run can use.
+  /// Loads, offsets and prescribed displacements at one time. References of the
+  /// constructor must live on; @p checks notes values that are not finite.
   class SceneData
   {
   public:
-    /// Throws InputError if the bodies are not what a named exact solution is
-    /// for.
+    /// Throws InputError if the bodies do not fit a named exact solution.
     SceneData(const Parameters &parameters, double time, FieldChecks &checks);
 
-    /// The exact solution that the parameters name; null if there is none. The
-    /// named ones take radii, pressures, materials and the motion of the scene
-    /// from the bodies.
+    /// The exact solution of the parameters; null without. Named ones take
+    /// radii, pressures, materials and rigid motion from the bodies.
     const std::shared_ptr<const ExactSolution> &
     exact() const
     {
@@ -50,15 +48,16 @@ namespace mortise
     Loads
     loads(const Body &body) const;
 
-    /// The strain, the same in all directions, that @p body has from its temperature; null without.
+    /// The thermal strain of @p body; null without.
     std::function<double(const dealii::Point<dim> &)>
     thermal_strain(const BodyParameters &body) const;
 
-    /// The gap that @p interface leaves between the bodies; null where it is zero at all times.
+    /// The offset of @p interface; null if it is zero at all times.
     std::function<double(const dealii::Point<dim> &)>
     offset(const InterfaceParameters &interface) const;
 
-    /// The force of the Preload of @p interface; nothing where its shortening is kept by now.
+    /// The force of the Preload of @p interface; nothing once its shortening is
+    /// kept.
     std::optional<double>
     preload(const InterfaceParameters &interface) const;
 

@@ -17,12 +17,11 @@ namespace mortise
   /// By body and active cell of its mesh; empty: those of the parameters.
   using CellDegrees = std::vector<std::vector<unsigned int>>;
 
-  /// What a cycle of an adaptive run has beside the parameters.
+  /// Data of an adaptive cycle beside the parameters.
   struct CyclePlan
   {
     CellDegrees degrees;
-    /// By name of an interface: partners are looked for at least as far, a
-    /// length.
+    /// By name of an interface: least search distance, a length.
     std::map<std::string, double> least_search;
   };
 
@@ -35,16 +34,16 @@ namespace mortise
 
     Bodies         &bodies; ///< with their meshes
     const CyclePlan cycle;
-    /// By body: what is prescribed, and whether it is ever different from zero.
+    /// By body: prescribed displacements, and whether they may be nonzero.
     std::vector<std::vector<DirichletCondition>> dirichlet;
-    /// By body: conformity, and what is prescribed as zero; not closed.
+    /// By body: conformity and homogeneous Dirichlet constraints; not closed.
     std::vector<dealii::AffineConstraints<double>> constraints;
     SceneFields                                    fields;
     SolverChoice                      choice{SolverMethod::automatic, ""};
     NodalSpaces                       nodal; ///< of displacements, by level
     std::shared_ptr<const NodalSpace> nodal_pressures; ///< in mixed form
 
-    /// May a displacement other than zero be prescribed?
+    /// May prescribed displacements be nonzero?
     bool
     has_prescribed_values() const;
 

@@ -1,5 +1,4 @@
-// Rigid motions that a scene leaves free: found before anything is solved, and
-// named. It never solves and never adds a support.
+// Free rigid motions of a scene, which are an error before anything is solved.
 #pragma once
 
 #include <mortise/body/boundary_conditions.h>
@@ -10,26 +9,24 @@
 
 namespace mortise
 {
-  /// Rigid motions that neither Dirichlet conditions nor the multipliers of @p ties
-  /// prevent. Collective.
+  /// Rigid motions that are free with the Dirichlet conditions and the
+  /// multipliers of @p ties. Collective.
   FreeMotions
   find_free_motions(
     const Bodies                                       &bodies,
     const std::vector<std::vector<DirichletCondition>> &dirichlet,
     const std::vector<TieSupport>                      &ties);
 
-  /// Throw InputError (on all ranks) for a piece of a body, of which cells
-  /// share no vertex with the rest, that its prescribed displacements do not
-  /// hold and
-  /// no side of @p interfaces is on. Collective.
+  /// Throw InputError (on all ranks) for a piece of a body, without common
+  /// vertices with the rest, that can move and has no side of @p interfaces.
+  /// Collective.
   void
   check_pieces(const Bodies                                       &bodies,
                const std::vector<std::vector<DirichletCondition>> &dirichlet,
                const std::vector<InterfaceParameters>             &interfaces);
 
-  /// Throw InputError (on all ranks) that names the motions which neither
-  /// Dirichlet conditions nor the multipliers of the interfaces prevent. @p dirichlet by body.
-  /// Collective.
+  /// Throw InputError (on all ranks) with the motions of find_free_motions(),
+  /// if any. Collective.
   void
   check_rigid_motions(
     const Bodies                                       &bodies,

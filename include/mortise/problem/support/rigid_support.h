@@ -1,5 +1,5 @@
-// What prescribed displacements and multipliers do against rigid motions of
-// bodies, as sums of squares.
+// Resistance of prescribed displacements and multipliers against rigid motions,
+// as sums of squares.
 #pragma once
 
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -26,10 +26,10 @@ namespace mortise
     double             size = 0.;
   };
 
-  /// Rigid motions of a scene that nothing prevents.
+  /// Free rigid motions of a scene.
   struct FreeMotions
   {
-    std::vector<Extent>              of_body; ///< what they are about
+    std::vector<Extent>              of_body; ///< centres of rotation and sizes
     std::vector<std::vector<Motion>> motions; ///< by motion and body
   };
 
@@ -58,12 +58,12 @@ namespace mortise
          const dealii::Tensor<1, dim> &position,
          double                        weight = 1.);
 
-  /// What a multiplier feels of a + w x (x - centre).
+  /// The moment of a multiplier with a + w x (x - centre).
   Motion
   row_of(const Extent &where, const MultiplierMoment &multiplier);
 
-  /// Weighted means of squares of rows, each on @p n_bodies bodies: what is
-  /// prevented.
+  /// Weighted mean of squares of rows on @p n_bodies bodies, a quadratic form
+  /// of motions.
   class Support
   {
   public:
@@ -111,10 +111,10 @@ namespace mortise
              const Extent                          &where,
              const PartOfBody                      &part = {});
 
-  /// What an interface does against the relative motion of two bodies.
+  /// Data of an interface against the relative motion of two bodies.
   struct TieSupport
   {
-    /// As a master: what never moves.
+    /// As a master: a rigid support.
     static constexpr unsigned int ground = -1;
 
     std::string                   name;
@@ -130,7 +130,7 @@ namespace mortise
     };
     /// Of this rank, spread over the covered part of the slave surface.
     std::vector<Place> places;
-    /// The sides come as close along it as a given force takes: a preload.
+    /// The direction along which a preload lets the sides approach each other.
     std::optional<dealii::Tensor<1, dim>> released;
   };
 
@@ -155,13 +155,13 @@ namespace mortise
   /// Less than this share of the largest eigenvalue is rounding.
   constexpr double rounding_of_squares = 1e-13;
 
-  /// What the multipliers of an interface resist: of the slave, then of the
-  /// master, translations of all together weighing one.
+  /// Resistance of the multipliers of an interface against motions of slave,
+  /// then master, normalised by translations.
   struct TieResistance
   {
     Support along_directions;
-    Support along_all; ///< as if each multiplier held along every direction
-    bool    curved;    ///< they hold along normals that are not parallel
+    Support along_all; ///< as if each multiplier acted along every direction
+    bool    curved;    ///< multipliers along normals that are not parallel
   };
 
   /// Collective.
@@ -171,7 +171,7 @@ namespace mortise
                 const Extent     &master,
                 MPI_Comm          comm);
 
-  /// What resists the rigid motions of several bodies.
+  /// Resistance against rigid motions of several bodies.
   class Resistance
   {
   public:
@@ -181,7 +181,7 @@ namespace mortise
     void
     add(unsigned int b, const Support &support);
 
-    /// An interface of the bodies @p slave and @p master; negative: one that does not move.
+    /// An interface of the bodies @p slave and @p master; negative: rigid.
     void
     add(int slave, int master, const TieResistance &tie);
 
@@ -193,12 +193,11 @@ namespace mortise
       return result;
     }
 
-    /// An orthonormal basis of the motions that nothing prevents. What
-    /// displacements, ties and sliding along planes hold is exact but for
-    /// rounding. Of the motions that they leave, free are those along which all
-    /// that slides along curved surfaces moves across by less than three
-    /// thousandths of what it moves: so much is left of a surface that is
-    /// approximated. A thin body moves little and is no freer for it.
+    /// An orthonormal basis of free motions. Prescribed displacements, ties and
+    /// sliding along planes resist exactly to rounding. Motions that they leave
+    /// are free if the normal displacement on curved sliding surfaces is less
+    /// than three thousandths of the displacement there, the error of
+    /// approximated surfaces.
     std::vector<std::vector<double>>
     free_motions() const;
 
@@ -213,6 +212,7 @@ namespace mortise
 
     RigidMatrix held; ///< exactly
     RigidMatrix across,
-      moved; ///< of curved surfaces that slide: normals, and all directions
+      moved; ///< of curved sliding surfaces: along normals, along all
+             ///< directions
   };
 } // namespace mortise

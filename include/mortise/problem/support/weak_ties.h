@@ -1,4 +1,4 @@
-// Interfaces whose multipliers hold two bodies together badly.
+// Detection of ties with too few multipliers for two bodies.
 #pragma once
 
 #include <mortise/problem/support/rigid_support.h>
@@ -7,10 +7,10 @@
 
 namespace mortise
 {
-  /// Numbers of the ties between two bodies whose multipliers, together with
-  /// the displacements that are prescribed on these bodies, resist some rigid
-  /// motion of them far less than a tie at all points of the covered surface
-  /// would; in the order of their names. @p dirichlet by body. Collective.
+  /// Numbers of the ties whose multipliers, with the prescribed displacements
+  /// of both bodies, resist some relative rigid motion far less than a tie at
+  /// all points of the covered surface would; in the order of names.
+  /// @p dirichlet by body. Collective.
   std::vector<unsigned int>
   weak_ties(const Bodies                                       &bodies,
             const std::vector<std::vector<DirichletCondition>> &dirichlet,
