@@ -115,10 +115,11 @@ namespace mortise
         "Rotates the axes of Law = orthotropic about those of the scene, x, then y, then z "
         "[degrees]. They do not follow the Rotate of the mesh.",
         {"3 numbers"});
-      section.add("Density",
-                  material.density,
-                  "What Gravity acts on [mass per volume]. 0: no mass.",
-                  {"0 or a positive number"});
+      section.add(
+        "Density",
+        material.density,
+        "Mass density, on which Gravity acts [mass per volume]. 0: no weight.",
+        {"0 or a positive number"});
       section.add(
         "Thermal expansion",
         material.thermal_expansion,
@@ -146,8 +147,8 @@ namespace mortise
     section.add(
       "Degree near",
       "",
-      "Other degrees for cells with their centre or any vertex in a ball; the last one that has a "
-      "cell holds, before Degree by region.",
+      "Other degrees for cells with their centre or any vertex in a ball. The last ball that has a cell counts, and "
+      "takes precedence over Degree by region.",
       {"entries \"x, y, z, radius, degree\" separated by ';', degrees from " +
        std::to_string(min_degree) + " to " + std::to_string(max_degree)},
       [&body](const ParameterValue &value) {
@@ -157,14 +158,14 @@ namespace mortise
     section.add(
       "Formulation",
       body.formulation,
-      "Unknowns: the displacement, or (mixed) displacement and pressure, one degree lower, "
-      "which neither locks nor ends where nu comes to 0.5. auto: mixed from nu = 0.49 on.",
+      "Unknowns: displacement alone, or (mixed) displacement and pressure, the latter one degree lower, which does "
+      "not lock and allows nu = 0.5. auto: mixed from nu = 0.49 on.",
       Allowed::one_of({"auto", "displacement", "mixed"}));
     section.add(
       "Body force",
       "auto",
-      "Force on the volume [force per volume]. auto: what balances the exact solution "
-      "if that is given by expressions (then Gravity is part of it), else zero.",
+      "Force on the volume [force per volume]. auto: the force that balances the exact solution if that is given by "
+      "expressions (it then includes Gravity), else zero.",
       {"three expressions \"bx; by; bz\" in x, y, z, t; exact; or auto"},
       [&body](const ParameterValue &value) {
         body.body_force.reset();
@@ -174,7 +175,8 @@ namespace mortise
     section.add(
       "Temperature",
       body.temperature,
-      "Temperature above that at which the body is free of strain [temperature]; with Thermal expansion it expands. Empty: none.",
+      "Temperature above that of the state without strain [temperature], which acts by Thermal expansion. Empty: "
+      "none.",
       {"an expression in x, y, z, t"});
     declare_mesh(section.subsection("Mesh"), body.mesh);
     declare_material(section.subsection("Material"), body.material);

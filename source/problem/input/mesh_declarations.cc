@@ -22,8 +22,8 @@ namespace mortise
       section.add(
         "Mesh size",
         mesh.mesh_size,
-        "Longest edge where gmsh meshes a geometry, and the value of mesh_size if a .geo "
-        "file says DefineConstant[ mesh_size = ... ] [length]. 0: what the geometry says.",
+        "Longest edge where gmsh meshes a geometry, and the value of mesh_size if a .geo file has DefineConstant[ "
+        "mesh_size = ... ] [length]. 0: as the geometry specifies.",
         {"0 or a positive number"});
       section.add(
         "Curved boundaries",
@@ -46,7 +46,7 @@ namespace mortise
       section.add(
         "Cells",
         mesh.cells,
-        "Shape of the cells. auto: what a file has; hexahedra from generators.",
+        "Shape of the cells. auto: that of the file; hexahedra from generators.",
         Allowed::one_of({"auto", "hexahedra", "tetrahedra"}));
       section.add(
         "Extent",
@@ -70,8 +70,8 @@ namespace mortise
       section.add(
         "Refine near",
         mesh.refine_near,
-        "Local refinement after that: cells that reach into a ball are cut the given "
-        "number of times [lengths, in moved coordinates].",
+        "Local refinement after Refinements: cells that reach into a ball are cut the given number of times [lengths, "
+        "after Rotate and Translate].",
         {"\"x, y, z, radius, times; ...\""});
       declare_mesh_file(section, mesh);
       section.add(

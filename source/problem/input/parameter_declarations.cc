@@ -69,68 +69,71 @@ namespace mortise
                       const Parameters       &parameters)
     {
       const Allowed few = Allowed::integer(1, 100);
-      declare_side(section,
-                   "Slave",
-                   interface.slave,
-                   "Side of the multiplier: the finer mesh or the softer body.",
-                   parameters);
+      declare_side(
+        section,
+        "Slave",
+        interface.slave,
+        "The side that carries the multiplier; best the finer mesh or the softer body.",
+        parameters);
       declare_side(
         section, "Master", interface.master, "The other side.", parameters);
       section.add(
         "Law",
         interface.law,
-        "What the interface does. tie: it holds the bodies together. slide: it holds them together along "
-        "its normal; across it they move freely, and smooth patches of the slave between edges are interfaces of their own. contact: it presses and never pulls, without friction; displacements are small, partners those within Search distance at the start. spring: a thin layer or glue of the stiffnesses below.",
+        "Law of the interface. tie: no jump of the displacement. slide: no jump along the normal, free tangential "
+        "motion; smooth patches of the slave between edges are interfaces of their own. contact: gap >= 0 and "
+        "pressure >= 0 without friction; displacements are small, partners those within Search distance at the start. "
+        "spring: a thin layer or glue with the stiffnesses below.",
         Allowed::one_of(interface_law_names()));
       section.add(
         "Normal stiffness",
         interface.normal_stiffness,
-        "Law = spring: traction by opening [force per volume]. A layer of thickness d has its modulus over "
-        "d.",
+        "Law = spring: normal traction divided by opening [force per volume]. For a layer of thickness d it is the "
+        "modulus divided by d.",
         {"an expression in x, y, z, positive"});
       section.add(
         "Tangential stiffness",
         interface.tangential_stiffness,
-        "The same across the normal [force per volume]; 0: it slides.",
+        "The same in tangential directions [force per volume]; 0: free tangential motion.",
         {"an expression in x, y, z, positive; or 0"});
       section.add(
         "Offset",
         interface.offset,
-        "The gap that is left between the bodies on top of that between their meshes, which all laws but contact take for "
-        "closed; negative: an interference, as of a press fit whose meshes coincide [length].",
+        "Gap between the bodies in addition to that between their meshes, which only contact takes into account; "
+        "negative: an interference, as of a press fit whose meshes coincide [length].",
         {"an expression in x, y, z, t"});
       section.add(
         "Preload",
         interface.preload,
-        "Law = tie: the normal force that the interface carries [force], positive where it pulls its sides together, as a cut "
-        "through the shank of a bolt that is tightened does; negative where it presses them apart, as between the head of "
-        "that bolt and what it holds. By how much the sides approach for it follows, on top of Offset. Empty: none.",
+        "Law = tie: the normal force that the interface carries [force], positive in tension, as in a cut through the "
+        "shank of a tightened bolt, negative in compression, as under the head of that bolt. The shortening, by which "
+        "the sides approach each other in addition to Offset, is an unknown. Empty: none.",
         {"an expression in t"});
       section.add(
         "Preload until",
         interface.preload_until,
-        "From then on the shortening is kept, whatever the force becomes [time]. Empty: the force is given at all times.",
+        "Time from which on the shortening is kept and the force follows [time]. Empty: the force is given at all "
+        "times.",
         {"a number"});
       section.add(
         "Mesh gap",
         interface.ignores_mesh_gap,
-        "Law = contact: what lies between the meshes, or how far they overlap. real: a gap or an "
-        "interference; ignored: they stand for surfaces that coincide, as facets of different size on one "
-        "circle do. Offset comes on top of it.",
+        "Law = contact: meaning of gaps and overlaps of the meshes. real: a gap or an interference; ignored: the "
+        "surfaces coincide, as facets of different size on one circle do. Offset is added.",
         Allowed::one_of({"real", "ignored"}));
       section.add(
         "Multiplier",
         interface.multiplier,
-        "Space of the Lagrange multiplier (the traction): standard, the slave's traces, or dual, as many "
-        "functions biorthogonal to those of the slave's nodes, which are eliminated at no cost; triangles "
-        "have them at degree 1 only, and get standard ones above.",
+        "Space of the Lagrange multiplier (the traction): standard, the traces of the slave's displacements, or dual, "
+        "functions biorthogonal to those of the slave's nodes, which are eliminated at no cost. Triangles have dual "
+        "ones at degree 1 only, else standard ones.",
         Allowed::one_of({"standard", "dual"}));
       section.add(
         "Search distance",
         "0.5",
-        "Largest gap or penetration that is bridged, as a fraction of the size of the "
-        "larger face [-], or a length. A partner faces the slave and is not seen through a body. "
-        "With Adaptivity contact is looked for as far as sides have moved in the last cycle, too.",
+        "Largest distance of the two faces of a pair, as a fraction of the size of the larger face [-], or a length. "
+        "Partners face the slave and are not hidden by a body. With Adaptivity the distance for contact is at least "
+        "the relative motion of the sides in the last cycle.",
         {"a positive number, or \"length NUMBER\""},
         [&interface](const ParameterValue &value) {
           const std::string word      = "length ";
@@ -143,15 +146,16 @@ namespace mortise
           distance                                         = SearchDistance();
           (is_length ? distance.length : distance.by_size) = number;
         });
-      section.add("Quadrature points",
-                  "auto",
-                  "Points per direction on a cell. auto: as many as needed.",
-                  {"auto, or " + few.words, few.contains},
-                  [&interface](const ParameterValue &value) {
-                    interface.quadrature_points = 0;
-                    if (value.text != "auto")
-                      value.read(interface.quadrature_points);
-                  });
+      section.add(
+        "Quadrature points",
+        "auto",
+        "Quadrature points per direction on an integration cell. auto: by the degrees and the geometry.",
+        {"auto, or " + few.words, few.contains},
+        [&interface](const ParameterValue &value) {
+          interface.quadrature_points = 0;
+          if (value.text != "auto")
+            value.read(interface.quadrature_points);
+        });
     }
 
     void
@@ -220,8 +224,8 @@ namespace mortise
       section.add(
         "Directory",
         "",
-        "Where summary.json and the files of fields go; made when the first is written. "
-        "Empty: results/NAME for a parameter file NAME.prm.",
+        "Directory of summary.json and the files of fields, made when the first is written. Empty: results/NAME for a "
+        "parameter file NAME.prm.",
         {"name of a directory"},
         [&](const ParameterValue &value) {
           output.directory =
@@ -245,8 +249,8 @@ namespace mortise
       section.add(
         "Checkpoint every",
         output.checkpoint_every,
-        "After so many steps, or cycles of Adaptivity, the state goes to DIRECTORY/checkpoint.bin, from which "
-        "--restart DIRECTORY goes on. 0: never.",
+        "Number of steps, or cycles of Adaptivity, after which the state is written to DIRECTORY/checkpoint.bin, from "
+        "which --restart DIRECTORY continues. 0: none.",
         Allowed::integer(0));
       section.add(
         "Points",
@@ -259,8 +263,8 @@ namespace mortise
       section.add(
         "Resultants",
         "",
-        "Forces and moments to report in the summary, which act on boundaries of bodies: loads, "
-        "reactions of supports, forces of interfaces.",
+        "Forces and moments on boundaries of bodies to report in the summary: loads, reactions of supports, forces of "
+        "interfaces.",
         {"\"name: body: boundary; ...\""},
         [&](const ParameterValue &value) {
           output.resultants.clear();
@@ -271,7 +275,7 @@ namespace mortise
       section.add(
         "Moments about",
         output.moments_about,
-        "The point about which moments of Resultants and interfaces are [length].",
+        "Reference point of the moments of Resultants and interfaces [length].",
         {"3 numbers"});
     }
   } // namespace
@@ -283,10 +287,7 @@ namespace mortise
     const ParameterSection      scene(entries);
     // names come first: they make the subsections
     const auto known = [](const ParameterValue &) {};
-    scene.add("Title",
-              parameters.title,
-              "Title of the scene, for people.",
-              {"any text"});
+    scene.add("Title", parameters.title, "Title of the scene.", {"any text"});
     scene.add("Bodies",
               join_names(names_of(parameters.bodies)),
               "Names of the bodies; each has a subsection \"Body NAME\".",

@@ -5,29 +5,33 @@ namespace mortise
   void
   declare_solver(const ParameterSection &section, SolverParameters &solver)
   {
-    section.add("Method",
-                solver.method,
-                "Solver. auto: by size.",
-                Allowed::one_of(solver_method_names()));
+    section.add(
+      "Method",
+      solver.method,
+      "Linear solver. auto: condensed, or saddle point if a body is in mixed form; up to 100,000 displacements "
+      "direct, where moduli differ by more than a million, or springs are softer than bodies by more than a "
+      "thousand million.",
+      Allowed::one_of(solver_method_names()));
     section.add(
       "Tolerance",
       solver.tolerance,
       "Residual relative to the right hand side at which the solver stops [-].",
       {"a number between 0 and 1, both excluded",
        [](double tolerance) { return tolerance > 0. && tolerance < 1.; }});
-    section.add("Max iterations",
-                solver.max_iterations,
-                "After so many iterations the run ends with exit code 3.",
-                Allowed::integer(1));
+    section.add(
+      "Max iterations",
+      solver.max_iterations,
+      "Largest number of iterations; without convergence the run ends with exit code 3.",
+      Allowed::integer(1));
     section.add(
       "Multipliers on all ranks",
       solver.max_gathered,
-      "Up to so many multipliers every rank helps to factorise what couples "
-      "them; of more it knows its own and their neighbours.",
+      "Largest number of multipliers for which all ranks factorise the Schur complement together; beyond it each "
+      "rank factorises the part of its own multipliers and their neighbours.",
       Allowed::integer(0));
     section.add("Print iterations",
                 solver.print_iterations,
-                "A line for each.",
+                "Print a line for each iteration.",
                 {"true or false", {}, {"false", "true"}});
   }
 
@@ -38,33 +42,34 @@ namespace mortise
     section.add(
       "Target error",
       adaptivity.target_error,
-      "Error of the displacements in the energy norm beside their own, or of Quantity beside its value, as it is estimated, at "
-      "which the run ends [-]. Empty: degrees are those that are given.",
+      "Estimated relative error at which the run ends [-], of the displacements in the energy norm, or of Quantity. "
+      "Empty: no adaptivity.",
       {"a number between 0 and 1, both excluded",
        [](double error) { return error > 0. && error < 1.; }});
     section.add(
       "Quantity",
       adaptivity.quantity,
-      "The number that Target error is of: a component of an entry of Output/Points or Output/Resultants. Meshes become fine and "
-      "degrees high where errors have a part in it. Empty: the displacements, in the energy norm.",
+      "The quantity of interest of Target error: a component of an entry of Output/Points or Output/Resultants. "
+      "Cells that contribute to its error are refined. Empty: the energy norm.",
       {"\"NAME, x\", \"NAME, y\" or \"NAME, z\""});
     section.add(
       "Strategy",
       adaptivity.strategy,
-      "From cycle to cycle, from the mesh and the degrees that are given, where the error is: p: the degree rises by one; "
-      "h: cells are cut into eight; hp: what makes the error smaller there, by how Legendre coefficients fall. "
-      "Tetrahedra rise; with h and hp gmsh meshes those of a geometry (.geo, .step, .brep) again, up to three times, "
-      "with small cells where solutions are not smooth.",
+      "Refinement of cells with large errors from cycle to cycle, starting with the given mesh and degrees. p: the "
+      "degree rises by one; h: hexahedra are cut into eight; hp: one of both, by the decay of Legendre "
+      "coefficients. The degree of tetrahedra rises; with h and hp gmsh meshes those of a geometry (.geo, .step, "
+      ".brep) again, up to three times, with small cells where solutions are not smooth.",
       Allowed::one_of({"h", "p", "hp"}));
     section.add(
       "Largest number of unknowns",
       adaptivity.most_unknowns,
-      "What needs more ends with exit code 3, the last result written.",
+      "If the next cycle needs more, the run ends with exit code 3 and the last result is written.",
       Allowed::positive_number());
-    section.add("Largest degree",
-                adaptivity.largest_degree,
-                "Likewise.",
-                Allowed::integer(min_degree, max_degree));
+    section.add(
+      "Largest degree",
+      adaptivity.largest_degree,
+      "If the next cycle needs a higher degree, the run ends with exit code 3 and the last result is written.",
+      Allowed::integer(min_degree, max_degree));
   }
 
   void
@@ -84,12 +89,12 @@ namespace mortise
     section.add(
       "Output every",
       steps.output_every,
-      "Fields are written after every so many of these times, and at the end.",
+      "Fields are written at every n-th of these times, and at the end.",
       Allowed::integer(1));
     section.add(
       "Smallest step",
       steps.smallest_step,
-      "A nonlinear scene halves steps that fail, down to this share of the step that is asked for [-].",
+      "Steps that fail in a nonlinear scene are halved, down to this fraction of the planned step [-].",
       Allowed::positive_number());
   }
 } // namespace mortise
