@@ -21,10 +21,9 @@ namespace mortise
   namespace
   {
     const char *const nothing_acts =
-      "nothing acts on the scene; all results are zero. What acts: Traction, Pressure, "
-      "Force, Moment or a Displacement other than zero on a boundary; Body force, Gravity "
-      "with a Density, Temperature with a Thermal expansion in a body; Offset or Preload of "
-      "an interface";
+      "nothing acts on the scene; all results are zero. Loads are: Traction, Pressure, Force, Moment or a nonzero "
+      "Displacement of a boundary; Body force, Gravity with a Density, Temperature with a Thermal expansion in a "
+      "body; Offset or Preload of an interface";
 
     /// Do smaller steps help where one does not converge?
     bool

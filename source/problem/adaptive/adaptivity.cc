@@ -111,8 +111,7 @@ namespace mortise
     const AdaptivityParameters &given = run.parameters.adaptivity;
     if (of_cycle.quantity_is_zero)
       return "Quantity = " + goal->name +
-             " is zero beside the other components, which has no "
-             "relative error";
+             " is zero compared with the other components and has no relative error";
     switch (next.limit)
       {
         case MeshPlan::Limit::largest_degree:
@@ -121,7 +120,7 @@ namespace mortise
         case MeshPlan::Limit::most_unknowns:
           return "Largest number of unknowns = " +
                  RunLog::number(given.most_unknowns) +
-                 " allows no more, the next cycle needs about " +
+                 " is not enough, the next cycle needs about " +
                  RunLog::number(next.unknowns);
         default:
           return "";

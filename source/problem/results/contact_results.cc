@@ -150,17 +150,16 @@ namespace mortise
         if (const SurfaceFace &face = interface.slave().faces[s];
             interface.coverage()[s] < 0.99 && text.str().empty() &&
             moved > sides.search_distance.of(face.size))
-          text << "Interface " << interface.name()
-               << ": its sides move by up to " << RunLog::number(moved)
-               << " against each other, but the face at "
-               << interface.slave()
-                    .cells[s]
-                    ->face(interface.slave().face_numbers[s])
-                    ->center()
-               << " has looked for partners only as far as "
-               << RunLog::number(sides.search_distance.of(face.size))
-               << ", so that contact there would go unseen; allowed: a larger "
-                  "Search distance, or smaller displacements";
+          text
+            << "Interface " << interface.name() << ": its sides move by up to "
+            << RunLog::number(moved) << " against each other, but the face at "
+            << interface.slave()
+                 .cells[s]
+                 ->face(interface.slave().face_numbers[s])
+                 ->center()
+            << " has partners only up to the distance "
+            << RunLog::number(sides.search_distance.of(face.size))
+            << ", beyond which contact would go unseen; allowed: a larger Search distance, or smaller displacements";
       throw_if_any(text.str(), step.run.comm);
     }
   } // namespace
@@ -185,8 +184,7 @@ namespace mortise
                 "interface " + given.name + ": at " +
                 std::to_string(contact.undecided) + " of " +
                 std::to_string(contact.active + contact.inactive) +
-                " nodes the sides neither press nor are apart by more than rounding, so that "
-                "the area in contact is not determined there");
+                " nodes pressure and gap are zero to rounding, so that the contact area is not determined there");
             if (contact.penetration_max > large_penetration * moved &&
                 contact.penetration_max >
                   rounding_of_places *
@@ -196,8 +194,7 @@ namespace mortise
                 "interface " + given.name + ": the bodies overlap by up to " +
                 RunLog::number(contact.penetration_max) +
                 " between nodes, of " + RunLog::number(moved) +
-                " by which its sides move; contact there is smaller than the faces of the "
-                "slave, which finer ones would see");
+                " of relative motion; the contact there is smaller than the faces of the slave, which should be finer");
             summary.interfaces[i].contact = contact;
           }
       }

@@ -116,10 +116,9 @@ namespace mortise
       {
         text
           << "The solver (" << report.method
-          << ") could not be set up: its factorisation meets a pivot that is not positive, as "
-             "where something moves that nothing holds, or moduli or sizes "
-             "differ beyond rounding. No result is known. Check what holds "
-             "each part of the bodies"
+          << ") could not be set up: its factorisation meets a pivot that is not positive, as for a free rigid motion, or "
+             "with moduli or sizes that differ beyond rounding. There is no result. Check the supports of each part of the "
+             "bodies"
           << other;
         return text.str();
       }
@@ -128,9 +127,9 @@ namespace mortise
          << " after " << report.iterations << " iterations, allowed is "
          << tolerance << ". Results so far are written. ";
     if (n_sets > 0)
-      text << "Its " << n_sets
-           << " sets of multipliers that press did not come to an end. Take "
-              "the finer or the softer side of each contact as slave";
+      text
+        << "Its " << n_sets
+        << " active sets did not converge. Take the finer or the softer side of each contact as slave";
     else if (report.relative_residual <= report.attainable)
       text << "Rounding leaves up to " << report.attainable
            << " whatever the method, since moduli or sizes differ too much";

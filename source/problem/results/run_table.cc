@@ -135,7 +135,7 @@ namespace mortise
     print_contact(RunLog &log, const StepSummary &step)
     {
       Rows rows = {{"contact",
-                    "pressing area",
+                    "contact area",
                     "pressure, mean",
                     "largest",
                     "penetration"}};

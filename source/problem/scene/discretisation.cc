@@ -192,8 +192,7 @@ namespace mortise
             "a boundary that is free, or a smaller ratio");
         run.log.warning(
           "body " + free.bodies +
-          ": incompressible and held all around, so a constant "
-          "pressure has no effect; the mean pressure is set to zero");
+          ": incompressible and enclosed, so that a constant pressure has no effect; the mean pressure is set to zero");
       }
     if (system.mixed())
       system.free_pressures.project_residual(load.rhs.pressure);

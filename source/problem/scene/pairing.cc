@@ -198,8 +198,8 @@ namespace mortise
         if (report.distance_mean > facets + 1e-3 * size)
           run.log.warning(
             text + ", which Law = " + name_of(given.law) +
-            " takes for closed: rotations of the bodies then bring moments that are not there. Allowed: meshes "
-            "that touch; for an interference that is drawn Law = contact, or Offset in its place");
+            " ignores, so that rotations of the bodies cause spurious moments. Allowed: meshes that touch; for an "
+            "interference that is drawn Law = contact, or Offset in its place");
         return;
       }
     if (couplings[i].law.has_mesh_gap &&
@@ -225,7 +225,7 @@ namespace mortise
         (given.search_distance.length > 0. ?
            RunLog::number(given.search_distance.length) :
            RunLog::number(given.search_distance.by_size) + " face sizes") +
-        ", or is seen but through a body. Check positions, names and Search distance");
+        ", or all are hidden by a body. Check positions, names and Search distance");
     if (report.failed_pairs > 0)
       run.log.warning("interface " + name + ": the projection of " +
                       std::to_string(report.failed_pairs) +

@@ -358,8 +358,7 @@ namespace mortise
       throw InputError(
         "Boundary conditions and interfaces leave rigid motions free: " +
         message +
-        ". Prescribe displacements (Boundary ... / Displacement) that prevent "
-        "them, tie the body to one that is held, or exchange slave and master "
-        "of an interface with few multipliers");
+        ". Prescribe displacements (Boundary ... / Displacement) that prevent them, tie the body to a supported one, "
+        "or exchange slave and master of an interface with few multipliers");
   }
 } // namespace mortise
