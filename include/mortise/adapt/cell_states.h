@@ -1,6 +1,6 @@
-// What each cell of a scene carries from one mesh to the next: its degree, how
-// its solution changed, and the solution itself as a polynomial, which spaces
-// that contain the old ones keep to the last digit.
+// Data of the cells of a scene that pass from one mesh to the next: degree,
+// history of changes, and the solution as a polynomial, which nested spaces
+// keep to the last digit.
 #pragma once
 
 #include <mortise/adapt/error_by_residual.h>
@@ -22,13 +22,13 @@ namespace mortise
     /// The square of the error by that of the residual, as it was seen when the
     /// cell was refined, and before.
     double by_residual = square_by_residual_at_first;
-    /// What is broken of the laws of interfaces of which it is the slave.
+    /// Violation of the laws of interfaces on its slave faces.
     double violation = 0.;
-    /// Part of a face of it presses, part is open: the solution has an edge
-    /// there, however fast coefficients fall.
+    /// Part of a face is in contact, part is open: the solution is singular,
+    /// however fast coefficients decay.
     bool at_contact_edge = false;
-    /// What the last refinement brought to the quantity by the change: between
-    /// -1 and 1 but in mixed form. One without a quantity.
+    /// Contribution of the last refinement to the quantity over the change:
+    /// between -1 and 1 except in mixed form. One without a quantity.
     double share = 1.;
     /// The change of the last rise of the degree by that of the rise before it,
     /// of cells that have not been split since; before the first rise one.

@@ -11,7 +11,7 @@
 
 namespace mortise
 {
-  /// What a quantity is in one cycle.
+  /// The quantity and its dual solution in one cycle.
   struct DualSolution
   {
     double value = 0.;
@@ -22,7 +22,7 @@ namespace mortise
     SolveReport               report;
   };
 
-  /// What the estimates of one cycle need of those before, cells apart.
+  /// Data of earlier cycles for estimates, except those of cells.
   struct EstimateMemory
   {
     unsigned int n_cycles    = 0;  ///< that were added
@@ -32,13 +32,14 @@ namespace mortise
     /// in it, since prescribed values, loads and ties are others on other
     /// meshes, and what is left of that.
     double change_of_rest = 0., error_of_rest = 0.;
-    /// What the errors of cells may be together for each unit of the target:
-    /// the square of an energy norm, or of a quantity itself.
+    /// Error allowed to all cells together per unit of the target: the square
+    /// of an energy norm, or a quantity itself.
     double allowed = 0.;
     /// Of the quantity beside its value, or in the energy norm beside that of
     /// the solution; absent in the first cycle and on a new mesh.
     std::optional<double> estimate;
-    /// What it may be, since errors by residuals differ from cell to cell.
+    /// The estimate times a factor for its uncertainty, which the target is
+    /// compared with.
     std::optional<double> at_most;
     /// By body, square, of the equations.
     std::vector<double> residual;
@@ -88,7 +89,8 @@ namespace mortise
         square += of.size * of.size;
       return std::sqrt(square);
     }
-    /// What the estimate has beyond it.
+
+    /// The rest of the estimate.
     double
     of_bulk() const
     {
@@ -102,7 +104,7 @@ namespace mortise
     NumbersByCell
     by_cell() const;
 
-    /// What a run that is continued has to be given, too.
+    /// Part of a checkpoint.
     EstimateMemory memory;
     CellStates     cells;
 

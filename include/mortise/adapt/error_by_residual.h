@@ -4,11 +4,10 @@
 
 namespace mortise
 {
-  /// What is taken of the square of the error by that of the residual before
-  /// anything is seen, of squares of norms.
+  /// Ratio of squares of error and residual before any refinement.
   constexpr double square_by_residual_at_first = 0.5 * 0.5;
 
-  /// Likewise, at least, where residuals did not fall.
+  /// Lower bound of this ratio if residuals did not decrease.
   constexpr double square_by_residual_unseen = 0.8 * 0.8;
 
   /// Of that, or of what earlier refinements have shown, after the next one.

@@ -1,5 +1,5 @@
-// What is estimated to be left of the error on each cell: by residuals, or of a
-// quantity from how its solution changed when it was refined.
+// Error estimates of cells: by residuals, or for a quantity by the changes of
+// earlier refinements.
 #pragma once
 
 #include <mortise/adapt/residuals.h>
@@ -62,7 +62,7 @@ namespace mortise
     }
   };
 
-  /// What the cell has of the square of the error, ties and contact included.
+  /// Square of the error of the cell, interfaces included.
   inline double
   largest_error(const CellHistory &history)
   {

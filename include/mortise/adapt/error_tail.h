@@ -1,6 +1,6 @@
-// What is left of an error, from how much solutions changed on a cell when it
-// was refined before. Pure functions of numbers. Source: Szabo and Babuska,
-// Finite Element Analysis (1991), chapter 4, for whole meshes.
+// Extrapolation of the remaining error of a cell from the changes of earlier
+// refinements. Source: Szabo and Babuska, Finite Element Analysis (1991),
+// chapter 4, for whole meshes.
 #pragma once
 
 namespace mortise

@@ -1,5 +1,5 @@
-// What the next cycle is solved on: cells that are cut, degrees that rise, and
-// new meshes of tetrahedra. It makes no mesh and knows no parameters.
+// Plan of the next cycle: cells that are cut, degrees that rise, and new meshes
+// of tetrahedra.
 #pragma once
 
 #include <mortise/adapt/remeshing.h>

@@ -1,5 +1,5 @@
-// Which cells are cut and on which the degree rises, so that the error becomes
-// what is allowed with few unknowns. It never touches a mesh.
+// Choice of the cells that are cut or whose degree rises, so that the error
+// becomes the allowed one with few unknowns.
 #pragma once
 
 #include <mortise/adapt/cell_states.h>
@@ -16,8 +16,7 @@ namespace mortise
     split ///< of tetrahedra: a new mesh with smaller cells
   };
 
-  /// What a cell may have of the square of the error, of what all have in the
-  /// mean.
+  /// Allowed square of the error of a cell over the mean of all cells.
   constexpr double share_of_cell = 0.25;
 
   /// The square of the error that a cell has for certain: what it has changed

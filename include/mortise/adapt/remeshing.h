@@ -1,6 +1,4 @@
-// Meshes of tetrahedra that take the place of those on which errors are too
-// large: how large their cells are to be, and their first degrees. It never
-// makes a mesh.
+// Sizes and first degrees of new meshes of tetrahedra.
 #pragma once
 
 #include <mortise/adapt/refinement.h>

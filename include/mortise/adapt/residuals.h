@@ -1,8 +1,7 @@
-// What a solution leaves of its equations: forces inside of cells, tractions on
-// the faces between them, on boundaries and interfaces, and displacements that
-// are prescribed. It looks at no other solution. Source: Melenk and Wohlmuth,
-// On residual-based a posteriori error estimation in hp-FEM, Adv. Comput.
-// Math. 15 (2001), for the weights.
+// Residuals of a solution: forces inside cells, jumps of tractions on faces,
+// boundaries and interfaces, and prescribed displacements. Source: Melenk and
+// Wohlmuth, On residual-based a posteriori error estimation in hp-FEM, Adv.
+// Comput. Math. 15 (2001), for the weights.
 #pragma once
 
 #include <mortise/adapt/cell_states.h>
@@ -14,7 +13,7 @@
 
 namespace mortise
 {
-  /// What holds and loads a body.
+  /// Supports and loads of a body.
   struct BodyData
   {
     Loads                           loads;
@@ -23,8 +22,7 @@ namespace mortise
     std::vector<const TractionsOnFaces *> interfaces;
   };
 
-  /// What an interface has in the error because its sides are apart, inside
-  /// each other or pull.
+  /// Error of an interface by violation of its law: gaps, penetration, tension.
   struct InterfaceViolation
   {
     std::string         interface;

@@ -1,5 +1,5 @@
-// What differs between the versions of deal.II, from 9.4 on. Where a version is
-// asked for it is asked here, and never in what uses the answer.
+// Differences between the versions of deal.II from 9.4 on; the only file that
+// tests a version.
 #pragma once
 
 #include <deal.II/base/config.h>

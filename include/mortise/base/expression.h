@@ -1,6 +1,5 @@
-// Expressions in x, y, z with exact first and second derivatives; the time t in
-// them has a value from the start. It never differentiates by finite
-// differences.
+// Expressions in x, y, z with exact first and second derivatives, at a fixed
+// time t.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -71,7 +70,7 @@ namespace mortise
     Jet
     jet(const dealii::Point<3> &p) const;
 
-    /// What a node does, by number of operands: none, one, two, three.
+    /// Operation of a node, by number of operands: none, one, two, three.
     enum class Operation : unsigned char
     {
       // clang-format off

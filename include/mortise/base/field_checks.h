@@ -1,5 +1,5 @@
-// Watches the values of fields that a scene gives. It never stops a rank that
-// others wait for: the first bad value is noted, and told by all at once.
+// Checks of the values of fields of a scene: the first bad value is noted, and
+// all ranks throw together later.
 #pragma once
 
 #include <deal.II/base/point.h>

@@ -1,6 +1,5 @@
-// What happens when a signal ends the program: one message that names the
-// complete files, no unfinished file, exit code 128 + signal. It never returns
-// to what was running.
+// Handling of signals that end the program: one message with the complete
+// files, no unfinished file, exit code 128 + signal.
 #pragma once
 
 #include <mpi.h>

@@ -1,5 +1,5 @@
-// What other ranks know, by key: those who know and those who ask meet at a
-// rank that follows from the key. It never keeps anything.
+// Look-up of data of other ranks by key: owners and askers meet at a rank
+// determined by the key.
 #pragma once
 
 #include <deal.II/base/mpi.h>

@@ -1,6 +1,5 @@
-// What the processor that the program is compiled for computes at once. Vectors
-// of the compiler that are wider stay in memory instead of registers (GCC 12),
-// at a tenth of the speed.
+// Width of the registers of the target processor. Wider vectors of the compiler
+// stay in memory (GCC 12), at a tenth of the speed.
 #pragma once
 
 namespace mortise

@@ -1,5 +1,5 @@
-// What a run tells on the screen: a line per stage with its time, warnings
-// once, a table at the end. Only rank 0 prints.
+// Log of a run: a line per stage with its time, warnings once, a table at the
+// end. Only rank 0 prints.
 #pragma once
 
 #include <mortise/base/timers.h>
@@ -27,7 +27,7 @@ namespace mortise
       Stage &
       operator=(const Stage &) = delete;
 
-      /// What the stage did, in a few words ("2 bodies, 96 cells").
+      /// Result of the stage in a few words ("2 bodies, 96 cells").
       void
       details(const std::string &new_text)
       {

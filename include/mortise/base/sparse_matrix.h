@@ -198,7 +198,7 @@ namespace mortise
       add_to_owned(dst, values);
     }
 
-    /// What is given by owned index, by column of this rank. Collective.
+    /// Values by owned index as values by column of this rank. Collective.
     std::vector<double>
     on_columns(const double *owned) const;
 

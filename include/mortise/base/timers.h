@@ -1,5 +1,5 @@
-// Wall times of the steps of a run, and the memory it took. It never prints and
-// never synchronises ranks: a scope costs two looks at the clock.
+// Wall times of the steps of a run, and its memory, without synchronisation of
+// ranks.
 #pragma once
 
 #include <mpi.h>

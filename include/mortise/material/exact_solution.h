@@ -1,5 +1,4 @@
-// Exact solutions of elastic problems, with stresses and body forces derived
-// exactly. It never uses a mesh or finite differences.
+// Exact solutions of elastic problems, with exact stresses and body forces.
 #pragma once
 
 #include <mortise/base/expression.h>

@@ -1,7 +1,6 @@
-// What materials do at one point, from the gradient of the displacement to the
-// stress: written once for any type of numbers, so that it serves one point
-// (double) as well as a point of several cells at once (VectorizedArray, or a
-// vector of the compiler). It never knows where points lie, and keeps no state.
+// Stress and tangent of materials at one point from the gradient of the
+// displacement, for numbers of any type: double, VectorizedArray or vectors of
+// the compiler.
 //
 // A law has
 //

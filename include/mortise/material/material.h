@@ -17,8 +17,8 @@ namespace mortise
       : law(law)
     {}
 
-    /// What acts between gradients of the displacement and stresses in the form
-    /// that the body has, see LinearElastic::mixed.
+    /// Moduli from gradients of the displacement to stresses in the form of the
+    /// body, see LinearElastic::mixed.
     template <typename Number = double>
     PointLaw<Number>
     displacement_law() const

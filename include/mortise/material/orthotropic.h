@@ -27,7 +27,7 @@ namespace mortise
       std::string constant, got, allowed;
     };
 
-    /// What keeps the stiffness from being positive definite, if anything.
+    /// The reason for which the stiffness is not positive definite, if any.
     std::optional<Defect>
     defect() const;
 

@@ -9,9 +9,9 @@
 
 namespace mortise
 {
-  /// What the coefficients of an owned cell are multiplied with: those of the
-  /// displacement in the order of its element, and in mixed form those of the
-  /// pressure in that of its own.
+  /// Factors of the coefficients of an owned cell: of the displacement in the
+  /// order of its element, in mixed form of the pressure in that of its
+  /// element.
   struct CellFunctional
   {
     Body::CellIterator     cell;

@@ -218,7 +218,8 @@ namespace mortise
     return std::move(writer.bytes);
   }
 
-  /// What to_bytes() gave. Throws std::out_of_range if @p bytes are too few or too many.
+  /// The inverse of to_bytes(). Throws std::out_of_range if @p bytes are too
+  /// few or too many.
   template <typename T>
   T
   from_bytes(const std::string &bytes)

@@ -22,7 +22,7 @@ namespace mortise
     std::vector<float> values;
   };
 
-  /// What one rank writes: cells that share no points, so that fields may jump.
+  /// Data of one rank: cells without common points, so that fields may jump.
   struct VtuPiece
   {
     /// The next cell has the points that are added until the next call.

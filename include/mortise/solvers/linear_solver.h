@@ -1,5 +1,5 @@
-// What every solver of the linear system is: prepared once, asked for many
-// right hand sides, and told when the numbers of the system have changed.
+// Base class of the solvers of the linear system: set up once, solves for many
+// right hand sides, updated when the system changes.
 #pragma once
 
 #include <mortise/operators/block_system.h>
@@ -19,25 +19,25 @@ namespace mortise
   public:
     virtual ~LinearSolver() = default;
 
-    /// Make preconditioner or factorisation from the numbers that the system
-    /// holds now; the first solve() does it, later ones need it after every
-    /// change of them. Collective.
+    /// Make the preconditioner or factorisation from the present values of the
+    /// system; to be called after each change of them. The first solve() calls
+    /// it. Collective.
     void
     update();
 
-    /// After BlockSystem::active has changed, and nothing else: preconditioners
-    /// go on with what does not depend on it, coarse levels with the ties that
-    /// they saw at the last update(). The first time it is that. Collective.
+    /// To be called if BlockSystem::active alone has changed: coarse levels
+    /// keep the penalties of the last update(). Calls update() the first time.
+    /// Collective.
     void
     update_active();
 
-    /// After the interfaces of the system have been paired again, and nothing
-    /// else: what preconditioners know of the bulk stays, coarse levels go on
-    /// with the ties that they saw at the last update(). Collective.
+    /// To be called if the interfaces alone have been paired again:
+    /// preconditioners of the bulk are kept, with the penalties of the last
+    /// update(). Collective.
     void
     update_interfaces();
 
-    /// How far later solves go on, in place of what SolverOptions have.
+    /// Set the limits of later solves in place of those of SolverOptions.
     void
     set_limits(const double       tolerance,
                const double       energy_share,
@@ -48,23 +48,21 @@ namespace mortise
       options.max_iterations = max_iterations;
     }
 
-    /// Solve for @p rhs = (f, h, g); what @p x held is not used.
-    /// A solve that does not reach the tolerance returns converged == false
-    /// and the last iterate; nothing is thrown. The residual reported is always
-    /// recomputed from the equations, and relative to @p rhs. Collective.
+    /// Solve for @p rhs = (f, h, g), starting at zero. Without convergence the
+    /// report has converged == false and @p x is the last iterate. The residual
+    /// reported is computed from the equations, relative to @p rhs. Collective.
     ///
-    /// The solution is linear in the right hand side: a factor that is a power
-    /// of two makes its largest entry one, so that preconditioners in single
-    /// precision are far from their limits.
+    /// The right hand side is scaled by a power of two, so that preconditioners
+    /// in single precision are far from their limits.
     SolveReport
     solve(const SystemVector &rhs, SystemVector &x);
 
-    /// As solve(), from what @p x holds. Collective.
+    /// As solve(), starting at @p x. Collective.
     SolveReport
     solve_from(const SystemVector &rhs, SystemVector &x);
 
-    /// Later solves may start from @p x, which solves the system for @p rhs, as from what this
-    /// solver found itself since the last update(). Collective.
+    /// Add @p x, which solves the system for @p rhs, to the SuccessiveSolutions
+    /// from which later solves start. Collective.
     void
     remember(const SystemVector &rhs, const SystemVector &x);
 
@@ -111,13 +109,13 @@ namespace mortise
 
     const BlockSystem &system;
     SolverOptions      options;
-    std::string        description; ///< what set_up() made, in words
+    std::string        description; ///< of the preconditioner, in words
     std::unique_ptr<ScaledResidual> residual;
 
   private:
     void
     update(const std::function<bool()> &set_up_part);
-    /// The same with the residual, whose scales are made of numbers.
+    /// The same with the scales of the residual.
     void
     update_numbers(const std::function<bool()> &set_up_part);
     SolveReport

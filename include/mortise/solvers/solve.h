@@ -1,5 +1,4 @@
-// The one entrance to the linear solvers: chooses a method, and makes its
-// solver.
+// Choice and construction of a linear solver.
 #pragma once
 
 #include <mortise/solvers/linear_solver.h>
@@ -10,23 +9,22 @@ namespace mortise
   {
     SolverMethod method; ///< never automatic
     std::string  reason; ///< empty when the method was asked for
-    /// Where iterations were asked for and a factorisation would have been
-    /// chosen: that, and why; else empty.
+    /// Advice to use a factorisation, with the reason, if an iterative method
+    /// was asked for; else empty.
     std::string advice = "";
   };
 
-  /// What the choice depends on.
+  /// Criteria of the choice.
   struct SceneSize
   {
     dealii::types::global_dof_index n_displacements;
     bool                            mixed;    ///< has pressures
     double                          contrast; ///< largest ratio of moduli
-    /// Likewise, of moduli to what springs carry, stiffness times length.
+    /// Largest ratio of moduli to those of springs, stiffness times length.
     double contrast_of_springs = 1.;
   };
 
-  /// The method for a scene: what was asked for, else the one that measurements
-  /// favour.
+  /// The method for a scene: the given one, or chosen by measurements.
   SolverChoice
   choose_solver(SolverMethod asked, const SceneSize &scene);
 

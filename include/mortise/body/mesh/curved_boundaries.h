@@ -1,7 +1,6 @@
-// The parameter "Curved boundaries": which boundary of a file has which true
-// shape, given or fitted, and the manifolds that make meshes follow it. It
-// never changes a mesh but for moving vertices onto shapes that they miss by
-// rounding.
+// The parameter "Curved boundaries": true shapes of the boundaries of a file,
+// given or fitted, and their manifolds. Vertices that miss a shape by rounding
+// are moved onto it.
 #pragma once
 
 #include <deal.II/grid/manifold.h>

@@ -1,6 +1,5 @@
-// Coarse hexahedral meshes of simple bodies as plain data, in the body's own
-// coordinates. It never builds a triangulation, never moves the body and never
-// checks its input's ranges.
+// Coarse hexahedral meshes of simple bodies as plain data in coordinates before
+// Rotate and Translate, from input that was checked.
 #pragma once
 
 #include <deal.II/grid/manifold.h>

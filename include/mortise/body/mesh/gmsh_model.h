@@ -1,7 +1,5 @@
-// Meshes as gmsh knows them, as plain data: nodes, elements, names of physical
-// groups. The only room of the gmsh library, which prints nothing and stays
-// open only while a geometry is meshed. It never reads a mesh and never judges
-// one.
+// Meshes of gmsh as plain data: nodes, elements, names of physical groups; the
+// only use of the gmsh library, which is open only while a geometry is meshed.
 #pragma once
 
 #include <deal.II/base/point.h>
@@ -54,8 +52,8 @@ namespace mortise
   bool
   is_geometry_file(const std::string &file_name);
 
-  /// What the elements of gmsh's number @p type are: type, dimension, order and
-  /// reference. Only for numbers that gmsh has.
+  /// Dimension, order and reference element of gmsh's element type @p type,
+  /// which exists.
   GmshElements
   describe_gmsh_elements(int type);
 

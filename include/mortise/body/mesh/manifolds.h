@@ -1,6 +1,5 @@
 // Closed-form geometry of curved bodies: sphere, block with a curved middle
-// surface. Smooth, cheap, never iterative; each carries the rigid motion
-// of its body and has no length scale of its own.
+// surface. Each carries the rigid motion of its body.
 #pragma once
 
 #include <deal.II/grid/manifold.h>

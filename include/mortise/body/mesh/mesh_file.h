@@ -15,9 +15,8 @@ namespace mortise
   std::string
   located_file(const std::string &file_name, const std::string &directory);
 
-  /// What can be said of Source = file without reading the file: is there one
-  /// whose name tells a known format, does Mesh size fit it? Throws InputError
-  /// (starting with @p where). Not collective; does not look at the disk.
+  /// Check Source = file without reading the file: its format by its name, and
+  /// Mesh size. Throws InputError (starting with @p where). Not collective.
   void
   check_file_parameters(const MeshParameters &parameters,
                         const std::string    &where);

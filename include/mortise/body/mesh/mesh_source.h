@@ -75,7 +75,7 @@ namespace mortise
     double      middle    = 0.5;
   };
 
-  /// What the ids on a mesh mean.
+  /// Meaning of the ids on a mesh.
   struct MeshNames
   {
     std::map<std::string, dealii::types::boundary_id> boundaries;

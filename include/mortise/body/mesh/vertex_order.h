@@ -1,7 +1,6 @@
-// Order of the vertices of a tetrahedron by their places in space, on which
-// the hierarchical functions of tetrahedra depend, and cells whose vertices
-// are numbered in it. It never looks at orientation flags of deal.II and
-// never changes a triangulation that exists.
+// Order of the vertices of a tetrahedron by their places in space, on which the
+// hierarchical functions of tetrahedra depend, and cells whose vertices are
+// numbered in it. Independent of deal.II's orientation flags.
 #pragma once
 
 #include <deal.II/base/point.h>

@@ -36,7 +36,7 @@ namespace mortise
     void
     reinit(const Body::CellIterator &cell, const BodySolution &solution);
 
-    /// Likewise, of what has these coefficients.
+    /// The same for given coefficients.
     void
     reinit(const Body::CellIterator &cell,
            const CellCoefficients   &coefficients);

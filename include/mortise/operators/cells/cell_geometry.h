@@ -64,7 +64,7 @@ namespace mortise
     std::vector<dealii::Point<dim>> points_in_space;
   };
 
-  /// What to tell a user whose @p cell has a Jacobian that is not positive.
+  /// Message for a @p cell whose Jacobian is not positive.
   std::string
   tangled_message(const Body &body, const Body::CellIterator &cell);
 } // namespace mortise

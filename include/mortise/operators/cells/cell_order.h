@@ -18,8 +18,7 @@ namespace mortise
   transform_along_lines(const dealii::FullMatrix<double> &matrix,
                         std::vector<double>              &values);
 
-  /// What cells with one element of a body need to go from one basis to the
-  /// other.
+  /// Change of basis on the cells of one element of a body.
   class CellOrder
   {
   public:

@@ -34,7 +34,7 @@ namespace mortise
     return coefficients;
   }
 
-  /// Likewise, of a scalar field.
+  /// The same for a scalar field.
   inline std::vector<double>
   scalar_coefficients(const Body::CellIterator &cell, const BodyVector &field)
   {

@@ -22,7 +22,7 @@ namespace mortise
     of(const Body &body, const Body::CellIterator &cell);
 
   private:
-    /// What the cells of one body share.
+    /// Data common to the cells of one body.
     struct Shared
     {
       Moduli                              C;

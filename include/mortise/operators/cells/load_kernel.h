@@ -15,7 +15,7 @@
 
 namespace mortise
 {
-  /// What the cells of one element share. Tables are made when there is a load.
+  /// Loads on the cells of one element. Tables are made on demand.
   class LoadKernel
   {
   public:

@@ -1,6 +1,5 @@
 // Gradients on tetrahedra at Gauss points in collapsed coordinates by sum
-// factorisation, several cells at once. It never knows a mesh; only sources of
-// kernels include it.
+// factorisation, several cells at once. Only sources of kernels include it.
 #pragma once
 
 #include <deal.II/base/polynomial.h>

@@ -1,6 +1,5 @@
-// A dense matrix that acts on the components of several cells at once, one
-// cell per lane of a vector of the compiler. It never knows a mesh; only
-// sources of kernels include it.
+// A dense matrix that acts on the components of several cells at once, one cell
+// per lane of a vector of the compiler. Only sources of kernels include it.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>

@@ -1,5 +1,5 @@
-// Hanging nodes of one level in vectors: their values from those of others, C,
-// and what acts on them moved there, C^T. It never communicates.
+// Constraints C of the hanging nodes of one level: values of vectors, and the
+// transpose for residuals, without communication.
 #pragma once
 
 #include <deal.II/base/aligned_vector.h>

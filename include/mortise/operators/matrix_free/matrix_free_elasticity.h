@@ -1,6 +1,6 @@
 // Linear elasticity without a matrix, several cells at once: products by sum
 // factorisation on hexahedra, by dense matrices of the reference cell on
-// tetrahedra. It never resolves constraints and never communicates.
+// tetrahedra. Without constraints and communication.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>
@@ -14,8 +14,8 @@
 
 namespace mortise
 {
-  /// What points remember, by group of cells, [batch][point][number][lane]; of
-  /// linear laws nothing.
+  /// State of points by group of cells, [batch][point][number][lane]; empty for
+  /// linear laws.
   template <typename Number>
   using PointHistory = std::vector<dealii::AlignedVector<Number>>;
 

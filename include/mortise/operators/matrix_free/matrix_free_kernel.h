@@ -1,5 +1,5 @@
-// What MatrixFreeElasticity asks of its kernels, of any degree; only sources of
-// kernels include this.
+// Interface of the kernels of MatrixFreeElasticity for any degree; only sources
+// of kernels include this.
 #pragma once
 
 #include <mortise/operators/matrix_free/matrix_free_elasticity.h>

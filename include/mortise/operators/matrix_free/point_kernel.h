@@ -1,6 +1,5 @@
-// Between derivatives on the reference cell and what a law has at one point of
-// several cells, one per lane. It never knows where points lie; only sources of
-// kernels include it.
+// Evaluation of a law at one point of several cells, one per lane, from
+// derivatives on the reference cell. Only sources of kernels include it.
 #pragma once
 
 #include <mortise/base/batch.h>
@@ -36,8 +35,8 @@ namespace mortise
       }
   }
 
-  /// What is tested with gradients of v with respect to xi, from a stress times
-  /// sqrt(w |J|); indices as for gradient_at().
+  /// Pull-back of a stress times sqrt(w |J|), to be tested with gradients of v
+  /// with respect to xi; indices as for gradient_at().
   template <typename V>
   inline __attribute__((always_inline)) void
   set_stress(const V (&s)[3][3], const V (&G)[3][3], const int stride, V *g)
@@ -94,9 +93,9 @@ namespace mortise
            G[0][2] * (G[1][0] * G[2][1] - G[1][1] * G[2][0]);
   }
 
-  /// What the components of a function alone contribute to its diagonal by its
-  /// derivatives with respect to xi_i and xi_j, i <= j, both terms for i != j:
-  /// sum_ef C_cecf G_ie G_jf at (6 c + (i, j)) stride.
+  /// Contribution of the derivatives with respect to xi_i and xi_j, i <= j, to
+  /// the diagonal of a function, both terms for i != j: sum_ef C_cecf G_ie G_jf
+  /// at (6 c + (i, j)) stride.
   template <typename Law, typename V>
   __attribute__((noinline)) void
   diagonal_coefficients(const Law &law,

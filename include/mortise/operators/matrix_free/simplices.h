@@ -53,7 +53,7 @@ namespace mortise
     using V = typename Batch<Number>::Vector;
     static constexpr int n_nodes =
       (degree + 1) * (degree + 2) * (degree + 3) / 6;
-    /// What an affine cell has in place of points.
+    /// Number of coefficients of gradients on affine cells.
     static constexpr int n_coefficients =
       degree * (degree + 1) * (degree + 2) / 6;
 

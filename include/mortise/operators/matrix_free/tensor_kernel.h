@@ -1,5 +1,5 @@
 // Sum factorisation on several hexahedra at once, one per lane of a vector of
-// the compiler. It never knows a mesh; only sources of kernels include it.
+// the compiler. Only sources of kernels include it.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

@@ -1,6 +1,6 @@
-// Conjugate gradients on the subspace { u : B u = 0 }, the condensed system
-// written without choosing pairs of slave and master dofs; without an
-// interface, ordinary conjugate gradients. It never forms the condensed matrix.
+// Projected conjugate gradients on { u : B u = 0 }, equivalent to the condensed
+// system, which is not formed; without an interface, ordinary conjugate
+// gradients.
 #pragma once
 
 #include <mortise/solvers/linear_solver.h>

@@ -1,5 +1,5 @@
 // GMRES on the indefinite system of displacements, pressures and multipliers
-// with a block factorisation as preconditioner. It never needs K to be regular.
+// with a block factorisation as preconditioner. K may be singular.
 #pragma once
 
 #include <mortise/solvers/linear_solver.h>
