@@ -216,7 +216,7 @@ namespace mortise
 
   namespace
   {
-    /// What child @p child of a cell with @p state starts with.
+    /// Initial state of child @p child of a cell with @p state.
     CellState
     state_of_child(const CellState &state, const unsigned int child)
     {

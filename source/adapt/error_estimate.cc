@@ -162,7 +162,7 @@ namespace mortise
       learn(change, left, history);
     }
 
-    /// Likewise, after it was cut.
+    /// The same after it was cut.
     void
     learn_split(const Body               &body,
                 const Body::CellIterator &cell,

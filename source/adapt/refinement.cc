@@ -18,8 +18,8 @@ namespace mortise
     /// have: what it will have is not known well.
     constexpr double aim = 0.5;
 
-    /// What a split is taken to leave of the square of an error beside corners
-    /// and edges, and a rise at least.
+    /// Assumed factor of the square of an error after a split beside corners
+    /// and edges, and its lower bound after a rise.
     constexpr double after_split = 0.5, after_rise = 0.02;
 
     MPI_Comm

@@ -24,8 +24,8 @@ namespace mortise
     /// fifth.
     constexpr double least_part_of_vertex = 0.5;
 
-    /// Likewise of the vertex with most of all: what is left follows when its
-    /// error is gone.
+    /// The same relative to the vertex with the largest error; other vertices
+    /// follow in later cycles.
     constexpr double least_part_of_all = 0.3;
 
     /// The mean length of the edges.

@@ -18,8 +18,7 @@ namespace mortise
 
     constexpr Label no_label = std::numeric_limits<Label>::max();
 
-    /// What the vertices of owned and ghost cells hold together on this rank:
-    /// the group of each vertex.
+    /// Connected groups of the vertices of owned and ghost cells on this rank.
     class LocalGroups
     {
     public:

@@ -1,5 +1,5 @@
-// What PairIntegrator keeps between pairs, and the two ways to integrate one.
-// It is private to this folder: no other room includes it.
+// Scratch memory of PairIntegrator and the integration of curved and linear
+// pairs; private to this folder.
 #pragma once
 
 #include <mortise/interface/clipping.h>
@@ -15,7 +15,7 @@ namespace mortise
 
   struct PairIntegrator::Scratch
   {
-    /// What the rule depends on besides the distortion.
+    /// Parameters of the rule besides the distortion.
     void
     begin_pair(const SurfaceFace &master_face,
                const unsigned int slave_degree,
@@ -38,8 +38,8 @@ namespace mortise
     }
 
     /// Whether any of some sample points of one face has a partner on the
-    /// other: tells a pair that could not be clipped from one that never
-    /// mattered.
+    /// other: distinguishes pairs that could not be clipped from pairs without
+    /// overlap.
     bool
     samples_meet() const;
 

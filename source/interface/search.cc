@@ -59,8 +59,8 @@ namespace mortise
           frame.center_xi,
         (triangle ? chart.upper[2] - chart.lower[0] : chart.upper[1]) -
           frame.center_xi};
-      // What a chart's dual base leaves out is the part of the tangents along
-      // the normal.
+      // The dual basis of a chart is without the part of the tangents along the
+      // normal.
       Prism prism;
       for (unsigned int v = 0; v < 4; ++v)
         {

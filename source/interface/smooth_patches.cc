@@ -19,8 +19,7 @@ namespace mortise
     /// round surface, just so.
     constexpr double least_cosine_of_neighbours = 0.5 - 1e-3;
 
-    /// What is joined, by anything that has an order; the least of each set
-    /// stands for it.
+    /// Disjoint sets of ordered keys; the least of each set represents it.
     template <typename Key>
     class DisjointSets
     {

@@ -11,8 +11,8 @@ namespace mortise
 
   namespace
   {
-    // What counts as rounding in a face's shape, relative to its size: 1e-12,
-    // or what a scene far from the origin has lost.
+    // Rounding of a face's shape relative to its size: 1e-12, or that of
+    // coordinates far from the origin.
     double
     flat_tolerance(const SurfaceFace &face)
     {

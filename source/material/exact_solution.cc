@@ -144,12 +144,11 @@ namespace mortise
       double       one_by_k, one_by_s, ratio;
     };
 
-    /// Pressures at all radii, from the inside out, those at the radii of @p open being
-    /// zero. The unknowns are the
-    /// pressures where layers meet, so that contrast in stiffness never enters
-    /// a difference: the equations (displacements of both sides that differ by
-    /// the offset, and by what a spring gives) are tridiagonal and diagonally
-    /// dominant for each sign.
+    /// Pressures at all radii, from the inside out, those at the radii of
+    /// @p open being zero. The unknowns are the pressures where layers meet, so
+    /// that no differences of stiffnesses occur: the equations (displacements
+    /// of both sides that differ by the offset, and by what a spring gives) are
+    /// tridiagonal and diagonally dominant for each sign.
     std::vector<double>
     pressures_at_radii(const std::vector<Response> &responses,
                        const std::vector<bool>     &open,

@@ -170,7 +170,7 @@ namespace mortise
   {
     const NodalLevel &level = all_levels.front();
     Vector            values(level.layout);
-    // What it is at a node follows from the entity that has the node, so all
+    // The value at a node depends on the entity of the node alone, so that all
     // cells agree.
     for_each_ordered_cell(
       *level.space,

@@ -13,15 +13,15 @@ namespace mortise
 {
   namespace
   {
-    /// What a factorisation may need of memory.
+    /// Limit of the memory of a factorisation.
     constexpr unsigned int max_direct_dofs = 100000;
-    /// A stiff body that a soft one holds: preconditioners in single precision
-    /// see how it moves up to a contrast of 1e7 (tests/solvers/contrast.cc).
+    /// Stiff bodies on soft ones: preconditioners in single precision resolve
+    /// their motion up to a contrast of 1e7 (tests/solvers/contrast.cc).
     constexpr double largest_contrast = 1e6;
-    /// Bodies that springs hold, in double precision up to 1e10: fewer
-    /// iterations are lost than a factorisation costs. Of the saddle point
-    /// method, which makes residuals small and not energies, 36 at about 5e8
-    /// and more than 1000 at 5e9.
+    /// Bodies on springs, in double precision up to 1e10: additional iterations
+    /// cost less than a factorisation. The saddle point method, which bounds
+    /// residuals and not energies, needs 36 at about 5e8 and more than 1000 at
+    /// 5e9.
     constexpr double largest_contrast_of_springs = 1e9;
   } // namespace
 

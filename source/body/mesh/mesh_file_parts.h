@@ -1,5 +1,5 @@
-// From what gmsh knows to the coarse mesh of one body, in the coordinates of
-// the file. It never opens a file.
+// Conversion of a GmshModel to the coarse mesh of one body, in the coordinates
+// of the file.
 #pragma once
 
 #include <mortise/body/mesh/generators.h>

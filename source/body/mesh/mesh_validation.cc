@@ -17,7 +17,7 @@ namespace mortise
 
   namespace
   {
-    /// What a generator expects in Extent and Subdivisions.
+    /// Numbers that a generator expects in Extent and Subdivisions.
     struct Layout
     {
       std::vector<std::string> extent, subdivisions;
@@ -175,7 +175,7 @@ namespace mortise
                       "; allowed: a body whose size is " + allowed_lengths());
     }
 
-    /// What belongs to files only.
+    /// Check that parameters of files are not set.
     void
     validate_file(const MeshParameters &q, const Checker &check)
     {

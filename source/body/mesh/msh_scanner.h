@@ -1,4 +1,4 @@
-// The numbers of a .msh file one by one, as text or as bytes.
+// Scanner of the numbers of a .msh file, text or binary.
 #pragma once
 
 #include <deal.II/base/point.h>

@@ -51,7 +51,7 @@ namespace mortise
     std::vector<std::pair<std::uint64_t, std::uint64_t>> places;
   };
 
-  /// What the header of a section of version 4.1 says of all its blocks.
+  /// Totals of all blocks in the header of a section of version 4.1.
   class Total
   {
   public:

@@ -44,7 +44,8 @@ namespace mortise
       return faces;
     }
 
-    /// What takes the place of the mass matrix, less this. @p free: local displacements.
+    /// Schur complement less mass matrix of a cell. @p free: local
+    /// displacements.
     FullMatrix<double>
     change_of_norm(const MatrixFreeElasticity<double>::CellMatrix &matrix,
                    const std::vector<unsigned int>                &free)

@@ -15,7 +15,7 @@ namespace mortise
   {
     constexpr unsigned int block_size = dim * dim;
 
-    /// What couples in rows of another rank: lengths, then nodes, row by row.
+    /// Sparsity of rows for another rank: lengths, then nodes, row by row.
     struct RowPattern
     {
       std::vector<NodalBlockMatrixBuilder::Index> rows, columns;

@@ -81,7 +81,7 @@ namespace mortise
         batches.n_pressure_nodes = pressure_order.size();
       }
 
-      /// What is wrong, if anything.
+      /// The message of a defect, if any.
       std::string
       build()
       {

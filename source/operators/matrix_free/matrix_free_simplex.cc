@@ -15,7 +15,7 @@ namespace mortise
 
   namespace
   {
-    /// What @p make returns, made once for each degree.
+    /// Result of @p make, computed once for each degree.
     template <typename Make>
     const FullMatrix<double> &
     made_once(const unsigned int degree, const Make &make)

@@ -1,5 +1,5 @@
-// What cycles leave in a checkpoint, and how they go on from it: meshes are
-// made again, cell by cell, and have the histories of their cells.
+// Checkpoints of adaptive cycles: meshes are made again, cell by cell, with the
+// histories of their cells.
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>

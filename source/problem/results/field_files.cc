@@ -13,7 +13,8 @@ namespace mortise
 {
   namespace
   {
-    /// What cannot be written is put to @p unwritten: the rest can still be.
+    /// Call @p write and add an error of writing to @p unwritten, so that other
+    /// files are written.
     template <typename Write>
     void
     try_output(std::vector<OutputError> &unwritten, const Write &write)

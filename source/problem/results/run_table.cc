@@ -113,7 +113,7 @@ namespace mortise
       log.table(rows);
     }
 
-    /// What lies between the meshes of the sides, where they do not coincide.
+    /// Distances between the meshes of the sides, if they do not coincide.
     void
     print_distances(RunLog &log, const StepSummary &step)
     {

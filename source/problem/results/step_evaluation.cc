@@ -6,7 +6,7 @@ namespace mortise
 
   namespace
   {
-    /// What @p value has, from @p make the first time.
+    /// The cached @p value, computed by @p make the first time.
     template <typename T, typename Make>
     const T &
     once(std::optional<T> &value, const Make &make)

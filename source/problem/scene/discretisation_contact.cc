@@ -1,4 +1,4 @@
-// What Discretisation knows of contact.
+// Contact of a Discretisation.
 #include <mortise/problem/scene/discretisation.h>
 
 #include <numeric>

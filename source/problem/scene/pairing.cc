@@ -169,8 +169,8 @@ namespace mortise
 
   namespace
   {
-    /// What coarse curved faces may have that do not fit together is less, what
-    /// a second layer adds is more.
+    /// More than the coverage of mismatched coarse curved faces, less than that
+    /// of a second layer.
     constexpr double most_coverage = 1.1;
   } // namespace
 

@@ -121,7 +121,7 @@ namespace mortise
       return describe(motions);
     }
 
-    /// What holds the bodies.
+    /// Supports of the bodies.
     class Supports
     {
     public:

@@ -46,10 +46,9 @@ namespace mortise
         v[i] *= factors[i];
     }
 
-    /// What the system without pins leaves free, a constant pressure of mean
-    /// one and the multipliers that come with it, by group of FreePressures:
-    /// with a pin c at pressure k, (A + c e e^T) n = c e for A n = 0 and n_k
-    /// = 1.
+    /// The kernel of the system without pins, a constant pressure of mean one
+    /// with its multipliers, by group of FreePressures: with a pin c at
+    /// pressure k, (A + c e e^T) n = c e for A n = 0 and n_k = 1.
     std::vector<SystemVector>
     free_constants(const BlockSystem         &system,
                    const std::vector<double> &scale,

@@ -80,7 +80,7 @@ namespace mortise
           }
     }
 
-    /// What is prescribed is zero. @p relevant: rows that the cells of this rank touch.
+    /// Prescribed values are zero. @p relevant: rows of the cells of this rank.
     AffineConstraints<double>
     monolithic_constraints(const NodalSystem &nodal,
                            const Numbering   &numbering,

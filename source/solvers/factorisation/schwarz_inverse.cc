@@ -95,8 +95,7 @@ namespace mortise
       return package;
     }
 
-    /// What owned nodes and ghosts have among each other, in this order.
-    /// Collective.
+    /// Submatrix of owned nodes and ghosts, in this order. Collective.
     NodalMatrix
     overlapping_rows(const NodalMatrix                 &rows,
                      const Utilities::MPI::Partitioner &nodes)

@@ -80,7 +80,7 @@ namespace mortise
         }
     }
 
-    /// What other ranks leave to supernode @p s, which is on all. Collective.
+    /// Add the updates of other ranks to the common supernode @p s. Collective.
     void
     receive(const unsigned int s)
     {
@@ -152,7 +152,7 @@ namespace mortise
     std::vector<unsigned int>  node_at;    ///< by position
     std::vector<int>           local;      ///< in the front, by position
     std::vector<unsigned int>  n_variants; ///< by supernode
-    /// What remains for parents, by supernode and variant.
+    /// Update matrices for parents, by supernode and variant.
     std::vector<std::vector<std::vector<Work>>> updates;
   };
 
