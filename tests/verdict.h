@@ -47,7 +47,7 @@ verdict(const std::string &what, const double got, const double allowed)
   return verdict(got <= allowed, what, text.str());
 }
 
-/// What an error of @p action says, "(no error)" without one.
+/// Message of an error of @p action, "(no error)" without one.
 inline std::string
 message_of(const std::function<void()> &action)
 {

@@ -1,9 +1,9 @@
 // Iterations where constraints hold on a part of the multipliers' nodes:
 // active_sets [NAME=VALUE]... prints one line for each set: iterations, seconds
-// of the setup with that set and of the solve. It never fails.
-//   scene=sphere|blocks  p=2  law=tie|slide  contrast=1 (modulus of the slave
-//   over the master's)  fine=0 (cells of the slave for each of the master's, in
-//   a line; 0: about 3 : 2)  n=4 (cells in a line)  nu=0.3  tolerance=1e-8
+// of the setup with that set and of the solve. scene=sphere|blocks p=2
+// law=tie|slide contrast=1 (modulus of the slave over the master's) fine=0
+// (cells of the slave for each of the master's, in a line; 0: about 3 : 2) n=4
+// (cells in a line) nu=0.3 tolerance=1e-8
 #include "scenes/active_sets.h"
 
 #include <deal.II/base/mpi.h>

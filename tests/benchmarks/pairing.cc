@@ -1,4 +1,4 @@
-// What another pairing of interfaces costs beside a new discretisation:
+// Cost of another pairing of interfaces compared with a new discretisation:
 // pairing SCENE.prm [SECTION/NAME=VALUE]... solves the scene, then moves the
 // surfaces ten times by a tenth of the solution, pairs them there and solves
 // again. Prints seconds and iterations; it never fails.

@@ -75,7 +75,7 @@ namespace
     return now.tv_sec + 1e-9 * now.tv_nsec;
   }
 
-  /// What this process has allocated, in MiB.
+  /// Memory of this process in MiB.
   double
   allocated()
   {

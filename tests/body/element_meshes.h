@@ -1,6 +1,6 @@
 // Meshes of the element tests: coarse shapes with cells turned at random and
 // then ordered consistently, refined near a point, with degrees drawn at
-// random. It never checks anything.
+// random.
 #pragma once
 
 #include <deal.II/distributed/tria.h>

@@ -1,5 +1,4 @@
-// Files for the tests of meshes, written by gmsh itself in any format. It never
-// checks anything.
+// Files for the tests of meshes, written by gmsh itself in any format.
 #pragma once
 
 #include <deal.II/base/mpi.h>

@@ -235,8 +235,8 @@ check_entities(const Triangulation<3> &triangulation)
   verdict("deal.II's lines and faces are ours", wrong, 0.);
 }
 
-/// What @p values gives for scalar or vector-valued shape functions against
-/// the functions at the points of the reference cell.
+/// Difference of @p values for scalar or vector-valued shape functions from the
+/// functions at points of the reference cell.
 double
 compare_values(const FEValuesBase<3>                                 &values,
                const typename Triangulation<3>::active_cell_iterator &cell)

@@ -1,5 +1,5 @@
 // Meshes of the tests of tetrahedra: shapes whose vertices, cells and vertices
-// in cells are numbered at random. It never checks anything.
+// in cells are numbered at random.
 #pragma once
 
 #include <deal.II/base/mpi.h>

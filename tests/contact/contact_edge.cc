@@ -35,8 +35,8 @@ namespace
     MultiplierPlaces places;
   };
 
-  /// What is opened, as the least x: bodies are held together up to x = 0.8,
-  /// where they should part at @p edge.
+  /// The least x of the multipliers that open, if the set is active up to x
+  /// = 0.8 and the true edge is @p edge.
   double
   opened_from(const double h, const double edge)
   {

@@ -194,7 +194,7 @@ namespace
         face.shape                 = FaceShape::triangle;
         face.degree                = degree;
         const LagrangeBasis &basis = lagrange_basis(degree);
-        // What lies beyond the hypotenuse is not read.
+        // Points beyond the hypotenuse are not read.
         for (unsigned int j = 0; j <= degree; ++j)
           for (unsigned int i = 0; i <= degree; ++i)
             face.points.push_back(i + j <= degree ?

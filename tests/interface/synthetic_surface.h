@@ -1,5 +1,5 @@
-// Surfaces for tests of the interface's geometry, built from functions (u,v) ->
-// x without a mesh. It never compares.
+// Surfaces for tests of the interface's geometry, built from functions (u,v)
+// -> x without a mesh.
 #pragma once
 
 #include <mortise/interface/integration_cells.h>

@@ -1,4 +1,4 @@
-// A tied scene with its matrices, and two boxes for it. It never judges.
+// A tied scene with its matrices, and two boxes for it.
 #pragma once
 
 #include <verdict.h>

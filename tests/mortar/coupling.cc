@@ -188,7 +188,7 @@ namespace mortise::testing
         }
   }
 
-  /// What there is of the master is covered, and constants pass.
+  /// All of the master is covered, and constants are exact.
   void
   check_partial()
   {

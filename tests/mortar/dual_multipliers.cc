@@ -94,8 +94,8 @@ namespace mortise::testing
     return Utilities::MPI::max(error, scene.comm);
   }
 
-  /// What the multipliers with the coefficients of @p function lack of it after multiplier_on_faces(),
-  /// which is a polynomial that they have.
+  /// Error of multiplier_on_faces() for the multipliers of @p function, a
+  /// polynomial that they contain.
   double
   polynomial_error(const TiedScene &scene, const Field &function)
   {
@@ -135,7 +135,7 @@ namespace mortise::testing
     };
   }
 
-  /// What holds for all scenes.
+  /// Properties of all scenes.
   void
   check(const std::string &name,
         const TiedBody    &slave,

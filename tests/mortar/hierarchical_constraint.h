@@ -1,5 +1,5 @@
 // The constraint in the hierarchical functions of the bodies, which the program
-// has at nodes. It never shares entries between components.
+// has at nodes.
 #pragma once
 
 #include <mortise/mortar/coupling.h>

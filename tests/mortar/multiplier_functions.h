@@ -1,5 +1,5 @@
 // The multipliers of a scene as functions on the covered slave faces: how
-// independent they are and what they come close to. It never judges.
+// independent they are and what they come close to.
 #pragma once
 
 #include <deal.II/lac/lapack_full_matrix.h>

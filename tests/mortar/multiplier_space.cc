@@ -121,7 +121,7 @@ namespace mortise::testing
     return Utilities::MPI::sum(n, scene.comm);
   }
 
-  /// What holds of every space: independent, constants, polynomials of degree
+  /// Properties of every space: independence, constants, polynomials of degree
   /// @p p.
   void
   check_space(const std::string &what,

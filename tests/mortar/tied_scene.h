@@ -1,6 +1,5 @@
 // Two bodies tied at one interface, from plain data up to B and the
-// multipliers, and functions on their surfaces, for tests of the coupling. It
-// never solves.
+// multipliers, and functions on their surfaces, for tests of the coupling.
 #pragma once
 
 #include <deal.II/base/mpi.h>

@@ -1,4 +1,4 @@
-// What tests of ThicknessCoarsening and its matrix prove of one scene.
+// Checks of ThicknessCoarsening and its matrix on one scene.
 #pragma once
 
 #include <mortise/operators/levels/nodal_block_operator.h>

@@ -188,7 +188,7 @@ namespace
     return with_checksum(result.replace(begin, changed.size(), changed));
   }
 
-  /// What a file tells of sizes and numbers is not taken on trust.
+  /// Sizes and numbers in a file are checked.
   void
   test_lies(const Scene &scene, const std::string &good)
   {

@@ -1,5 +1,5 @@
 // Bodies of all kinds with two interfaces, for tests of checkpoints, and
-// verdicts on messages. It never solves.
+// verdicts on messages.
 #pragma once
 
 #include <mortise/output/checkpoint.h>

@@ -1,5 +1,5 @@
 // Random values of a scene, the same on every rank, to compare with what a
-// checkpoint gives back. It never reads a file.
+// checkpoint gives back.
 #pragma once
 
 #include <cstdint>

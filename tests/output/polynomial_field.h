@@ -1,5 +1,4 @@
-// Polynomials as fields of a body, in the coefficients of its elements. It
-// never judges.
+// Polynomials as fields of a body, in the coefficients of its elements.
 #pragma once
 
 #include <deal.II/lac/full_matrix.h>

@@ -1,5 +1,5 @@
-// What a VTU file says, read back for tests: the format that the program
-// writes, binary and compressed. It never judges.
+// Reader of VTU files for tests, in the format that the program writes, binary
+// and compressed.
 #pragma once
 
 #include <deal.II/base/exceptions.h>

@@ -1,5 +1,4 @@
-// A scene and checks of messages for the tests of parameter files. It never
-// runs a scene.
+// A scene and checks of messages for the tests of parameter files.
 #pragma once
 
 #include <mortise/base/error.h>

@@ -120,7 +120,7 @@ namespace
                       {what.str(), "other units"});
       }
   }
-  /// What a solve lacks: the reason, and no advice that does not help.
+  /// Messages of solves without convergence: the reason, and no useless advice.
   void
   test_not_converged()
   {

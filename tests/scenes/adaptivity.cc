@@ -89,9 +89,9 @@ namespace
     verdict("coarse slave: unknowns", steps.back().dofs.displacement, 1e5);
   }
 
-  /// What is missing of a pressure makes displacements rough where the solution
-  /// is not: that calls for no smaller cells. Degrees begin with the least that
-  /// has a mixed form.
+  /// Errors of a pressure make displacements rough where the solution is
+  /// smooth, which does not call for smaller cells. Degrees begin with the
+  /// least of the mixed form.
   void
   check_nearly_incompressible()
   {

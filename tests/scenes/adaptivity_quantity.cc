@@ -61,7 +61,7 @@ namespace
     verdict(what + ": too little by", 1. / *last.effectivity, 1. / least);
   }
 
-  /// What cutting cells has shown to go on is found, with its sign.
+  /// A change that continues after cells were cut is found with its sign.
   void
   check_correction()
   {

@@ -1,6 +1,6 @@
 // Scenes of axis-parallel boxes, drawn at random, that meet by one law wherever
 // two of them share an area, with a linear displacement that every mesh holds
-// exactly. It never runs anything.
+// exactly.
 #pragma once
 
 #include <mortise/material/material.h>

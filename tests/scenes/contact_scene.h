@@ -41,7 +41,7 @@ namespace mortise::testing
            "  subsection Boundary ymin\n    set Displacement = -, 0, -\n  end\nend\n";
   }
 
-  /// What the lower block moves like is prescribed at two of its sides.
+  /// The motion of the lower block is prescribed at two of its sides.
   const Settings sides_held = {
     "Body lower/Boundary xmin/Displacement=0, 0, -0.004*z",
     "Body lower/Boundary ymax/Displacement=0, 0, -0.004*z"};

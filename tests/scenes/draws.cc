@@ -40,7 +40,7 @@ namespace
     wrong
   };
 
-  /// What became of a scene, and why.
+  /// Outcome of a scene, and the reason.
   std::pair<Outcome, std::string>
   run(const DrawnScene &scene, const std::string &method)
   {

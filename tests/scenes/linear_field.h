@@ -1,5 +1,5 @@
 // Linear displacements with the loads that a scene needs for them to be exact
-// where two boxes do not meet. It never runs anything.
+// where two boxes do not meet.
 #pragma once
 
 #include <mortise/material/material.h>

@@ -1,5 +1,4 @@
-// Runs scenes inside test programs and prints verdicts. It never blesses
-// numbers.
+// Runs scenes inside test programs and prints verdicts.
 #pragma once
 
 #include <mortise/output/summary.h>

@@ -1,5 +1,4 @@
-// The parameter texts that the tests of whole scenes share. It never runs
-// anything.
+// The parameter texts that the tests of whole scenes share.
 #pragma once
 
 #include <sstream>
@@ -57,7 +56,7 @@ namespace mortise::testing
     return body(name, "box", extent, dirichlet, traction);
   }
 
-  /// What a scene of two bodies tied at "body: boundary" needs besides them.
+  /// The interface of a scene of two bodies tied at "body: boundary".
   inline std::string
   tied(const std::string &bodies,
        const std::string &slave,

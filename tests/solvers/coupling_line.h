@@ -1,5 +1,5 @@
 // A matrix of a coupling without a mesh, entry by entry and by node: entities
-// in a line. It never needs more than a few milliseconds.
+// in a line. It takes a few milliseconds.
 #pragma once
 
 #include <mortise/mortar/coupling_matrix.h>

@@ -1,6 +1,6 @@
 // Inf-sup constants as eigenvalues, for meshes so small that dense matrices
-// serve: of pressures against displacements, cell by cell. No
-// preconditioner of the program is used. It never judges a number.
+// serve: of pressures against displacements, cell by cell. No preconditioner of
+// the program is used.
 #pragma once
 
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
@@ -297,7 +297,7 @@ namespace mortise::testing
             submatrix(mixed, rows_p, rows_p)};
   }
 
-  /// What the eigenvalues of (G K^{-1} G^T, M) say.
+  /// Results from the eigenvalues of (G K^{-1} G^T, M).
   struct PressureInfSup
   {
     unsigned int displacements = 0, pressures = 0; ///< free ones

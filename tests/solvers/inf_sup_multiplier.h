@@ -1,5 +1,5 @@
 // The inf-sup constant of the multipliers of one interface in a norm that is
-// computed, not estimated. It never judges a number.
+// computed, not estimated.
 #pragma once
 
 #include <deal.II/fe/fe_values.h>
@@ -14,7 +14,7 @@
 
 namespace mortise::testing
 {
-  /// What the cells of one shape share: the matrix of int grad u.grad v + u v
+  /// Data of the cells of one shape: the matrix of int grad u.grad v + u v
   /// without its interior, for scalar functions.
   class ScalarKernel
   {
