@@ -59,7 +59,7 @@ namespace mortise
     CellHistory      history;
     CellCoefficients coefficients, dual; ///< the latter with a quantity
 
-    /// That the cell had when they were taken.
+    /// Degree of the cell at that time.
     unsigned int degree = 0;
 
     template <typename Archive>

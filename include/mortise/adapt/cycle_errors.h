@@ -28,9 +28,9 @@ namespace mortise
     unsigned int n_cycles    = 0;  ///< that were added
     unsigned int n_estimates = 0;  ///< since there was a new mesh
     double       value       = 0.; ///< of the quantity
-    /// How much the last refinement changed the quantity beyond what cells have
-    /// in it, since prescribed values, loads and ties are others on other
-    /// meshes, and what is left of that.
+    /// Change of the quantity by the last refinement without the contributions
+    /// of cells, since prescribed values, loads and ties depend on the mesh;
+    /// and the error that is left of it.
     double change_of_rest = 0., error_of_rest = 0.;
     /// Error allowed to all cells together per unit of the target: the square
     /// of an energy norm, or a quantity itself.

@@ -1,5 +1,5 @@
-// The points of a face of a cell in the unit cell of its neighbour. It looks at
-// vertices alone: no flags of orientation.
+// The points of a face of a cell in the unit cell of its neighbour, from
+// vertices alone, without orientation flags.
 #pragma once
 
 #include <mortise/body/body.h>
@@ -14,12 +14,13 @@ namespace mortise
   {
     unsigned int                number = 0; ///< of the face in the neighbour
     std::array<unsigned int, 3> corners{};  ///< its vertices there
-    /// Which child of a cell with these corners the cell is; nothing: it has
-    /// them itself.
+    /// Number of the cell among the children of a cell with these corners;
+    /// nothing: they are its own.
     std::optional<unsigned int> child;
   };
 
-  /// Of @p neighbour beyond face @p f of @p cell, which is as large or one halving smaller.
+  /// The face of @p neighbour at face @p f of @p cell, which is as large or one
+  /// halving smaller.
   FaceBeyond
   face_beyond(const Body::CellIterator &cell,
               unsigned int              f,

@@ -38,15 +38,14 @@ namespace mortise
 
   struct Residuals
   {
-    /// That go as the squares of errors in the energy norm: with the modulus E,
-    /// the size h and the degree p of a cell (h / (pi p))^2 f^2 / E of the
-    /// force f that is missing per volume, and h / p t^2 / E of the traction t
-    /// that is missing on faces, of which each of two cells has half; E times
-    /// the square of what is missing of the dilatation in mixed form.
+    /// Squares of residuals, scaled as squares of errors in the energy norm:
+    /// with the modulus E, the size h and the degree p of a cell (h / (pi p))^2
+    /// f^2 / E of the residual force f per volume, h / p t^2 / E of the jump t
+    /// of the traction on faces, half of it in each cell; E times the square of
+    /// the residual of the dilatation in mixed form.
     NumbersByCell equations;
-    /// The energy it takes to close what is missing of prescribed
-    /// displacements: that of a half-space with the wave number pi p / h,
-    /// twice.
+    /// Twice the energy of a half-space with the wave number pi p / h for the
+    /// errors of prescribed displacements.
     NumbersByCell conditions;
   };
 

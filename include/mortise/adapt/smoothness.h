@@ -1,7 +1,6 @@
-// How fast the Legendre coefficients of a solution fall on a cell, which tells
-// whether a higher degree or smaller cells make the error smaller. Sources:
-// Mavriplis (1994); Eibner and Melenk, An adaptive strategy for hp-FEM based on
-// testing for analyticity (2007).
+// Decay of the Legendre coefficients of a solution on a cell, which decides
+// between p and h refinement. Sources: Mavriplis (1994); Eibner and Melenk, An
+// adaptive strategy for hp-FEM based on testing for analyticity (2007).
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Which numbers a scene may hold: those whose products and squares a run can
-// still represent.
+// Range of the numbers of a scene, whose products and squares must be
+// representable.
 #pragma once
 
 #include <string>

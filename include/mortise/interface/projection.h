@@ -87,8 +87,8 @@ namespace mortise
     /// belong to points that are outside of the face on that side.
     ReferenceBox near;
 
-    /// How much the normal field tilts against the frame's normal, in reference
-    /// coordinates per unit of height.
+    /// Largest tilt of the normal field against the frame's normal, in
+    /// reference coordinates per unit of height.
     double
     twist() const
     {

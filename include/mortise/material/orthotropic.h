@@ -17,8 +17,8 @@ namespace mortise
     std::array<double, 3> young_moduli   = {{0., 0., 0.}}; ///< E_x, E_y, E_z
     std::array<double, 3> poisson_ratios = {{0., 0., 0.}}; ///< xy, yz, zx
     std::array<double, 3> shear_moduli   = {{0., 0., 0.}}; ///< G_xy, G_yz, G_zx
-    /// How the axes of the material are turned from those of the scene, in
-    /// degrees about the fixed x, then y, then z.
+    /// Rotation of the axes of the material, in degrees about the fixed x, then
+    /// y, then z.
     std::array<double, 3> axes = {{0., 0., 0.}};
 
     /// A constant, by its name in a parameter file, that cannot be.

@@ -13,7 +13,7 @@ namespace mortise
   using PrescribedValues =
     std::unordered_map<dealii::types::global_dof_index, double>;
 
-  /// That of @p dof, zero if it is not among @p values.
+  /// The value of @p dof, zero if it is not among @p values.
   inline double
   prescribed_value(const PrescribedValues               &values,
                    const dealii::types::global_dof_index dof)

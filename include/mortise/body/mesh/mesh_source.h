@@ -1,5 +1,4 @@
-// Where the mesh of a body comes from: a generator or a file, then refinement,
-// then placement.
+// The mesh of a body: from a generator or a file, then refined, then moved.
 #pragma once
 
 #include <deal.II/distributed/tria_base.h>
@@ -82,8 +81,8 @@ namespace mortise
     std::map<dealii::types::material_id, std::string> materials;
   };
 
-  /// Those of "Refine near": refine Ball::number times the cells that one
-  /// touches. Throws InputError.
+  /// The balls of "Refine near": cells that a ball touches are refined
+  /// Ball::number times. Throws InputError.
   std::vector<Ball>
   refinement_balls(const MeshParameters &parameters, const std::string &where);
 

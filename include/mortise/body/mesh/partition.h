@@ -1,4 +1,4 @@
-// Which rank gets which cell of a mesh that METIS partitions.
+// Partition of the cells of a mesh by METIS.
 #pragma once
 
 #include <deal.II/grid/tria.h>

@@ -35,7 +35,8 @@ namespace mortise
     add_to_hexahedron(const Body::CellIterator &cell, const Loads &loads);
     void
     add_to_tetrahedron(const Body::CellIterator &cell, const Loads &loads);
-    /// Where nothing moves, without the pressure of the mixed form.
+    /// Thermal stress without displacement, without the pressure of the mixed
+    /// form.
     dealii::Tensor<2, dim>
     thermal_stress(const Loads &loads, const dealii::Point<dim> &x) const;
     void

@@ -90,8 +90,8 @@ namespace mortise
     struct Cell
     {
       const CellBatches<Number> &batches;
-      /// Where the displacements stand in vectors, component after component of
-      /// each node, and the pressures.
+      /// Indices of displacements in vectors, component after component of each
+      /// node, and of pressures.
       std::vector<unsigned int> displacements, pressures;
     };
 

@@ -21,7 +21,7 @@ namespace mortise
     const std::vector<double> shortenings;
   };
 
-  /// As the summary has vectors.
+  /// The components of a vector for the summary.
   inline std::vector<double>
   components(const dealii::Tensor<1, dim> &value)
   {
