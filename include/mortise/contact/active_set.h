@@ -56,10 +56,9 @@ namespace mortise
     /// descend() chooses the sets.
     ///
     /// By owned multiplier: @p multiplier, a pressure, and @p gap, a length.
-    /// @p length: size of the bodies, which scales the rounding of gaps.
-    /// @p accuracy: of both, relative to the largest pressure. @p extend: may
-    /// add multipliers to those that change; called only if some change.
-    /// Collective.
+    /// @p length: scale of the rounding of gaps. @p accuracy: of both, relative
+    /// to the largest pressure. @p extend: may add multipliers to those that
+    /// change; called only if some change. Collective.
     Change
     advance(const double                                        *multiplier,
             const double                                        *gap,
