@@ -103,17 +103,17 @@ namespace mortise
   } // namespace
 
   const std::vector<BodySolution> &
-  CycleErrors::start(const Bodies &bodies, const bool goes_on)
+  CycleErrors::start(const Bodies &bodies, const bool spaces_are_nested)
   {
-    if (goes_on)
+    if (spaces_are_nested)
       earlier = embedded(bodies, cells);
     return earlier;
   }
 
   const std::vector<BodySolution> &
-  CycleErrors::dual_start(const Bodies &bodies, const bool goes_on)
+  CycleErrors::dual_start(const Bodies &bodies, const bool spaces_are_nested)
   {
-    if (goes_on)
+    if (spaces_are_nested)
       earlier_dual = embedded(bodies, cells, &CellState::dual);
     return earlier_dual;
   }
@@ -122,7 +122,7 @@ namespace mortise
   CycleErrors::add(const Bodies                      &bodies,
                    const std::vector<BodySolution>   &solutions,
                    const std::optional<DualSolution> &dual,
-                   std::vector<InterfaceViolation>    broken,
+                   std::vector<InterfaceResidual>     broken,
                    const Residuals                   &residuals)
   {
     of_quantity        = dual.has_value();
@@ -145,8 +145,8 @@ namespace mortise
                       history.change = history.error =
                         size[body.index][cell->active_cell_index()];
                   });
-    violations = std::move(broken);
-    set_violations(norm);
+    interface_residuals = std::move(broken);
+    set_interface_residuals(norm);
     quantity_is_zero = dual && memory.n_cycles > 0 &&
                        std::fabs(dual->value) <= accuracy * dual->size;
     if (quantity_is_zero || has_unknown_errors(bodies, cells))
@@ -158,9 +158,12 @@ namespace mortise
       memory.value = dual->value;
     ++memory.n_cycles;
     // of cells as of all
-    const double at_most = memory.at_most.value_or(0.);
-    memory.allowed =
-      at_most > 0. ? sums.largest / (dual ? at_most : at_most * at_most) : 0.;
+    const double upper_estimate = memory.upper_estimate.value_or(0.);
+    memory.allowed_error =
+      upper_estimate > 0. ?
+        sums.largest /
+          (dual ? upper_estimate : upper_estimate * upper_estimate) :
+        0.;
   }
 
   void
@@ -169,13 +172,13 @@ namespace mortise
     sums                  = {};
     memory.change_of_rest = memory.error_of_rest = 0.;
     memory.estimate.reset();
-    memory.at_most.reset();
+    memory.upper_estimate.reset();
     correction.reset();
     memory.n_estimates = 0;
   }
 
   void
-  CycleErrors::set_violations(const double norm)
+  CycleErrors::set_interface_residuals(const double norm)
   {
     for (auto &of_body : cells)
       for (CellState &state : of_body)
@@ -183,7 +186,7 @@ namespace mortise
           state.history.violation       = 0.;
           state.history.at_contact_edge = false;
         }
-    for (InterfaceViolation &of : violations)
+    for (InterfaceResidual &of : interface_residuals)
       {
         of.size       = norm > 0. ? of.size / norm : 0.;
         auto &of_body = cells[of.body];
@@ -201,13 +204,13 @@ namespace mortise
                         const Residuals                   &residuals,
                         const double                       norm)
   {
-    const std::vector<double> changes = learn(bodies, solutions, dual);
+    const std::vector<double> changes = update_history(bodies, solutions, dual);
     const double              unit    = norm > 0. ? norm : 1.;
     ++memory.n_estimates;
     if (dual)
       {
         sums            = error_sums(bodies, cells);
-        memory.estimate = memory.at_most =
+        memory.estimate = memory.upper_estimate =
           std::hypot(sums.of_quantity(), memory.error_of_rest) / unit;
         correction = sums.with_sign + memory.error_of_rest;
         return;
@@ -227,16 +230,15 @@ namespace mortise
     // than this one, by the square of the error
     constexpr double least_part = 0.01;
     const double     most =
-      for_sure +
-      std::pow(doubt_of_residuals(memory.n_estimates), 2) * by_equations;
-    memory.at_most =
+      for_sure + std::pow(upper_factor(memory.n_estimates), 2) * by_equations;
+    memory.upper_estimate =
       std::sqrt(most / std::max(unit * unit - most, least_part * unit * unit));
   }
 
   std::vector<double>
-  CycleErrors::learn(const Bodies                      &bodies,
-                     const std::vector<BodySolution>   &solutions,
-                     const std::optional<DualSolution> &dual)
+  CycleErrors::update_history(const Bodies                      &bodies,
+                              const std::vector<BodySolution>   &solutions,
+                              const std::optional<DualSolution> &dual)
   {
     subtract(earlier, solutions);
     NumbersByCell changes = energy_by_cell(bodies, earlier), own;

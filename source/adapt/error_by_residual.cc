@@ -25,7 +25,7 @@ namespace mortise
   }
 
   double
-  doubt_of_residuals(const unsigned int n_seen)
+  upper_factor(const unsigned int n_seen)
   {
     return 1. + 0.5 / std::clamp(n_seen - 1., 1., 3.);
   }

@@ -72,7 +72,9 @@ namespace mortise
   namespace
   {
     void
-    learn(const double change, const ErrorTail &left, CellHistory &history)
+    update_history(const double     change,
+                   const ErrorTail &left,
+                   CellHistory     &history)
     {
       history.error  = change * left.left;
       history.ratio  = left.ratio;
@@ -148,9 +150,11 @@ namespace mortise
         {
           if (history.n_rises > 1)
             history.fall = change / history.change;
-          learn(change,
-                tail_of_rises(history, decay(body, cell, state), change),
-                history);
+          update_history(change,
+                         tail_of_rises(history,
+                                       decay(body, cell, state),
+                                       change),
+                         history);
           return;
         }
       // from degree zero, which has no energy
@@ -159,7 +163,7 @@ namespace mortise
                                             history.degree - 1,
                                             history.least_ratio);
       history.fall         = left.ratio;
-      learn(change, left, history);
+      update_history(change, left, history);
     }
 
     /// The same after it was cut.
@@ -172,11 +176,12 @@ namespace mortise
       CellHistory       &history = state.history;
       const unsigned int p       = history.degree;
       if (is_smooth(body, cell, state).value_or(false))
-        learn(change.own, smooth_split_tail(p), history);
+        update_history(change.own, smooth_split_tail(p), history);
       else
-        learn(change.part,
-              geometric_tail(change.all, history.change, 1, std::pow(0.25, p)),
-              history);
+        update_history(
+          change.part,
+          geometric_tail(change.all, history.change, 1, std::pow(0.25, p)),
+          history);
     }
   } // namespace
 

@@ -74,7 +74,7 @@ namespace mortise
             if (splits_tetrahedra(*body, choices[body->index]))
               {
                 RemeshingOptions own = *options.remeshing[body->index];
-                own.target           = share_of_cell * allowed / n_cells;
+                own.target           = fraction_of_cell * allowed / n_cells;
                 own.most_halvings    = most;
                 meshes[body->index]  = plan_remeshing(*body,
                                                      choices[body->index],

@@ -82,8 +82,8 @@ namespace mortise
         return Utilities::MPI::sum(left, comm);
       };
       // what is small beside others waits: they show through in it
-      double least = share_of_cell * std::max(allowed, left_by_next(largest)) /
-                     n_cells,
+      double least = fraction_of_cell *
+                     std::max(allowed, left_by_next(largest)) / n_cells,
              most = largest;
       if (!(left_by_next(least) < aim * allowed))
         return least;

@@ -1,6 +1,6 @@
 #include <deal.II/base/numbers.h>
 
-#include <mortise/adapt/face_beyond.h>
+#include <mortise/adapt/neighbour_face.h>
 #include <mortise/adapt/residuals.h>
 #include <mortise/adapt/stress_polynomials.h>
 #include <mortise/body/elements/cell_face.h>
@@ -242,7 +242,7 @@ namespace mortise
                                    const unsigned int        f) const
     {
       std::array<bool, dim> result{{true, true, true}};
-      for (const DirichletCondition &condition : data.held)
+      for (const DirichletCondition &condition : data.dirichlet)
         if (condition.boundary == cell->face(f)->boundary_id())
           for (unsigned int c = 0; c < dim; ++c)
             result[c] = result[c] && !condition.fixed[c];
@@ -279,7 +279,7 @@ namespace mortise
                                 const unsigned int        f)
     {
       std::array<bool, dim> counts{{true, true, true}};
-      for (const DirichletCondition &condition : data.held)
+      for (const DirichletCondition &condition : data.dirichlet)
         if (condition.boundary == cell->face(f)->boundary_id())
           {
             if (condition.value)
@@ -349,22 +349,20 @@ namespace mortise
         return;
       const unsigned int n =
         std::max(body.degree(cell), body.degree(neighbour)) + 1;
-      const FaceGeometry &face    = face_geometry(cell, f, n);
-      const auto         &factors = own_factors(cell, f, n);
-      const FaceBeyond    beyond  = face_beyond(cell, f, neighbour);
-      const auto         &factors_beyond =
-        this->factors(neighbour,
-                      beyond.number,
-                      {n,
-                       cell->active_fe_index(),
-                       f,
-                       beyond.corners[0],
-                       beyond.corners[1],
-                       beyond.corners[2],
-                       beyond.child ? *beyond.child + 1 : 0},
-                      [&] {
-                        return points_beyond(cell->get_fe(), f, n, beyond);
-                      });
+      const FaceGeometry &face           = face_geometry(cell, f, n);
+      const auto         &factors        = own_factors(cell, f, n);
+      const NeighbourFace beyond         = neighbour_face(cell, f, neighbour);
+      const auto         &factors_beyond = this->factors(
+        neighbour,
+        beyond.number,
+        {n,
+                 cell->active_fe_index(),
+                 f,
+                 beyond.corners[0],
+                 beyond.corners[1],
+                 beyond.corners[2],
+         beyond.child ? *beyond.child + 1 : 0},
+        [&] { return points_in_neighbour(cell->get_fe(), f, n, beyond); });
       const auto stress        = on_face(cell, f),
                  stress_beyond = on_face(neighbour, beyond.number);
       double sum               = 0.;

@@ -32,14 +32,14 @@ namespace mortise
   } // namespace
 
   ActiveSet::ActiveSet(std::vector<bool>             one_sided,
-                       std::vector<double>           stiffness,
+                       std::vector<double>           complementarity,
                        const types::global_dof_index first,
                        const MPI_Comm                comm)
     : one_sided(std::move(one_sided))
-    , stiffness(std::move(stiffness))
+    , complementarity(std::move(complementarity))
     , first(first)
     , comm(comm)
-    , unclear(this->one_sided.size(), false)
+    , undecided_multipliers(this->one_sided.size(), false)
   {
     start_from(std::vector<bool>(this->one_sided.size(), true));
   }
@@ -68,7 +68,7 @@ namespace mortise
       if (one_sided[i])
         {
           largest[0] = std::max(largest[0], std::fabs(multiplier[i]));
-          largest[1] = std::max(largest[1], -gap[i] * stiffness[i]);
+          largest[1] = std::max(largest[1], -gap[i] * complementarity[i]);
         }
     Utilities::MPI::max(ArrayView<const double>(largest),
                         comm,
@@ -80,11 +80,12 @@ namespace mortise
         {
           const double value    = now[i] ? multiplier[i] : gap[i],
                        rounding = rounding_of_gaps * length,
-                       small    = now[i] ?
-                                    std::max(least, rounding * stiffness[i]) :
-                                    std::max(least / stiffness[i], rounding);
-          turns[i]              = value < -small;
-          unclear[i]            = !turns[i] && value <= small;
+                       small =
+                         now[i] ?
+                           std::max(least, rounding * complementarity[i]) :
+                           std::max(least / complementarity[i], rounding);
+          turns[i]                 = value < -small;
+          undecided_multipliers[i] = !turns[i] && value <= small;
         }
     const std::vector<bool> before = now;
     const auto              turn   = [&](const std::vector<bool> &those) {
@@ -119,7 +120,7 @@ namespace mortise
       {
         counts[0] += turns[i] && before[i] ? 1 : 0;
         counts[1] += turns[i] && !before[i] ? 1 : 0;
-        counts[2] += unclear[i] ? 1 : 0;
+        counts[2] += undecided_multipliers[i] ? 1 : 0;
       }
     MPI_Allreduce(counts, sums, 3, MPI_UINT64_T, MPI_SUM, comm);
     return {sums[0], sums[1], sums[2]};
@@ -141,7 +142,7 @@ namespace mortise
     if (none_pulls)
       falling.assign(before.size(), 0.);
     else if (falling.size() < before.size())
-      length = 0.; // none yet: all that pull open
+      length = 0.; // none yet: all tensile ones open
     else
       for (unsigned int i = 0; i < falling.size(); ++i)
         if (pulls[i])

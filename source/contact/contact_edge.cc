@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "place_trees.h"
+#include "point_trees.h"
 
 namespace mortise
 {
   using namespace dealii;
 
-  ContactEdge::ContactEdge(MultiplierPlaces places, const MPI_Comm comm)
-    : places(std::move(places))
-    , n_surfaces(last_surface(this->places, comm))
+  ContactEdge::ContactEdge(MultiplierPositions positions, const MPI_Comm comm)
+    : positions(std::move(positions))
+    , n_surfaces(last_surface(this->positions, comm))
     , comm(comm)
   {}
 
@@ -23,38 +23,38 @@ namespace mortise
     enum
     {
       open,
-      pulling,
-      pressing,
+      tensile,
+      compressive,
       n_kinds
     };
     const auto kind = [&](const unsigned int i) {
-      return !active[i] ? open : turns[i] ? pulling : pressing;
+      return !active[i] ? open : turns[i] ? tensile : compressive;
     };
     std::vector<bool> more = turns;
     for (unsigned int surface = 1; surface <= n_surfaces; ++surface)
       {
         const auto by_kind =
-          places_of_all_ranks<n_kinds>(places, surface, kind, comm);
-        const std::vector<PlaceTree> all(by_kind.begin(), by_kind.end());
-        if (std::any_of(all.begin(), all.end(), [](const PlaceTree &tree) {
+          positions_of_all_ranks<n_kinds>(positions, surface, kind, comm);
+        const std::vector<PointTree> all(by_kind.begin(), by_kind.end());
+        if (std::any_of(all.begin(), all.end(), [](const PointTree &tree) {
               return tree.empty();
             }))
           continue;
-        const PlaceTree &pulled = all[pulling];
-        for (unsigned int i = 0; i < places.points.size(); ++i)
-          if (places.surfaces[i] == surface && kind(i) == pressing)
+        const PointTree &tensile_points = all[tensile];
+        for (unsigned int i = 0; i < positions.points.size(); ++i)
+          if (positions.surfaces[i] == surface && kind(i) == compressive)
             {
               constexpr double rounding = 1e-6;
-              const Point<3>  &place    = places.points[i];
-              const Point<3>   inner    = pulled.nearest(place),
+              const Point<3>  &position = positions.points[i];
+              const Point<3>   inner    = tensile_points.nearest(position),
                              edge       = all[open].nearest(inner);
-              // the edge is between what pulls and what is open; where the
-              // nearest that pulls is deep inside, it is another's
+              // the edge is between tensile and open ones; where the
+              // nearest tensile one is deep inside, it is another's
               const double depth = inner.distance(edge),
-                           outer = pulled.distance(edge);
-              more[i] =
-                outer < (0.5 + rounding) * depth &&
-                place.distance(inner) < (1. - rounding) * (depth - outer / 2.);
+                           outer = tensile_points.distance(edge);
+              more[i]            = outer < (0.5 + rounding) * depth &&
+                        position.distance(inner) <
+                          (1. - rounding) * (depth - outer / 2.);
             }
       }
     turns = std::move(more);

@@ -48,10 +48,11 @@ namespace mortise
     const double        pull = n * point.traction;
     if (is_one_sided())
       return complementarity_violation(gap(point), pull, c);
-    const Stiffness K = stiffness ? stiffness(point.position) : Stiffness();
-    double          square =
+    const InterfaceStiffness K =
+      stiffness ? stiffness(point.position) : InterfaceStiffness();
+    double square =
       std::pow((gap(point) + pull / K.normal) / (1. + c / K.normal), 2);
-    if (held == HeldDirections::all)
+    if (constrained == ConstrainedDirections::all)
       square += (point.jump - (n * point.jump) * n +
                  (point.traction - pull * n) / K.tangential)
                   .norm_square() /
@@ -59,17 +60,18 @@ namespace mortise
     return c * square;
   }
 
-  Stiffness
-  InterfaceLaw::penalty(const double                  of_tie,
-                        const std::vector<Stiffness> &springs) const
+  InterfaceStiffness
+  InterfaceLaw::penalty(const double                           of_tie,
+                        const std::vector<InterfaceStiffness> &springs) const
   {
     if (of_tie == 0.)
       return {0., 0.};
-    Stiffness result{of_tie, held == HeldDirections::all ? of_tie : 0.};
+    InterfaceStiffness result{
+      of_tie, constrained == ConstrainedDirections::all ? of_tie : 0.};
     if (springs.empty())
       return result;
-    Stiffness mean{0., 0.};
-    for (const Stiffness &spring : springs)
+    InterfaceStiffness mean{0., 0.};
+    for (const InterfaceStiffness &spring : springs)
       {
         mean.normal += spring.normal / springs.size();
         mean.tangential += spring.tangential / springs.size();

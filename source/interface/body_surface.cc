@@ -206,7 +206,7 @@ namespace mortise
   }
 
   BodySurface
-  rigid_counterpart(const BodySurface &surface)
+  rigid_obstacle(const BodySurface &surface)
   {
     BodySurface result = surface;
     for (unsigned int s = 0; s < result.faces.size(); ++s)

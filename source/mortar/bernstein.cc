@@ -74,8 +74,9 @@ namespace mortise
     for (unsigned int j = 0; j <= degree[1]; ++j)
       for (unsigned int i = 0; i + (is_triangle() ? j : 0) <= degree[0]; ++i)
         {
-          numbers[{{i, j}}] = places.size();
-          places.push_back({{i, j, is_triangle() ? degree[0] - i - j : 0}});
+          numbers[{{i, j}}] = multi_indices.size();
+          multi_indices.push_back(
+            {{i, j, is_triangle() ? degree[0] - i - j : 0}});
         }
   }
   unsigned int
@@ -88,31 +89,32 @@ namespace mortise
         const unsigned int side = (e % 2) * degree[1 - e / 2];
         return e / 2 == 0 ? numbers.at({{k, side}}) : numbers.at({{side, k}});
       }
-    Place      barycentric{};
+    MultiIndex barycentric{};
     const auto ends      = basis.edge_vertices(e);
     barycentric[ends[0]] = degree[0] - k;
     barycentric[ends[1]] = k;
     return of_barycentric(barycentric);
   }
   bool
-  BernsteinLattice::is_inside(const Place &place) const
+  BernsteinLattice::is_inside(const MultiIndex &multi_index) const
   {
-    return place[0] > 0 && place[1] > 0 &&
-           (is_triangle() ? place[2] > 0 :
-                            place[0] < degree[0] && place[1] < degree[1]);
+    return multi_index[0] > 0 && multi_index[1] > 0 &&
+           (is_triangle() ?
+              multi_index[2] > 0 :
+              multi_index[0] < degree[0] && multi_index[1] < degree[1]);
   }
   Combination
-  BernsteinLattice::mean_of_ruled(const Place                    &place,
+  BernsteinLattice::mean_of_ruled(const MultiIndex               &multi_index,
                                   const std::vector<Combination> &all) const
   {
     Combination result;
     if (!is_triangle())
       for (unsigned int a = 0; a < 2; ++a)
         {
-          Place low = place, high = place;
+          MultiIndex low = multi_index, high = multi_index;
           low[a]         = 0;
           high[a]        = degree[a];
-          const double t = double(place[a]) / degree[a];
+          const double t = double(multi_index[a]) / degree[a];
           add(result, (1. - t) / 2., all[numbers.at({{low[0], low[1]}})]);
           add(result, t / 2., all[numbers.at({{high[0], high[1]}})]);
         }
@@ -120,10 +122,10 @@ namespace mortise
       for (unsigned int v = 0; v < 3; ++v)
         {
           // barycentric, vertex 0 first
-          const Place        b{{place[2], place[0], place[1]}};
+          const MultiIndex b{{multi_index[2], multi_index[0], multi_index[1]}};
           const unsigned int u = (v + 1) % 3, w = (v + 2) % 3,
                              sum = b[u] + b[w];
-          Place at_u{}, at_w{};
+          MultiIndex at_u{}, at_w{};
           at_u[v] = at_w[v] = b[v];
           at_u[u] = at_w[w] = sum;
           add(result, b[u] / (3. * sum), all[of_barycentric(at_u)]);
@@ -132,19 +134,20 @@ namespace mortise
     return result;
   }
   double
-  BernsteinLattice::value(const Place &place, const Point<2> &x) const
+  BernsteinLattice::value(const MultiIndex &multi_index,
+                          const Point<2>   &x) const
   {
     if (!is_triangle())
-      return binomial_term(degree[0], place[0], x[0], 1. - x[0]) *
-             binomial_term(degree[1], place[1], x[1], 1. - x[1]);
-    return binomial_term(degree[0], place[0], x[0], 1.) *
-           binomial_term(degree[0] - place[0],
-                         place[1],
+      return binomial_term(degree[0], multi_index[0], x[0], 1. - x[0]) *
+             binomial_term(degree[1], multi_index[1], x[1], 1. - x[1]);
+    return binomial_term(degree[0], multi_index[0], x[0], 1.) *
+           binomial_term(degree[0] - multi_index[0],
+                         multi_index[1],
                          x[1],
                          1. - x[0] - x[1]);
   }
   unsigned int
-  BernsteinLattice::of_barycentric(const Place &barycentric) const
+  BernsteinLattice::of_barycentric(const MultiIndex &barycentric) const
   {
     return numbers.at({{barycentric[1], barycentric[2]}});
   }
@@ -152,10 +155,10 @@ namespace mortise
   BernsteinLattice::at_nodes(const TraceBasis &basis) const
   {
     const auto         nodes = face_nodes(basis.shape, basis.degree);
-    FullMatrix<double> result(nodes.size(), places.size());
+    FullMatrix<double> result(nodes.size(), multi_indices.size());
     for (unsigned int k = 0; k < nodes.size(); ++k)
-      for (unsigned int i = 0; i < places.size(); ++i)
-        result(k, i) = value(places[i], nodes[k]);
+      for (unsigned int i = 0; i < multi_indices.size(); ++i)
+        result(k, i) = value(multi_indices[i], nodes[k]);
     return result;
   }
 } // namespace mortise

@@ -41,7 +41,7 @@ namespace mortise
   class BernsteinLattice
   {
   public:
-    using Place = std::array<unsigned int, 3>;
+    using MultiIndex = std::array<unsigned int, 3>;
 
     BernsteinLattice(FaceShape                          shape,
                      const std::array<unsigned int, 2> &degree);
@@ -51,20 +51,20 @@ namespace mortise
     on_edge(const TraceBasis &basis, unsigned int e, unsigned int k) const;
 
     bool
-    is_inside(const Place &place) const;
+    is_inside(const MultiIndex &multi_index) const;
 
     /// The mean of the ruled surfaces between opposite, on triangles adjacent,
-    /// edges at @p place, in coefficients of edges: exact where these are
+    /// edges at @p multi_index, in coefficients of edges: exact where these are
     /// linear.
     Combination
-    mean_of_ruled(const Place                    &place,
+    mean_of_ruled(const MultiIndex               &multi_index,
                   const std::vector<Combination> &all) const;
 
     /// Values at the nodes of a face of @p basis (node, coefficient).
     dealii::FullMatrix<double>
     at_nodes(const TraceBasis &basis) const;
 
-    std::vector<Place> places;
+    std::vector<MultiIndex> multi_indices;
 
   private:
     bool
@@ -75,10 +75,10 @@ namespace mortise
 
     /// @p barycentric: of vertices 0, 1, 2.
     unsigned int
-    of_barycentric(const Place &barycentric) const;
-    /// Of the function at @p place.
+    of_barycentric(const MultiIndex &barycentric) const;
+    /// Of the function at @p multi_index.
     double
-    value(const Place &place, const dealii::Point<2> &x) const;
+    value(const MultiIndex &multi_index, const dealii::Point<2> &x) const;
 
     const FaceShape                                     shape;
     const std::array<unsigned int, 2>                   degree;

@@ -23,9 +23,9 @@ namespace mortise
     class RowsOfNodes
     {
     public:
-      RowsOfNodes(const Body                                   &body,
-                  const BodySurface                            &slave,
-                  const std::vector<MultiplierSpace::FaceRows> &by_face)
+      RowsOfNodes(const Body                                          &body,
+                  const BodySurface                                   &slave,
+                  const std::vector<MultiplierSpace::FaceMultipliers> &by_face)
         : numbers(body.dof_handler.locally_owned_dofs(),
                   body.relevant_dofs,
                   body.triangulation().get_communicator())
@@ -135,9 +135,9 @@ namespace mortise
     result.rows.owned = of_nodes.owned;
     for (unsigned int s = 0; s < numbered.by_face.size(); ++s)
       {
-        const FaceRows    &own = numbered.by_face[s];
-        const unsigned int n   = own.n_nodes();
-        FaceRows           rows;
+        const FaceMultipliers &own = numbered.by_face[s];
+        const unsigned int     n   = own.n_nodes();
+        FaceMultipliers        rows;
         rows.begin = {0};
         rows.frames.assign(n, Frame(unit_symmetric_tensor<dim>()));
         for (unsigned int r = 0; r < dim * n; ++r)

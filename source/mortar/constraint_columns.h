@@ -47,6 +47,6 @@ namespace mortise
 
   private:
     const FaceTrace &trace;
-    OwnExpansion     nodes;
+    ExpansionList    nodes;
   };
 } // namespace mortise

@@ -19,7 +19,7 @@ namespace mortise
     class ConstraintRows
     {
     public:
-      explicit ConstraintRows(const MultiplierSpace::FaceRows &rows)
+      explicit ConstraintRows(const MultiplierSpace::FaceMultipliers &rows)
       {
         const unsigned int n = rows.n_nodes();
         // by component and node
@@ -56,7 +56,7 @@ namespace mortise
       }
 
     private:
-      std::array<OwnExpansion, dim> parts;
+      std::array<ExpansionList, dim> parts;
     };
 
     /// Calls visit(nodes) for the vertices, the edges and the inside of a face.
@@ -78,7 +78,7 @@ namespace mortise
   {
     /// By coupling and slave face.
     using RowsByFace =
-      std::vector<const std::vector<MultiplierSpace::FaceRows> *>;
+      std::vector<const std::vector<MultiplierSpace::FaceMultipliers> *>;
 
     RowsByFace
     rows_of(const std::vector<Coupling> &couplings)
@@ -132,7 +132,7 @@ namespace mortise
                   for (unsigned int i = 0; i < nodes.size(); ++i)
                     block(i, i) = local.weights[nodes[i]];
                   for_each_component([&](const unsigned int c) {
-                    const OwnExpansion row(rows.component(c), nodes),
+                    const ExpansionList row(rows.component(c), nodes),
                       column(own.component(), nodes);
                     visit(row(), column(), block, 1.);
                   });

@@ -115,7 +115,7 @@ namespace mortise
                      shares[s] += flags(index) * size;
                    });
     for (unsigned int s = 0; s < shares.size(); ++s)
-      coupling.local[s].active_share =
+      coupling.local[s].active_fraction =
         sizes[s] > 0. ? shares[s] / sizes[s] : 1.;
   }
 
@@ -233,8 +233,8 @@ namespace mortise
     /// Coefficients by row, from those of components: what undoes
     /// multiplier_coefficients() on a face.
     std::vector<double>
-    along_directions(const MultiplierSpace::FaceRows &rows,
-                     const std::vector<double>       &coefficients)
+    along_directions(const MultiplierSpace::FaceMultipliers &rows,
+                     const std::vector<double>              &coefficients)
     {
       const unsigned int  n = rows.n_nodes();
       std::vector<double> result(rows.begin.size() - 1);

@@ -89,10 +89,10 @@ namespace mortise
     constexpr unsigned int largest_dual_degree        = 4;
 
     bool
-    leads(const InterfaceHandler &interface,
-          const LocalCoupling    &local,
-          const unsigned int      s,
-          const unsigned int      m)
+    is_independent(const InterfaceHandler &interface,
+                   const LocalCoupling    &local,
+                   const unsigned int      s,
+                   const unsigned int      m)
     {
       const FaceTrace &slave  = interface.slave().traces[s];
       const FaceTrace &master = interface.master_traces()[m];
@@ -283,24 +283,25 @@ namespace mortise
         }
     }
 
-    /// Which partners lead, and the penalty that follows from it.
+    /// Which masters are independent, and the penalty that follows from it.
     void
-    set_leaders(const InterfaceHandler &interface,
-                const unsigned int      s,
-                const bool              may_lead,
-                LocalCoupling          &local)
+    set_independent_masters(const InterfaceHandler &interface,
+                            const unsigned int      s,
+                            const bool              may_be_independent,
+                            LocalCoupling          &local)
     {
       local.penalty = std::numeric_limits<double>::infinity();
       for (auto &partner : local.partners)
         {
-          partner.leads =
-            may_lead && leads(interface, local, s, partner.master);
+          partner.is_independent =
+            may_be_independent &&
+            is_independent(interface, local, s, partner.master);
           const FaceTrace &slave  = interface.slave().traces[s];
           const FaceTrace &master = interface.master_traces()[partner.master];
           local.penalty =
             std::min(local.penalty,
                      1. / (compliance(slave) +
-                           (partner.leads ? 0. : compliance(master))));
+                           (partner.is_independent ? 0. : compliance(master))));
         }
     }
   } // namespace
@@ -309,7 +310,7 @@ namespace mortise
   integrate_coupling(InterfaceHandler                      &interface,
                      const bool                             with_master_mass,
                      const MultiplierBasis                  basis,
-                     const bool                             may_lead,
+                     const bool                             may_be_independent,
                      const std::vector<std::vector<Frame>> &frames)
   {
     std::vector<LocalCoupling> couplings(interface.slave().faces.size());
@@ -319,7 +320,7 @@ namespace mortise
     for (unsigned int s = 0; s < frames.size(); ++s)
       if (are_unlike(frames[s]))
         turning[s] = in_functions(frames[s], interface.slave().traces[s]);
-    FullMatrix<double> slave_values, master_values, weighted, places, moment;
+    FullMatrix<double> slave_values, master_values, weighted, positions, moment;
 
     interface.integrate_pairs([&](const unsigned int       s,
                                   const unsigned int       m,
@@ -357,15 +358,15 @@ namespace mortise
                                weighted,
                                normal_moments[s]);
           weighted.Tmmult(partner.mixed, master_values, true);
-          places.reinit(n, 2 * dim, true);
+          positions.reinit(n, 2 * dim, true);
           for (unsigned int q = 0; q < n; ++q)
             for (unsigned int c = 0; c < dim; ++c)
               {
-                places(q, c) =
+                positions(q, c) =
                   points.master_x[c][first + q] - points.slave_x[c][first + q];
-                places(q, dim + c) = points.slave_x[c][first + q];
+                positions(q, dim + c) = points.slave_x[c][first + q];
               }
-          weighted.Tmmult(moment, places, true);
+          weighted.Tmmult(moment, positions, true);
           if (with_master_mass)
             {
               scale_rows(master_values, &points.weight[first], weighted);
@@ -393,7 +394,10 @@ namespace mortise
                               frames[s],
                               normal_moments[s],
                               couplings[s]);
-          set_leaders(interface, s, may_lead, couplings[s]);
+          set_independent_masters(interface,
+                                  s,
+                                  may_be_independent,
+                                  couplings[s]);
         }
     return couplings;
   }

@@ -23,10 +23,10 @@ namespace mortise
     /// 2 of coverage, 3 of what can follow.
     using FaceBits = std::array<std::uint32_t, 6>;
 
-    class BlockedDofs
+    class ConstrainedDofs
     {
     public:
-      BlockedDofs(const Body &body, const std::vector<bool> &owned)
+      ConstrainedDofs(const Body &body, const std::vector<bool> &owned)
         : body(body)
         , flags(body.dof_handler.locally_owned_dofs(),
                 body.relevant_dofs,
@@ -37,7 +37,7 @@ namespace mortise
         flags.update_ghost_values();
       }
 
-      /// A hanging dof is blocked when all that it hangs on is.
+      /// A hanging dof is constrained when all that it hangs on is.
       bool
       operator()(const types::global_dof_index dof) const
       {
@@ -61,9 +61,9 @@ namespace mortise
     }
 
     std::uint32_t
-    owner_bits(const MultiplierFace &face,
-               const PartnerState   &partner,
-               const BlockedDofs    &blocked)
+    owner_bits(const MultiplierFace  &face,
+               const PartnerState    &partner,
+               const ConstrainedDofs &constrained)
     {
       const TraceBasis &basis = *face.basis;
       std::uint32_t     bits  = 0;
@@ -72,17 +72,17 @@ namespace mortise
           {
             bool rim = true;
             for (const unsigned int v : basis.edge_vertices(e))
-              rim = rim && blocked(face.dofs[c][basis.vertex_function(v)]);
+              rim = rim && constrained(face.dofs[c][basis.vertex_function(v)]);
             for (unsigned int k = 0; k < basis.size() && rim; ++k)
               if (const auto &f = basis.functions[k];
                   f.dimension == 1 && f.entity == e &&
                   f.degree <= face.edge_degree[e])
-                rim = blocked(face.dofs[c][k]);
+                rim = constrained(face.dofs[c][k]);
             if (rim)
               bits |= 1u << rim_bit(c, e);
           }
       for (unsigned int c = 0; c < dim; ++c)
-        if (partner.can_follow[c])
+        if (partner.has_free_displacement[c])
           bits |= 1u << (14 + c);
       return bits | (static_cast<std::uint32_t>(partner.cover) << 12);
     }
@@ -115,49 +115,49 @@ namespace mortise
     }
 
     void
-    apply_bits(const std::uint32_t bits,
-               const Body         &body,
-               const BlockedDofs  &blocked,
-               MultiplierFace     &face)
+    apply_bits(const std::uint32_t    bits,
+               const Body            &body,
+               const ConstrainedDofs &constrained,
+               MultiplierFace        &face)
     {
-      face.cover = static_cast<Cover>((bits >> 12) & 3u);
+      face.cover = static_cast<FaceCoverage>((bits >> 12) & 3u);
       for (unsigned int c = 0; c < dim; ++c)
         {
-          face.can_follow[c] = bits & (1u << (14 + c));
+          face.has_free_displacement[c] = bits & (1u << (14 + c));
           for (unsigned int e = 0; e < face.basis->n_edges(); ++e)
             face.rim[c][e] = bits & (1u << rim_bit(c, e));
           for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
             {
               const auto dof = face.dofs[c][face.basis->vertex_function(v)];
-              face.blocked_vertex[c][v] =
-                body.conformity.is_constrained(dof) || blocked(dof);
+              face.constrained_vertex[c][v] =
+                body.conformity.is_constrained(dof) || constrained(dof);
             }
         }
     }
   } // namespace
 
-  Cover
-  cover_of(const double covered, const bool most)
+  FaceCoverage
+  face_coverage(const double covered, const bool most)
   {
-    return covered < nothing_below         ? Cover::none :
-           covered < sliver_below || !most ? Cover::sliver :
-           covered < full_above            ? Cover::partial :
-                                             Cover::full;
+    return covered < nothing_below         ? FaceCoverage::none :
+           covered < sliver_below || !most ? FaceCoverage::sliver :
+           covered < full_above            ? FaceCoverage::partial :
+                                             FaceCoverage::full;
   }
 
   std::vector<MultiplierFace>
   collect_multiplier_faces(const Body                      &body,
                            const BodySurface               &slave,
                            const std::vector<PartnerState> &partners,
-                           const std::vector<bool>         &blocked_owned)
+                           const std::vector<bool>         &constrained_owned)
   {
-    const BlockedDofs          blocked(body, blocked_owned);
+    const ConstrainedDofs      constrained(body, constrained_owned);
     std::map<CellId, FaceBits> bits;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       bits[slave.cells[s]->id()][slave.face_numbers[s]] =
         owner_bits(describe(body, slave.cells[s], slave.face_numbers[s]),
                    partners[s],
-                   blocked);
+                   constrained);
 
     const auto pack = [&](const Body::CellIterator &cell) {
       const auto found = bits.find(cell->id());
@@ -175,7 +175,7 @@ namespace mortise
     for (const auto &[cell, f] : slave.known)
       {
         faces.push_back(describe(body, cell, f));
-        apply_bits(bits[cell->id()][f], body, blocked, faces.back());
+        apply_bits(bits[cell->id()][f], body, constrained, faces.back());
       }
     return faces;
   }

@@ -86,7 +86,7 @@ namespace mortise
 
       /// Those of the next face.
       void
-      add_terms(const MultiplierSpace::FaceRows &rows)
+      add_terms(const MultiplierSpace::FaceMultipliers &rows)
       {
         const unsigned int n = rows.n_nodes(), first = values.size();
         for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)

@@ -50,13 +50,13 @@ namespace mortise
         flags = 0.;
       }
 
-      /// Where @p presses_only, values at the nodes of a face have the sign of
+      /// Where @p one_sided, values at the nodes of a face have the sign of
       /// the pressure only where multipliers are dual and none is missing
       /// inside.
       void
       add(const TraceBasis &basis,
           const Dofs       &dofs,
-          const bool        presses_only,
+          const bool        one_sided,
           const bool        is_dual)
       {
         const auto entities      = edges_and_inside(basis);
@@ -66,7 +66,7 @@ namespace mortise
           });
         };
         const bool all =
-          presses_only && (!is_dual || is_incomplete(entities.back()));
+          one_sided && (!is_dual || is_incomplete(entities.back()));
         for (const auto &entity : entities)
           if (all || is_incomplete(entity))
             for (const unsigned int k : entity)
@@ -187,10 +187,10 @@ namespace mortise
       {}
 
       /// @p dofs: by direction.
-      MultiplierSpace::FaceRows
+      MultiplierSpace::FaceMultipliers
       operator()(const TraceBasis &basis, const std::vector<Dofs> &dofs) const
       {
-        MultiplierSpace::FaceRows rows;
+        MultiplierSpace::FaceMultipliers rows;
         rows.begin = {0};
         for (unsigned int c = 0; c < dofs.size(); ++c)
           {
@@ -198,7 +198,7 @@ namespace mortise
               with_signs ?
                 with_signs->values_at_nodes(basis, dofs[c]) :
                 values_at_nodes(basis, dofs[c], reduction, hierarchical);
-            rows.hold_constants[c] = true;
+            rows.reproduce_constants[c] = true;
             for (unsigned int k = 0; k < values.size(); ++k)
               {
                 double sum = 0.;
@@ -210,7 +210,7 @@ namespace mortise
                   }
                 rows.begin.push_back(rows.index.size());
                 if (basis.functions[k].dimension == 0)
-                  rows.hold_constants[c] &= std::fabs(sum - 1.) < 1e-10;
+                  rows.reproduce_constants[c] &= std::fabs(sum - 1.) < 1e-10;
               }
             for (auto &[dof, of_values] : coefficients(basis, dofs[c]))
               rows.coefficients.push_back({dof, c, std::move(of_values)});
@@ -247,7 +247,7 @@ namespace mortise
     /// Dofs become multipliers. @p numbers: by dof, from one on, less than zero where another
     /// multiplier has the same entries.
     void
-    to_numbers(const ByDof &numbers, MultiplierSpace::FaceRows &rows)
+    to_numbers(const ByDof &numbers, MultiplierSpace::FaceMultipliers &rows)
     {
       const auto number = [&](const Index dof) {
         return static_cast<Index>(std::fabs(numbers(dof))) - 1;
@@ -272,8 +272,8 @@ namespace mortise
     for (unsigned int i = 0; i < owned_dofs.size(); ++i)
       ones(owned_dofs[i]) = at_vertices[i] ? 1. : 0.;
     ones.update_ghost_values();
-    HierarchicalMultipliers            hierarchical(reduction, numbers);
-    SharedEntries                      shared(owned_dofs, places, numbers);
+    HierarchicalMultipliers hierarchical(reduction, numbers);
+    SharedEntries           shared(owned_dofs, nodes_and_components, numbers);
     std::vector<std::array<Dofs, dim>> dofs;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       {
@@ -281,7 +281,7 @@ namespace mortise
         for (unsigned int c = 0; c < n_directions; ++c)
           hierarchical.add(slave.traces[s].basis(),
                            dofs[s][c],
-                           presses_only,
+                           one_sided,
                            has_dual[s]);
       }
     hierarchical.exchange();
@@ -290,7 +290,7 @@ namespace mortise
         return hierarchical(functions, of_face);
       };
     SignedMultipliers with_signs(reduction, has_coefficients);
-    if (presses_only)
+    if (one_sided)
       {
         for (const auto &[cell, f] : slave.known)
           with_signs.add_face(*CellFace(cell, f).basis, face_dofs(cell, f)[0]);
@@ -300,7 +300,7 @@ namespace mortise
     const RowsInDofs rows_in_dofs(ones,
                                   reduction,
                                   hierarchical,
-                                  presses_only ? &with_signs : nullptr);
+                                  one_sided ? &with_signs : nullptr);
 
     Rows result;
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
@@ -308,13 +308,13 @@ namespace mortise
         result.by_face.push_back(
           rows_in_dofs(slave.traces[s].basis(),
                        {dofs[s].begin(), dofs[s].begin() + n_directions}));
-        FaceRows &rows = result.by_face.back();
-        rows.frames    = frames[s];
+        FaceMultipliers &rows = result.by_face.back();
+        rows.frames           = frames[s];
         if (n_directions == dim)
           shared.compare(rows);
         else
           {
-            rows.hold_constants.fill(rows.hold_constants[0]);
+            rows.reproduce_constants.fill(rows.reproduce_constants[0]);
             rows.along_normals = along_normals[s];
           }
       }
@@ -325,7 +325,7 @@ namespace mortise
       numbers(owned_dofs[i]) =
         (result.owned[i].entries == first + i ? 1. : -1.) * (1. + first + i);
     numbers.update_ghost_values();
-    for (FaceRows &rows : result.by_face)
+    for (FaceMultipliers &rows : result.by_face)
       to_numbers(numbers, rows);
     return result;
   }

@@ -18,21 +18,21 @@ namespace mortise
         : face(face)
         , basis(*face.basis)
         , rim(face.rim[c])
-        , blocked(face.blocked_vertex[c])
+        , constrained(face.constrained_vertex[c])
         , dofs(face.dofs[c])
         , records(records)
         , n_rims(std::count(rim, rim + basis.n_edges(), true))
       {}
 
       void
-      apply(const bool can_follow)
+      apply(const bool has_free_displacement)
       {
         for (unsigned int k = 0; k < basis.size(); ++k)
           {
             const TraceBasis::Function &f      = basis.functions[k];
             MultiplierRecord           &record = records[dofs[k]];
-            record.on_full_face |= face.cover == Cover::full;
-            record.can_follow |= can_follow;
+            record.on_full_face |= face.cover == FaceCoverage::full;
+            record.has_free_displacement |= has_free_displacement;
             if (f.dimension == 0)
               vertex(f.entity, record);
             else if (f.dimension == 1)
@@ -61,9 +61,10 @@ namespace mortise
       reduced_degree(const unsigned int e) const
       {
         const auto         ends = basis.edge_vertices(e);
-        const unsigned int less = !is_triangle() ? rims_across(e / 2) :
-                                  rim[e]         ? n_rims :
-                                           blocked[ends[0]] + blocked[ends[1]];
+        const unsigned int less =
+          !is_triangle() ? rims_across(e / 2) :
+          rim[e]         ? n_rims :
+                           constrained[ends[0]] + constrained[ends[1]];
         return static_cast<int>(face.edge_degree[e]) - static_cast<int>(less);
       }
 
@@ -106,24 +107,24 @@ namespace mortise
       vertex(const unsigned int v, MultiplierRecord &record)
       {
         record.vertex = true;
-        record.blocked |= blocked[v];
+        record.constrained |= constrained[v];
         for (unsigned int e = 0; e < basis.n_edges(); ++e)
           {
             const auto ends = basis.edge_vertices(e);
             if (ends[0] != v && ends[1] != v)
               continue;
             const unsigned int other = ends[0] == v ? ends[1] : ends[0];
-            if (is_triangle() ? blocked[v] && !rim[e] : is_rim_across(v, e))
+            if (is_triangle() ? constrained[v] && !rim[e] : is_rim_across(v, e))
               across_rim(e, other, record);
           }
-        if (is_triangle() && blocked[v])
+        if (is_triangle() && constrained[v])
           {
             record.on_rim = true;
             if (is_between_rims(v))
               corner(v, record);
           }
         for (unsigned int w = 0; w < basis.n_vertices(); ++w)
-          if (w != v && !blocked[w])
+          if (w != v && !constrained[w])
             record.diagonal.insert(vertex_dof(w));
       }
 
@@ -144,12 +145,12 @@ namespace mortise
         record.on_rim   = true;
         const int  left = reduced_degree(e);
         const bool both_ends =
-          is_triangle() ? blocked[other] : rims_across(e / 2) == 2;
+          is_triangle() ? constrained[other] : rims_across(e / 2) == 2;
         if (left >= 1)
           record.across_kept = true;
         else if (left == 0 && both_ends)
           record.merged.insert(vertex_dof(other));
-        else if (left == 0 && !blocked[other])
+        else if (left == 0 && !constrained[other])
           record.neighbours.insert(vertex_dof(other));
       }
 
@@ -184,7 +185,7 @@ namespace mortise
 
       const MultiplierFace                       &face;
       const TraceBasis                           &basis;
-      const bool                                 *rim, *blocked;
+      const bool                                 *rim, *constrained;
       const std::vector<types::global_dof_index> &dofs;
       MultiplierRecords                          &records;
       const unsigned int                          n_rims;
@@ -192,9 +193,9 @@ namespace mortise
   } // namespace
 
   void
-  make_up_for_blocked_vertices(const MultiplierFace &face,
-                               const unsigned int    c,
-                               MultiplierRecords    &records)
+  compensate_constrained_vertices(const MultiplierFace &face,
+                                  const unsigned int    c,
+                                  MultiplierRecords    &records)
   {
     const TraceBasis &basis   = *face.basis;
     const auto       &dofs    = face.dofs[c];
@@ -205,9 +206,9 @@ namespace mortise
     for (unsigned int v = 0; v < basis.n_vertices(); ++v)
       {
         MultiplierRecord &vertex = records[dofs[basis.vertex_function(v)]];
-        if (!vertex.is_alone())
+        if (!vertex.has_no_rim())
           continue;
-        vertex.made_up |= face.face_degree > 1;
+        vertex.compensated |= face.face_degree > 1;
         for (unsigned int k = 0; k < basis.size(); ++k)
           if (is_last(basis.functions[k]))
             records[dofs[k]].kept = false;
@@ -215,7 +216,7 @@ namespace mortise
           if (const auto ends = basis.edge_vertices(e);
               ends[0] == v || ends[1] == v)
             if (const auto other = ends[0] == v ? ends[1] : ends[0];
-                !face.blocked_vertex[c][other])
+                !face.constrained_vertex[c][other])
               vertex.neighbours.insert(dofs[basis.vertex_function(other)]);
       }
   }
@@ -225,14 +226,14 @@ namespace mortise
                          const unsigned int    c,
                          MultiplierRecords    &records)
   {
-    FaceRules(face, c, records).apply(face.can_follow[c]);
+    FaceRules(face, c, records).apply(face.has_free_displacement[c]);
   }
 
   namespace
   {
     using Index = types::global_dof_index;
 
-    /// By dof that none of @p places has, and that edge @p e of @p face hangs
+    /// By dof that none of @p nodes_and_components has, and that edge @p e of @p face hangs
     /// on: the degree of its mode. A mode of part of an edge follows those of
     /// the whole edge that have its degree or a higher one.
     std::map<Index, unsigned int>
@@ -240,7 +241,7 @@ namespace mortise
                          const unsigned int               c,
                          const unsigned int               e,
                          const AffineConstraints<double> &conformity,
-                         const MultiplierPlaces          &places)
+                         const NodesAndComponents        &nodes_and_components)
     {
       std::map<Index, unsigned int> degrees;
       for (unsigned int k = 0; k < face.basis->size(); ++k)
@@ -249,7 +250,7 @@ namespace mortise
             conformity.is_constrained(face.dofs[c][k]))
           for (const auto &entry :
                *conformity.get_constraint_entries(face.dofs[c][k]))
-            if (places.count(entry.first) == 0)
+            if (nodes_and_components.count(entry.first) == 0)
               {
                 unsigned int &degree = degrees[entry.first];
                 degree               = std::max(degree, f.degree);
@@ -278,10 +279,10 @@ namespace mortise
   void
   add_edges_of_larger_cells(const std::vector<MultiplierFace> &faces,
                             const unsigned int                 n_directions,
-                            const bool                         presses_only,
+                            const bool                         one_sided,
                             const AffineConstraints<double>   &conformity,
-                            MultiplierPlaces                  &places,
-                            MultiplierRecords                 &records)
+                            NodesAndComponents &nodes_and_components,
+                            MultiplierRecords  &records)
   {
     struct Mode
     {
@@ -289,15 +290,15 @@ namespace mortise
       MultiplierRecord::Dofs rims; ///< at both ends of the edge
     };
     std::map<Index, Mode> modes;
-    MultiplierPlaces      found;
+    NodesAndComponents    found;
     for (const MultiplierFace &face : faces)
       for (unsigned int e = 0; e < face.basis->n_edges(); ++e)
         {
           std::map<unsigned int, Index> of_first; // by degree
           for (unsigned int c = 0; c < n_directions; ++c)
             {
-              const auto degrees =
-                modes_of_larger_edge(face, c, e, conformity, places);
+              const auto degrees = modes_of_larger_edge(
+                face, c, e, conformity, nodes_and_components);
               const auto   rims    = ends_on_rims(face, c, e);
               unsigned int highest = 0;
               for (const auto &[dof, degree] : degrees)
@@ -312,14 +313,14 @@ namespace mortise
                   mode.of_edge = highest;
                   mode.rims.insert(rims.begin(), rims.end());
                   MultiplierRecord &record = records[dof];
-                  record.on_full_face |= face.cover == Cover::full;
-                  record.can_follow |= face.can_follow[c];
+                  record.on_full_face |= face.cover == FaceCoverage::full;
+                  record.has_free_displacement |= face.has_free_displacement[c];
                 }
             }
         }
     for (const auto &[dof, mode] : modes)
       records[dof].kept =
-        !presses_only && mode.degree + mode.rims.size() <= mode.of_edge;
-    places.insert(found.begin(), found.end());
+        !one_sided && mode.degree + mode.rims.size() <= mode.of_edge;
+    nodes_and_components.insert(found.begin(), found.end());
   }
 } // namespace mortise

@@ -2,11 +2,11 @@
 
 #include <mortise/body/elements/cell_face.h>
 #include <mortise/mortar/coupling.h>
+#include <mortise/mortar/isolated_vertices.h>
 #include <mortise/mortar/multiplier_faces.h>
 #include <mortise/mortar/multiplier_rules.h>
 #include <mortise/mortar/multiplier_space.h>
 #include <mortise/mortar/slave_frames.h>
-#include <mortise/mortar/stranded_vertices.h>
 
 #include <algorithm>
 #include <map>
@@ -87,36 +87,36 @@ namespace mortise
     bool
     is_sliver(const MultiplierFace &face)
     {
-      return face.cover == Cover::sliver;
+      return face.cover == FaceCoverage::sliver;
     }
 
     /// Owned dofs of vertices that take the mean of others: those that are
-    /// stranded but for others beside them on the rim, and those that are on
+    /// isolated but for others beside them on the rim, and those that are on
     /// slivers only.
     DofSets
-    find_followers(const Body                        &body,
-                   const std::vector<MultiplierFace> &faces,
-                   const unsigned int                 n_directions,
-                   const MultiplierRecords           &records)
+    find_dependent_dofs(const Body                        &body,
+                        const std::vector<MultiplierFace> &faces,
+                        const unsigned int                 n_directions,
+                        const MultiplierRecords           &records)
     {
       // the owner of a dof knows all faces around it
       const IndexSet &owned = body.dof_handler.locally_owned_dofs();
       LinearAlgebra::distributed::Vector<double> settled(
         owned, body.relevant_dofs, body.triangulation().get_communicator());
       for (const auto &[dof, record] : records)
-        if (owned.is_element(dof) && record.vertex && !record.is_stranded() &&
+        if (owned.is_element(dof) && record.vertex && !record.is_isolated() &&
             !body.conformity.is_constrained(dof))
           settled(dof) = 1.;
       settled.update_ghost_values();
 
-      DofSets    followers;
+      DofSets    dependent;
       const auto follow = [&](const auto dof, const auto vertex) {
         for (const auto other : without_hanging(vertex, body.conformity))
           if (settled(other) > 0.5)
-            followers[dof].insert(other);
+            dependent[dof].insert(other);
       };
       for (const auto &[dof, record] : records)
-        if (owned.is_element(dof) && record.is_stranded())
+        if (owned.is_element(dof) && record.is_isolated())
           for (const auto other : record.beside)
             follow(dof, other);
       for (const MultiplierFace &face : faces)
@@ -126,34 +126,34 @@ namespace mortise
                 owned.is_element(dof) && records.count(dof) == 0)
               for (unsigned int w = 0; w < face.basis->n_vertices(); ++w)
                 follow(dof, face.dofs[c][face.basis->vertex_function(w)]);
-      return followers;
+      return dependent;
     }
 
     /// By dof of the vertices that no other gives a value, those of slivers
     /// among them: whether any displacement can follow a multiplier there.
     std::map<types::global_dof_index, bool>
-    find_stranded(const Body                        &body,
+    find_isolated(const Body                        &body,
                   const std::vector<MultiplierFace> &faces,
                   const unsigned int                 n_directions,
                   const MultiplierRecords           &records,
-                  const DofSets                     &followers)
+                  const DofSets                     &dependent)
     {
-      std::map<types::global_dof_index, bool> stranded;
+      std::map<types::global_dof_index, bool> isolated;
       const auto add = [&](const types::global_dof_index dof,
-                           const bool                    can_follow) {
-        if (!body.conformity.is_constrained(dof) && followers.count(dof) == 0)
-          stranded.emplace(dof, false).first->second |= can_follow;
+                           const bool has_free_displacement) {
+        if (!body.conformity.is_constrained(dof) && dependent.count(dof) == 0)
+          isolated.emplace(dof, false).first->second |= has_free_displacement;
       };
       for (const auto &[dof, record] : records)
-        if (record.is_stranded())
-          add(dof, record.can_follow);
+        if (record.is_isolated())
+          add(dof, record.has_free_displacement);
       for (const MultiplierFace &face : faces)
         for (unsigned int c = 0; c < n_directions && is_sliver(face); ++c)
           for (unsigned int v = 0; v < face.basis->n_vertices(); ++v)
             if (const auto dof = face.dofs[c][face.basis->vertex_function(v)];
                 records.count(dof) == 0)
-              add(dof, face.can_follow[c]);
-      return stranded;
+              add(dof, face.has_free_displacement[c]);
+      return isolated;
     }
 
     /// The line of one dof without conformity constraints; none if it is a
@@ -180,7 +180,8 @@ namespace mortise
           if (record.merged.empty())
             return add_mean(dof, record.diagonal, reduction);
         }
-      if (record.is_alone() && !record.made_up && !record.neighbours.empty())
+      if (record.has_no_rim() && !record.compensated &&
+          !record.neighbours.empty())
         return add_mean(dof, record.neighbours, reduction);
       const auto same = representative(dof, records, conformity);
       if (same != dof)
@@ -188,7 +189,7 @@ namespace mortise
     }
     /// The line of a hanging dof. @p vertex_values: above 0.5 where a vertex has
     /// a value. Vertices hang on those that have one, so that constants are
-    /// held: others are beyond what is covered, or on another boundary.
+    /// reproduced: others are beyond what is covered, or on another boundary.
     void
     add_hanging(const types::global_dof_index                     dof,
                 const bool                                        is_vertex,
@@ -197,15 +198,15 @@ namespace mortise
                 AffineConstraints<double>                        &reduction)
     {
       const auto &entries = *conformity.get_constraint_entries(dof);
-      double      held    = 0.;
+      double      sum     = 0.;
       for (const auto &[other, weight] : entries)
         if (vertex_values(other) > 0.5)
-          held += weight;
+          sum += weight;
       reduction.add_line(dof);
       for (const auto &[other, weight] : entries)
         {
           const bool shares = is_vertex && vertex_values(other) > 0.5;
-          reduction.add_entry(dof, other, shares ? weight / held : weight);
+          reduction.add_entry(dof, other, shares ? weight / sum : weight);
         }
     }
   } // namespace
@@ -213,11 +214,12 @@ namespace mortise
   MultiplierSpace::MultiplierSpace(const Body                      &body,
                                    const Coupling                  &coupling,
                                    const std::vector<PartnerState> &partners,
-                                   const std::vector<bool>         &blocked)
+                                   const std::vector<bool>         &constrained)
     : body(body)
     , frames(coupling.frames)
-    , n_directions(coupling.law.held == HeldDirections::all ? dim : 1)
-    , presses_only(coupling.law.is_one_sided())
+    , n_directions(
+        coupling.law.constrained == ConstrainedDirections::all ? dim : 1)
+    , one_sided(coupling.law.is_one_sided())
   {
     const BodySurface &slave = coupling.interface->slave();
     for (const PartnerState &partner : partners)
@@ -230,16 +232,16 @@ namespace mortise
         std::fill(of_face.begin(),
                   of_face.end(),
                   Frame(unit_symmetric_tensor<dim>()));
-    const std::vector<MultiplierFace> faces =
-      collect_multiplier_faces(body,
-                               slave,
-                               partners,
-                               n_directions == dim ?
-                                 blocked :
-                                 blocked_normals(body, slave, frames, blocked));
+    const std::vector<MultiplierFace> faces = collect_multiplier_faces(
+      body,
+      slave,
+      partners,
+      n_directions == dim ?
+        constrained :
+        constrained_normals(body, slave, frames, constrained));
 
     MultiplierRecords      records;
-    MultiplierPlaces       on_surface;
+    NodesAndComponents     on_surface;
     MultiplierRecord::Dofs at_vertex;
     for (const MultiplierFace &face : faces)
       for (unsigned int c = 0; c < n_directions; ++c)
@@ -251,24 +253,25 @@ namespace mortise
               if (face.basis->functions[k].dimension == 0)
                 at_vertex.insert(face.dofs[c][k]);
             }
-          if (face.cover >= Cover::partial)
+          if (face.cover >= FaceCoverage::partial)
             apply_multiplier_rules(face, c, records);
         }
     add_edges_of_larger_cells(
-      faces, n_directions, presses_only, body.conformity, on_surface, records);
+      faces, n_directions, one_sided, body.conformity, on_surface, records);
     for (auto &[dof, record] : records)
-      record.blocked &= !body.conformity.is_constrained(dof);
+      record.constrained &= !body.conformity.is_constrained(dof);
     for (const MultiplierFace &face : faces)
       for (unsigned int c = 0; c < n_directions; ++c)
-        if (face.cover >= Cover::partial)
-          make_up_for_blocked_vertices(face, c, records);
+        if (face.cover >= FaceCoverage::partial)
+          compensate_constrained_vertices(face, c, records);
 
-    const auto followers = find_followers(body, faces, n_directions, records);
-    const auto may_follow =
-      find_stranded(body, faces, n_directions, records, followers);
-    const StrandedVertices stranded(body, faces, may_follow);
+    const auto dependent =
+      find_dependent_dofs(body, faces, n_directions, records);
+    const auto any_free =
+      find_isolated(body, faces, n_directions, records, dependent);
+    const IsolatedVertices isolated(body, faces, any_free);
     IndexSet               known = body.relevant_dofs;
-    stranded.add_representatives(known);
+    isolated.add_representatives(known);
     reduction.reinit(known);
     LinearAlgebra::distributed::Vector<double> vertex_values(
       body.dof_handler.locally_owned_dofs(),
@@ -278,11 +281,11 @@ namespace mortise
       if (!body.conformity.is_constrained(dof) &&
           body.dof_handler.locally_owned_dofs().is_element(dof))
         {
-          if (const auto found = followers.find(dof); found != followers.end())
+          if (const auto found = dependent.find(dof); found != dependent.end())
             add_mean(dof, found->second, reduction);
-          else if (may_follow.count(dof) == 0)
+          else if (any_free.count(dof) == 0)
             add_reduction(dof, records, body.conformity, reduction);
-          else if (const auto constant = stranded.representative(dof);
+          else if (const auto constant = isolated.representative(dof);
                    !constant)
             reduction.add_line(dof);
           else if (*constant != dof)
@@ -293,7 +296,7 @@ namespace mortise
           if (line != nullptr)
             continue;
           owned_dofs.push_back(dof);
-          places.push_back(place);
+          nodes_and_components.push_back(place);
           const auto record = records.find(dof);
           at_vertices.push_back(record == records.end() ||
                                 record->second.vertex);

@@ -66,13 +66,13 @@ namespace mortise
         const auto i   = layout.global_to_local(first + k);
         result[k].area = sums[area_sum].local_element(i);
         result[k].gap  = sums[gap_sum].local_element(i);
-        result[k].stiffness =
+        result[k].complementarity =
           sums[stiffness_sum].local_element(i) / result[k].area;
         for (unsigned int c = 0; c < dim; ++c)
           {
             result[k].normal[c] = sums[normal_sum + c].local_element(i);
             result[k].moment[c] = sums[moment_sum + c].local_element(i);
-            result[k].place[c] =
+            result[k].position[c] =
               sums[place_sum + c].local_element(i) / result[k].area;
           }
       }

@@ -85,23 +85,23 @@ namespace mortise
         for (unsigned int s = 0; s < coupling.local.size(); ++s)
           {
             const double covered = coupling.interface->coverage()[s];
-            PartnerState state   = {cover_of(covered, true),
+            PartnerState state   = {face_coverage(covered, true),
                                     {},
                                     coupling.local[s].is_dual(),
                                     coupling.local[s].along_normals};
             for (const Coupling *other : sharing)
               if (goes_in_front(*other, coupling, s))
-                state.cover = cover_of(covered, false);
+                state.cover = face_coverage(covered, false);
             const auto find_free = [&](const FaceTrace &trace) {
               for (unsigned int c = 0; c < dim; ++c)
-                state.can_follow[c] |= has_columns(trace, c);
+                state.has_free_displacement[c] |= has_columns(trace, c);
             };
             find_free(coupling.interface->slave().traces[s]);
             for (const auto &partner : coupling.local[s].partners)
               find_free(coupling.interface->master_traces()[partner.master]);
-            if (coupling.law.held == HeldDirections::normal)
-              state.can_follow = {{can_follow_normal(
-                coupling.interface->slave(), s, state.can_follow)}};
+            if (coupling.law.constrained == ConstrainedDirections::normal)
+              state.has_free_displacement = {{can_follow_normal(
+                coupling.interface->slave(), s, state.has_free_displacement)}};
             all.back().push_back(state);
           }
       }

@@ -114,7 +114,7 @@ namespace mortise
     const std::vector<Index> wanted(column.index.begin() + first,
                                     column.index.begin() + at[n_columns]);
     std::vector<double>      sums(wanted.size());
-    const std::vector<unsigned int> *places     = nullptr;
+    const std::vector<unsigned int> *positions  = nullptr;
     unsigned int                     n_patterns = 0;
     int                              pattern    = -1; // that the places are in
     for (unsigned int i = 0; i < n_rows; ++i)
@@ -131,31 +131,32 @@ namespace mortise
             if (static_cast<int>(pattern_of[r]) != pattern)
               {
                 pattern = static_cast<int>(pattern_of[r]);
-                places  = &find_places(wanted, patterns[pattern], n_patterns++);
+                positions =
+                  &find_positions(wanted, patterns[pattern], n_patterns++);
               }
             const double scale = factor * row.weight[e];
             double      *to    = values.data() + begin[r];
             for (unsigned int k = 0; k < sums.size(); ++k)
-              to[(*places)[k]] += scale * sums[k];
+              to[(*positions)[k]] += scale * sums[k];
           }
       }
   }
 
   const std::vector<unsigned int> &
-  RowAssembler::find_places(const std::vector<Index> &wanted,
-                            const std::vector<Index> &pattern,
-                            const unsigned int        guess)
+  RowAssembler::find_positions(const std::vector<Index> &wanted,
+                               const std::vector<Index> &pattern,
+                               const unsigned int        guess)
   {
     if (guess == guesses.size())
       guesses.emplace_back();
-    auto &places = guesses[guess];
-    places.resize(wanted.size());
+    auto &positions = guesses[guess];
+    positions.resize(wanted.size());
     for (unsigned int k = 0; k < wanted.size(); ++k)
-      if (places[k] >= pattern.size() || pattern[places[k]] != wanted[k])
-        places[k] =
+      if (positions[k] >= pattern.size() || pattern[positions[k]] != wanted[k])
+        positions[k] =
           std::lower_bound(pattern.begin(), pattern.end(), wanted[k]) -
           pattern.begin();
-    return places;
+    return positions;
   }
 
   SparseMatrix

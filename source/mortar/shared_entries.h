@@ -17,21 +17,21 @@ namespace mortise
   class SharedEntries
   {
   public:
-    using Index  = MultiplierSpace::Index;
-    using Dofs   = std::vector<Index>;
-    using ByDof  = dealii::LinearAlgebra::distributed::Vector<double>;
-    using Places = std::vector<std::pair<Index, unsigned int>>;
+    using Index = MultiplierSpace::Index;
+    using Dofs  = std::vector<Index>;
+    using ByDof = dealii::LinearAlgebra::distributed::Vector<double>;
+    using NodesAndComponents = std::vector<std::pair<Index, unsigned int>>;
 
-    SharedEntries(const Dofs   &owned_dofs,
-                  const Places &places,
-                  const ByDof  &layout)
+    SharedEntries(const Dofs               &owned_dofs,
+                  const NodesAndComponents &nodes_and_components,
+                  const ByDof              &layout)
       : owned_dofs(owned_dofs)
-      , places(places)
+      , nodes_and_components(nodes_and_components)
       , node(layout)
       , differs{{layout, layout}}
     {
       for (unsigned int i = 0; i < owned_dofs.size(); ++i)
-        node(owned_dofs[i]) = places[i].first;
+        node(owned_dofs[i]) = nodes_and_components[i].first;
       node.update_ghost_values();
       for (ByDof &flags : differs)
         flags = 0.;
@@ -39,7 +39,7 @@ namespace mortise
 
     /// @p rows: in dofs.
     void
-    compare(const MultiplierSpace::FaceRows &rows)
+    compare(const MultiplierSpace::FaceMultipliers &rows)
     {
       const unsigned int n = rows.n_nodes();
       nodes.clear();
@@ -70,9 +70,9 @@ namespace mortise
       std::vector<CouplingMatrix::Row>       result;
       std::array<std::vector<unsigned>, dim> entity; // by component
       unsigned int                           last = 0;
-      for (unsigned int i = 0; i < places.size(); ++i)
+      for (unsigned int i = 0; i < nodes_and_components.size(); ++i)
         {
-          const unsigned int c = places[i].second;
+          const unsigned int c = nodes_and_components[i].second;
           if (c < last)
             entity = {};
           last      = c;
@@ -81,7 +81,8 @@ namespace mortise
             if (const auto &of_other = entity[other];
                 entity[c].size() < of_other.size())
               if (const unsigned int j = of_other[entity[c].size()];
-                  places[j].first == places[i].first &&
+                  nodes_and_components[j].first ==
+                    nodes_and_components[i].first &&
                   differs[other](owned_dofs[i]) +
                       differs[c - 1](owned_dofs[j]) ==
                     0.)
@@ -94,9 +95,9 @@ namespace mortise
 
   private:
     bool
-    are_equal(const MultiplierSpace::FaceRows &rows,
-              const unsigned int               a,
-              const unsigned int               b) const
+    are_equal(const MultiplierSpace::FaceMultipliers &rows,
+              const unsigned int                      a,
+              const unsigned int                      b) const
     {
       const unsigned int i = rows.begin[a], j = rows.begin[b],
                          n = rows.begin[a + 1] - i;
@@ -112,16 +113,16 @@ namespace mortise
     /// The multipliers of @p row differ from those of the component that is
     /// this one among the others.
     void
-    mark(const MultiplierSpace::FaceRows &rows,
-         const unsigned int               row,
-         const unsigned int               among_others)
+    mark(const MultiplierSpace::FaceMultipliers &rows,
+         const unsigned int                      row,
+         const unsigned int                      among_others)
     {
       for (unsigned int e = rows.begin[row]; e < rows.begin[row + 1]; ++e)
         differs[among_others](rows.index[e]) += 1.;
     }
 
     const Dofs                &owned_dofs;
-    const Places              &places;
+    const NodesAndComponents  &nodes_and_components;
     ByDof                      node; ///< of the first component
     std::array<ByDof, dim - 1> differs;
     std::vector<double>        nodes; ///< of one face, by entry

@@ -113,11 +113,11 @@ namespace mortise
         add(result, weight, expand(other));
     else if (const auto found = modes.find(dof); found != modes.end())
       {
-        const auto &[edge, place]  = found->second;
-        const Combinations of_edge = coefficients(edge);
+        const auto &[edge, multi_index] = found->second;
+        const Combinations of_edge      = coefficients(edge);
         for (unsigned int j = 0; j < of_edge.size(); ++j)
           add(result,
-              line_transform(of_edge.size() - 1).to_modes(place + 2, j),
+              line_transform(of_edge.size() - 1).to_modes(multi_index + 2, j),
               of_edge[j]);
       }
     else
@@ -197,7 +197,7 @@ namespace mortise
         }
 
     const BernsteinLattice lattice(basis.shape, result.degree);
-    result.all.resize(lattice.places.size());
+    result.all.resize(lattice.multi_indices.size());
     for (unsigned int e = 0; e < basis.n_edges(); ++e)
       {
         const unsigned int degree = result.degree[is_triangle ? 0 : e / 2];
@@ -206,18 +206,20 @@ namespace mortise
           result.all[lattice.on_edge(basis, e, k)] = edges[e][k];
       }
     auto next = inside.begin();
-    for (unsigned int i = 0; i < lattice.places.size(); ++i)
-      if (const auto &place = lattice.places[i]; lattice.is_inside(place))
+    for (unsigned int i = 0; i < lattice.multi_indices.size(); ++i)
+      if (const auto &multi_index = lattice.multi_indices[i];
+          lattice.is_inside(multi_index))
         {
           const auto has_place = [&](const unsigned int k) {
             const auto &modes = basis.functions[k].modes;
-            return modes[0] == place[0] + 1 && modes[1] == place[1] + 1;
+            return modes[0] == multi_index[0] + 1 &&
+                   modes[1] == multi_index[1] + 1;
           };
           const auto found =
             is_triangle ? next :
                           std::find_if(inside.begin(), inside.end(), has_place);
           if (found == inside.end())
-            result.all[i] = lattice.mean_of_ruled(place, result.all);
+            result.all[i] = lattice.mean_of_ruled(multi_index, result.all);
           else
             {
               result.inside.emplace_back(i, *multiplier_at(dofs[*found]));
@@ -313,10 +315,10 @@ namespace mortise
       BernsteinLattice(basis.shape, of_face.degree).at_nodes(basis);
     FullMatrix<double> coefficients(values.n(), values.m());
     coefficients.left_invert(values);
-    for (const auto &[place, multiplier] : of_face.inside)
+    for (const auto &[multi_index, multiplier] : of_face.inside)
       result.emplace_back(multiplier,
-                          std::vector<double>(&coefficients(place, 0),
-                                              &coefficients(place, 0) +
+                          std::vector<double>(&coefficients(multi_index, 0),
+                                              &coefficients(multi_index, 0) +
                                                 basis.size()));
     return result;
   }

@@ -184,30 +184,31 @@ namespace mortise
   }
 
   std::vector<bool>
-  blocked_normals(const Body                            &body,
-                  const BodySurface                     &slave,
-                  const std::vector<std::vector<Frame>> &frames,
-                  const std::vector<bool>               &blocked)
+  constrained_normals(const Body                            &body,
+                      const BodySurface                     &slave,
+                      const std::vector<std::vector<Frame>> &frames,
+                      const std::vector<bool>               &constrained)
   {
     /// Of the square of a normal: less of it is rounding and curvature.
     constexpr double least_free_part = 1e-6;
 
-    ByDof is_blocked = zeros(body), free_parts = is_blocked, n = is_blocked;
-    for (unsigned int i = 0; i < blocked.size(); ++i)
-      is_blocked.local_element(i) = blocked[i] ? 1. : 0.;
-    is_blocked.update_ghost_values();
+    ByDof is_constrained = zeros(body), free_parts = is_constrained,
+          n = is_constrained;
+    for (unsigned int i = 0; i < constrained.size(); ++i)
+      is_constrained.local_element(i) = constrained[i] ? 1. : 0.;
+    is_constrained.update_ghost_values();
     for_each_node(body,
                   slave,
                   [&](const unsigned int s, const unsigned int k, auto dofs) {
                     n(dofs[0]) += 1.;
                     for (unsigned int c = 0; c < dim; ++c)
-                      if (is_blocked(dofs[c]) < 0.5)
+                      if (is_constrained(dofs[c]) < 0.5)
                         free_parts(dofs[0]) += std::pow(frames[s][k][0][c], 2);
                   });
     n.compress(VectorOperation::add);
     free_parts.compress(VectorOperation::add);
     std::vector<bool> result;
-    for (unsigned int i = 0; i < blocked.size(); ++i)
+    for (unsigned int i = 0; i < constrained.size(); ++i)
       result.push_back(n.local_element(i) > 0. &&
                        free_parts.local_element(i) <
                          least_free_part * n.local_element(i));

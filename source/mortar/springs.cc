@@ -18,7 +18,7 @@ namespace mortise
     /// Of the compliance, along the normal and across it.
     struct Roots
     {
-      explicit Roots(const Stiffness &spring)
+      explicit Roots(const InterfaceStiffness &spring)
         : along(1. / std::sqrt(spring.normal))
         , across(spring.tangential > 0. ? 1. / std::sqrt(spring.tangential) :
                                           0.)
@@ -47,14 +47,14 @@ namespace mortise
         : local(coupling.local[s])
         , frames(coupling.frames[s])
         , rows(coupling.multipliers->rows()[s])
-        , held(coupling.law.held)
+        , constrained(coupling.law.constrained)
       {
         std::vector<Roots> at_nodes(local.springs.begin(), local.springs.end());
         for (unsigned int k = 0; k < at_nodes.size(); ++k)
           roots.push_back(root_of_compliance(at_nodes[k].along,
                                              at_nodes[k].across,
                                              frames[k][0]));
-        if (!local.is_dual() && held == HeldDirections::all &&
+        if (!local.is_dual() && constrained == ConstrainedDirections::all &&
             are_unlike(frames))
           set_turning(coupling.interface->slave(), s, at_nodes);
       }
@@ -73,13 +73,13 @@ namespace mortise
 
     private:
       /// The rows of a node.
-      OwnExpansion
+      ExpansionList
       expansion(const unsigned int k) const
       {
         std::vector<unsigned int> of_node;
         for (unsigned int r = k; r + 1 < rows.begin.size(); r += rows.n_nodes())
           of_node.push_back(r);
-        return OwnExpansion({rows.begin, rows.index, rows.weight, 0}, of_node);
+        return ExpansionList({rows.begin, rows.index, rows.weight, 0}, of_node);
       }
 
       /// Standard multipliers of all directions where the normal turns: the
@@ -129,7 +129,7 @@ namespace mortise
                                multiplier_product(local, i, j)) *
               roots[i] * roots[j] :
             turning[i * roots.size() + j];
-        if (held == HeldDirections::normal)
+        if (constrained == ConstrainedDirections::normal)
           {
             FullMatrix<double> along(1, 1);
             along(0, 0) = frames[i][0] * (product * frames[j][0]);
@@ -142,11 +142,11 @@ namespace mortise
         return all;
       }
 
-      const LocalCoupling             &local;
-      const std::vector<Frame>        &frames;
-      const MultiplierSpace::FaceRows &rows;
-      const HeldDirections             held;
-      std::vector<Tensor<2, dim>>      roots; ///< by node
+      const LocalCoupling                    &local;
+      const std::vector<Frame>               &frames;
+      const MultiplierSpace::FaceMultipliers &rows;
+      const ConstrainedDirections             constrained;
+      std::vector<Tensor<2, dim>>             roots; ///< by node
       /// Where the normal turns: int psi_i K^{-1} psi_j at i n + j; else empty.
       std::vector<Tensor<2, dim>> turning;
     };
@@ -179,14 +179,14 @@ namespace mortise
                         FaceCompliance(coupling, s).for_each_block(visit);
                     });
     };
-    for_each_block([&](const OwnExpansion       &row,
-                       const OwnExpansion       &column,
+    for_each_block([&](const ExpansionList      &row,
+                       const ExpansionList      &column,
                        const FullMatrix<double> &block) {
       assembler.record(row(), block.m(), column(), block.n());
     });
     assembler.allocate();
-    for_each_block([&](const OwnExpansion       &row,
-                       const OwnExpansion       &column,
+    for_each_block([&](const ExpansionList      &row,
+                       const ExpansionList      &column,
                        const FullMatrix<double> &block) {
       assembler.add(row(), column(), block, 1., false);
     });

@@ -12,7 +12,7 @@ namespace mortise
   using namespace dealii;
 
   LevelVector<double>
-  boundary_nodes(const NodalLevel        &level,
+  boundary_nodes(const MultigridLevel    &level,
                  const Body              &body,
                  const types::boundary_id boundary)
   {
@@ -60,9 +60,9 @@ namespace mortise
   } // namespace
 
   LevelVector<double>
-  node_places(const NodalLevel          &level,
-              const Body                &body,
-              const LevelVector<double> &wanted)
+  node_positions(const MultigridLevel      &level,
+                 const Body                &body,
+                 const LevelVector<double> &wanted)
   {
     struct Nodes
     {

@@ -138,7 +138,7 @@ namespace mortise
                   Tensor<1, dim>       difference = traction;
                   const auto &rows = couplings[n].multipliers->rows()[s];
                   for (unsigned int c = 0; c < dim; ++c)
-                    if (rows.hold_constants[c])
+                    if (rows.reproduce_constants[c])
                       for (unsigned int k = 0; k < n_functions; ++k)
                         difference[c] +=
                           coefficients[n][s][c * n_functions + k] *

@@ -125,9 +125,9 @@ namespace mortise
       const SurfaceFace &face    = surface.faces[s];
       const TraceBasis  &basis   = surface.traces[s].basis();
       const unsigned int n       = basis.size();
-      const bool         faces =
-        !coupling.local[s].partners.empty() &&
-        cover_of(coupling.interface->coverage()[s], true) != Cover::none;
+      const bool         faces   = !coupling.local[s].partners.empty() &&
+                         face_coverage(coupling.interface->coverage()[s],
+                                       true) != FaceCoverage::none;
       std::vector<FaceField> fields{{"traction", dim, {}}};
       if (coupling.law.is_one_sided())
         fields.insert(fields.end(),

@@ -8,7 +8,7 @@ namespace mortise
   LoadSteps::LoadSteps(const StepParameters &parameters, const bool divisible)
     : times(parameters.times())
     , output_every(parameters.output_every)
-    , smallest_share(parameters.smallest_step)
+    , smallest_fraction(parameters.smallest_step)
     , divisible(divisible)
     , length(std::numeric_limits<double>::infinity())
   {}
@@ -40,7 +40,7 @@ namespace mortise
     const double begin   = n_planned > 0 ? times[n_planned - 1] : 0.;
     const double half    = 0.5 * (next() - reached);
     const double planned = times[n_planned] - begin;
-    if (!divisible || half < smallest_share * planned)
+    if (!divisible || half < smallest_fraction * planned)
       return false;
     length = half;
     return true;

@@ -32,7 +32,7 @@ namespace mortise
     Sections   result{
         {"run", run.dump(-1, ' ', false, Json::error_handler_t::replace)},
         {"contact status",
-         to_bytes(checkpoint.state.pressing.value_or(ActivePlaces()))},
+         to_bytes(checkpoint.state.active_set.value_or(ActivePositions()))},
         {"shortenings", to_bytes(checkpoint.state.shortenings)}};
     if (!checkpoint.adaptivity.empty())
       result["adaptivity"] = checkpoint.adaptivity;
@@ -118,11 +118,11 @@ namespace mortise
                            std::string(error.what()).substr(0, 200) + ")");
       }
     State &state      = checkpoint.state;
-    state.pressing    = file.get<ActivePlaces>("contact status");
+    state.active_set  = file.get<ActivePositions>("contact status");
     state.shortenings = file.get<std::vector<double>>("shortenings");
     if (file.has("adaptivity"))
       checkpoint.adaptivity = file.read("adaptivity");
-    if (!state.pressing->is_finite() ||
+    if (!state.active_set->is_finite() ||
         !std::all_of(state.shortenings.begin(),
                      state.shortenings.end(),
                      [](const double x) { return std::isfinite(x); }))

@@ -55,13 +55,14 @@ namespace mortise
   void
   RunOutput::print_progress(const LoadSteps &steps)
   {
-    const double share = steps.share(), seconds = run.timers.total();
+    const double fraction = steps.fraction(), seconds = run.timers.total();
     const double left =
-      (seconds - clock.seconds) / (share - clock.share) * (1. - share);
+      (seconds - clock.seconds) / (fraction - clock.fraction) * (1. - fraction);
     if (clock.seconds == 0.)
-      clock = {share, seconds}; // the first step made the preconditioner, too
+      clock = {fraction,
+               seconds}; // the first step made the preconditioner, too
     run.log.line(
-      "  " + RunLog::number(100. * share) + " % done in " +
+      "  " + RunLog::number(100. * fraction) + " % done in " +
       RunLog::number(seconds) + " s" +
       (steps.finished() ? "" : ", about " + RunLog::number(left) + " s left"));
   }

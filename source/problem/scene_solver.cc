@@ -47,7 +47,7 @@ namespace mortise
   {
     if (discretisation.interfaces().have_contact())
       contact = std::make_unique<ContactStep>(
-        run, discretisation, *linear_solver, preloads, last.pressing);
+        run, discretisation, *linear_solver, preloads, last.active_set);
     // a factorisation gives one of many answers and does not tell
     if (discretisation.choice().method == SolverMethod::direct)
       discretisation.check_multipliers();
@@ -110,7 +110,7 @@ namespace mortise
                             "sizes this different" :
                             ""));
     if (contact)
-      next.pressing = contact->active_places();
+      next.active_set = contact->active_positions();
     next.shortenings = preloads.shortenings_by_interface();
     return result;
   }

@@ -95,8 +95,8 @@ namespace mortise
     if (bodies.empty())
       create_meshes();
     const SceneData data(context.parameters, steps.next(), field_checks);
-    if (!state.pressing && restart.empty())
-      state.pressing = contact_start(context, steps.next(), bodies);
+    if (!state.active_set && restart.empty())
+      state.active_set = contact_start(context, steps.next(), bodies);
     equations.reset();
     // meshes of the last step do not suit the next one
     if (adaptivity && adaptivity->n_cycles() == 0 && !first)
@@ -266,7 +266,7 @@ namespace mortise
       throw ConvergenceError(
         not_converged(report,
                       context.parameters.solver.tolerance,
-                      equations->unsettled_sets(),
+                      equations->unconverged_sets(),
                       equations->discretisation.choice().advice));
     if (adaptivity && !adaptivity->reached())
       throw ConvergenceError(missed(*adaptivity));
@@ -294,7 +294,7 @@ namespace mortise
       parameters.assignments,
       steps.longest(),
       steps.n_done(),
-      {steps.time(), {}, state.pressing, state.shortenings},
+      {steps.time(), {}, state.active_set, state.shortenings},
       adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
         to_bytes(adaptivity->checkpoint()) :
         std::string(),

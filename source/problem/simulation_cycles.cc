@@ -18,11 +18,11 @@ namespace mortise
                         evaluation.solutions(),
                         evaluation.forces(),
                         adaptivity->dual_start(bodies));
-    std::vector<InterfaceViolation> broken;
-    Residuals                       missing;
+    std::vector<InterfaceResidual> broken;
+    Residuals                      missing;
     if (!dual)
       {
-        broken  = violations(evaluation);
+        broken  = interface_residuals(evaluation);
         missing = residuals(evaluation, broken);
       }
     adaptivity->add(

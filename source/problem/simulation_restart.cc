@@ -41,7 +41,8 @@ namespace mortise
         adaptivity.emplace(context);
         try
           {
-            adaptivity->resume(from_bytes<KeptCycles>(checkpoint.adaptivity));
+            adaptivity->resume(
+              from_bytes<CycleCheckpoint>(checkpoint.adaptivity));
           }
         catch (const std::out_of_range &error)
           {
@@ -59,7 +60,7 @@ namespace mortise
       steps.resume(state.time, checkpoint.n_steps, checkpoint.longest_step);
     if (adaptivity && !steps.finished())
       state.time = steps.next();
-    output.begin_at(steps.share());
+    output.begin_at(steps.fraction());
   }
 
   void

@@ -136,10 +136,10 @@ namespace mortise
   }
 
   void
-  ScaledResidual::judge(const Solved                  &solved,
-                        const double                   tolerance,
-                        const std::function<double()> &relative_error,
-                        SolveReport                   &report) const
+  ScaledResidual::assess(const Solved                  &solved,
+                         const double                   tolerance,
+                         const std::function<double()> &relative_error,
+                         SolveReport                   &report) const
   {
     // a step of rounding for each of the terms of a row
     constexpr double rounding = 1e-14, largest_error = 1e-6;

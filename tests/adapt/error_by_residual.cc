@@ -38,13 +38,10 @@ main()
           falls(1., 0.96) || falls(0., 0.) ? 1. : 0.,
           0.5);
   verdict("falls by more", falls(1., 0.94) ? 0. : 1., 0.5);
-  verdict("doubt after one and two refinements",
-          std::fabs(doubt_of_residuals(1) - 1.5) +
-            std::fabs(doubt_of_residuals(2) - 1.5),
+  verdict("factor after one and two refinements",
+          std::fabs(upper_factor(1) - 1.5) + std::fabs(upper_factor(2) - 1.5),
           1e-12);
-  verdict("doubt after three", std::fabs(doubt_of_residuals(3) - 1.25), 1e-12);
-  verdict("doubt after many",
-          std::fabs(doubt_of_residuals(40) - 7. / 6.),
-          1e-12);
+  verdict("factor after three", std::fabs(upper_factor(3) - 1.25), 1e-12);
+  verdict("factor after many", std::fabs(upper_factor(40) - 7. / 6.), 1e-12);
   verdict("exact before", 0.5 / square_by_residual(0., 0., 0.), 1.);
 }

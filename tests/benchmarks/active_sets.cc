@@ -81,7 +81,7 @@ namespace
     options.method    = discretisation.choice().method;
     options.tolerance = std::stod(given.at("tolerance"));
     auto solver  = make_linear_solver(discretisation.linear_system(), options);
-    const auto x = places(discretisation, comm);
+    const auto x = positions(discretisation, comm);
     auto       sets = point_sets(given.at("scene") == "sphere");
     // the node nearest to the centre of the discs, if that is one node
     double nearest = 1e300;
@@ -100,7 +100,7 @@ namespace
         SystemVector solution;
         solver->update_active();
         const SolveReport changed = solver->solve(scene.load.rhs, solution);
-        discretisation.show_active();
+        discretisation.update_coarse_active_set();
         solver->update();
         const SolveReport report = solver->solve(scene.load.rhs, solution);
         const auto        n_active =

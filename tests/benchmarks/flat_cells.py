@@ -128,7 +128,7 @@ ones pull along films took 19, 32, 42 and 76 iterations at degrees 2, 3, 4, 6, s
 values that fall linearly through these cells 10 to 24.
 
 That level sees the constraint by what multipliers see, f sum_i k_i b_i(u)^2 / |b_i|^2 with the rows b_i of B and the largest stiffness k_i of their
-nodes, since these may be what follows (`WeakJump`), not by int [[u]]^2: two meshes of a thin body that bends differ by its curvature times the square of their cells; multipliers do not see that, but
+nodes, since these may be what follows (`ConstraintPenalty`), not by int [[u]]^2: two meshes of a thin body that bends differ by its curvature times the square of their cells; multipliers do not see that, but
 the integral charges the fourth power of the cells' size for it where bending costs the third power of the height. f = 300;
 iterations are the same from 100 to 1000.
 

@@ -276,8 +276,8 @@ namespace
     TrilinosWrappers::PreconditionAMG amg;
     assemble(*levels.back(), vertices);
     set_up_amg(*levels.back(), vertices, amg);
-    DegreeMultigrid   multigrid(mapping, levels, amg);
-    Stiffness<double> stiffness;
+    DegreeMultigrid            multigrid(mapping, levels, amg);
+    InterfaceStiffness<double> stiffness;
     stiffness.reinit(mapping, space->dof_handler, space->constraints);
     Vector u, load;
     stiffness.initialize(u);

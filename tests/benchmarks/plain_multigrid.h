@@ -26,7 +26,7 @@ namespace plain
 {
   /// Products with the stiffness; constrained dofs keep their values.
   template <typename Number>
-  class Stiffness : public Subscriptor
+  class InterfaceStiffness : public Subscriptor
   {
   public:
     using VectorType = LinearAlgebra::distributed::Vector<Number>;
@@ -72,7 +72,7 @@ namespace plain
     {
       for_degree([&](const auto p) {
         matrix_free.cell_loop(
-          &Stiffness::template add_cells<decltype(p)::value>,
+          &InterfaceStiffness::template add_cells<decltype(p)::value>,
           this,
           dst,
           src,
@@ -174,8 +174,9 @@ namespace plain
   {
   public:
     using VectorType = LinearAlgebra::distributed::Vector<float>;
-    using Smoother   = PreconditionChebyshev<Stiffness<float>, VectorType>;
-    using Transfer   = MGTransferGlobalCoarsening<3, VectorType>;
+    using Smoother =
+      PreconditionChebyshev<InterfaceStiffness<float>, VectorType>;
+    using Transfer = MGTransferGlobalCoarsening<3, VectorType>;
 
     /// The finest of @p spaces first, all kept by reference.
     DegreeMultigrid(const Mapping<3>                        &mapping,
@@ -253,11 +254,12 @@ namespace plain
       mutable LinearAlgebra::distributed::Vector<double> x, b;
     };
 
-    const DoFHandler<3>                                           &fine;
-    MGLevelObject<Stiffness<float>>                                matrices;
-    MGLevelObject<MGTwoLevelTransfer<3, VectorType>>               two_level;
-    Coarse                                                         coarse;
-    MGSmootherPrecondition<Stiffness<float>, Smoother, VectorType> smoother;
+    const DoFHandler<3>                             &fine;
+    MGLevelObject<InterfaceStiffness<float>>         matrices;
+    MGLevelObject<MGTwoLevelTransfer<3, VectorType>> two_level;
+    Coarse                                           coarse;
+    MGSmootherPrecondition<InterfaceStiffness<float>, Smoother, VectorType>
+                                                             smoother;
     mg::Matrix<VectorType>                                   level_matrices;
     std::unique_ptr<Transfer>                                transfer;
     std::unique_ptr<Multigrid<VectorType>>                   multigrid;

@@ -14,9 +14,9 @@
 //     held      sides of the boxes where both are clamped, by commas
 //     runs      factorisations of each, in turn; solves: per run
 #include <malloc.h>
-#include <mortise/operators/levels/nodal_block_matrix.h>
+#include <mortise/operators/bulk_system.h>
+#include <mortise/operators/levels/block_csr_matrix.h>
 #include <mortise/operators/levels/vertex_matrix.h>
-#include <mortise/operators/nodal_system.h>
 #include <mortise/solvers/factorisation/mumps_factorisation.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
 #include <mortise/solvers/multipliers/weighted_square.h>
@@ -86,7 +86,7 @@ namespace
   /// The rows with, by node, the entries of vectors like zero.
   struct Problem
   {
-    NodalMatrix           rows;
+    RowsByNode            rows;
     mortise::Vector       zero;
     mortise::SparseMatrix matrix; ///< of nodes and components
   };
@@ -94,11 +94,11 @@ namespace
   std::vector<Held>
   held_sides(const std::string &names)
   {
-    std::vector<Held>  held;
+    std::vector<Held>  dirichlet;
     std::istringstream entries(names);
     for (std::string name; std::getline(entries, name, ',');)
-      held.push_back({name, {{true, true, true}}});
-    return held;
+      dirichlet.push_back({name, {{true, true, true}}});
+    return dirichlet;
   }
 
   TiedBody
@@ -122,11 +122,11 @@ namespace
     body.surface =
       sphere ? (slave ? "outside" : "inside") : (slave ? "zmax" : "zmin");
     if (sphere)
-      body.held = {{"xmin", {{true, false, false}}},
-                   {"ymin", {{false, true, false}}},
-                   {"zmin", {{false, false, true}}}};
+      body.dirichlet = {{"xmin", {{true, false, false}}},
+                        {"ymin", {{false, true, false}}},
+                        {"zmin", {{false, false, true}}}};
     else
-      body.held = held_sides(options.text("held", ""));
+      body.dirichlet = held_sides(options.text("held", ""));
     return body;
   }
 
@@ -139,9 +139,8 @@ namespace
                     true);
     const dealii::IndexSet owned =
       displacement_indices(scene.spaces[0]->owned_nodes());
-    const NodalSystem::Scene all{scene.field.numbering,
-                                 scene.field.constraints};
-    NodalSystem              system(scene.spaces, nullptr, all, scene.comm);
+    const BulkSystem::Scene all{scene.field.numbering, scene.field.constraints};
+    BulkSystem              system(scene.spaces, nullptr, all, scene.comm);
     system.couple(scene.couplings);
     Problem problem;
     if (options.text("matrix", "multipliers") == "vertices")
@@ -158,13 +157,13 @@ namespace
                            {owned, scene.owned_multiplier, scene.comm},
                            false);
         B.constrain(system.levels().front().constrained);
-        // as Lifting
+        // as ApproximateSchurComplement
         LevelVector<double> weights(system.node_diagonal());
         for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
           weights.local_element(i) = 1. / weights.local_element(i);
-        for (const auto &leading : system.leading_displacements())
+        for (const auto &leading : system.independent_displacements())
           weights.local_element(leading.index) = 0.;
-        problem.rows = weighted_square(CouplingRows(B), weights);
+        problem.rows = weighted_square(RowsByEntity(B), weights);
         problem.zero.reinit(scene.owned_multiplier, scene.comm);
       }
     problem.matrix = as_matrix(problem.rows, scene.comm);
@@ -321,10 +320,10 @@ namespace
     }
 
   private:
-    const NodalMatrix &rows;
-    const bool         alike;
-    cholmod_common     common{};
-    cholmod_factor    *factor = nullptr;
+    const RowsByNode &rows;
+    const bool        alike;
+    cholmod_common    common{};
+    cholmod_factor   *factor = nullptr;
     cholmod_dense *b = nullptr, *result = nullptr, *Y = nullptr, *E = nullptr;
   };
 

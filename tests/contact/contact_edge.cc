@@ -27,12 +27,12 @@ namespace
         for (unsigned int j = 0; j < 3; ++j)
           if ((3 * k + j) % n_ranks == me)
             {
-              places.points.emplace_back(k * h, j * h, 0.);
-              places.surfaces.push_back(surface);
+              positions.points.emplace_back(k * h, j * h, 0.);
+              positions.surfaces.push_back(surface);
             }
     }
 
-    MultiplierPlaces places;
+    MultiplierPositions positions;
   };
 
   /// The least x of the multipliers that open, if the set is active up to x
@@ -42,17 +42,17 @@ namespace
   {
     const Strip       strip(h, MPI_COMM_WORLD);
     std::vector<bool> active, turns;
-    for (const Point<3> &place : strip.places.points)
+    for (const Point<3> &position : strip.positions.points)
       {
-        const double s = 0.8 + h / 2. - place[0], d = 0.8 - edge;
+        const double s = 0.8 + h / 2. - position[0], d = 0.8 - edge;
         active.push_back(s > 0.);
         turns.push_back(s > 0. && std::sqrt(s) - d / 2. / std::sqrt(s) < 0.);
       }
-    ContactEdge(strip.places, MPI_COMM_WORLD).extend(active, turns);
+    ContactEdge(strip.positions, MPI_COMM_WORLD).extend(active, turns);
     double least = 1.;
     for (unsigned int i = 0; i < turns.size(); ++i)
       if (turns[i])
-        least = std::min(least, strip.places.points[i][0]);
+        least = std::min(least, strip.positions.points[i][0]);
     return dealii::Utilities::MPI::min(least, MPI_COMM_WORLD);
   }
 
@@ -62,13 +62,13 @@ namespace
   n_more(const Strip &strip, const Pulls &pulls)
   {
     std::vector<bool> active, turns;
-    for (unsigned int i = 0; i < strip.places.points.size(); ++i)
+    for (unsigned int i = 0; i < strip.positions.points.size(); ++i)
       {
-        active.push_back(strip.places.points[i][0] < 0.8);
+        active.push_back(strip.positions.points[i][0] < 0.8);
         turns.push_back(active[i] && pulls(i));
       }
     const std::vector<bool> before = turns;
-    ContactEdge(strip.places, MPI_COMM_WORLD).extend(active, turns);
+    ContactEdge(strip.positions, MPI_COMM_WORLD).extend(active, turns);
     unsigned int n = 0;
     for (unsigned int i = 0; i < turns.size(); ++i)
       n += turns[i] != before[i] ? 1 : 0;
@@ -98,49 +98,50 @@ main(int argc, char *argv[])
   verdict("a spot inside",
           n_more(strip,
                  [&](const unsigned int i) {
-                   return std::fabs(strip.places.points[i][0] - 0.3) < 0.03;
+                   return std::fabs(strip.positions.points[i][0] - 0.3) < 0.03;
                  }),
           0);
   Strip       both = strip;
   const Strip other(0.02, MPI_COMM_WORLD, 2);
-  both.places.points.insert(both.places.points.end(),
-                            other.places.points.begin(),
-                            other.places.points.end());
-  both.places.surfaces.insert(both.places.surfaces.end(),
-                              other.places.surfaces.begin(),
-                              other.places.surfaces.end());
+  both.positions.points.insert(both.positions.points.end(),
+                               other.positions.points.begin(),
+                               other.positions.points.end());
+  both.positions.surfaces.insert(both.positions.surfaces.end(),
+                                 other.positions.surfaces.begin(),
+                                 other.positions.surfaces.end());
   verdict("another surface goes on",
           double(n_more(both,
                         [&](const unsigned int i) {
-                          return both.places.surfaces[i] == 1 &&
-                                 both.places.points[i][0] > 0.7;
+                          return both.positions.surfaces[i] == 1 &&
+                                 both.positions.points[i][0] > 0.7;
                         })) -
             double(n_more(strip,
                           [&](const unsigned int i) {
-                            return strip.places.points[i][0] > 0.7;
+                            return strip.positions.points[i][0] > 0.7;
                           })),
           0);
 
   // up to 0.41 on the first surface, up to 0.81 on the second
   std::vector<bool> active;
-  for (unsigned int i = 0; i < both.places.points.size(); ++i)
-    active.push_back(both.places.points[i][0] <
-                     (both.places.surfaces[i] == 1 ? 0.41 : 0.81));
-  const ActivePlaces known(both.places, active, MPI_COMM_WORLD);
+  for (unsigned int i = 0; i < both.positions.points.size(); ++i)
+    active.push_back(both.positions.points[i][0] <
+                     (both.positions.surfaces[i] == 1 ? 0.41 : 0.81));
+  const ActivePositions known(both.positions, active, MPI_COMM_WORLD);
   for (const unsigned int surface : {1, 2})
     {
       const Strip  finer(0.007, MPI_COMM_WORLD, surface);
-      const auto   found = known.nearest(finer.places);
+      const auto   found = known.nearest(finer.positions);
       unsigned int wrong = 0;
       for (unsigned int i = 0; i < found.size(); ++i)
-        wrong += found[i] != (finer.places.points[i][0] < 0.4 * surface + 0.01);
+        wrong +=
+          found[i] != (finer.positions.points[i][0] < 0.4 * surface + 0.01);
       verdict("as the nearest on surface " + std::to_string(surface) +
                 ": not so",
               dealii::Utilities::MPI::sum(wrong, MPI_COMM_WORLD),
               0);
     }
   const Strip fresh(0.02, MPI_COMM_WORLD, 3);
-  const auto  found = known.nearest(fresh.places);
+  const auto  found = known.nearest(fresh.positions);
   verdict("all of a surface that had none press: not so",
           dealii::Utilities::MPI::sum(
             std::count(found.begin(), found.end(), false), MPI_COMM_WORLD),

@@ -6,7 +6,7 @@
 // falls as the geometry's error does. lambda^T B u is the work of lambda on
 // both surfaces; force and moment balance; B at nodes is B in hierarchical
 // functions. The same on every number of ranks.
-#include <mortise/operators/nodal_system.h>
+#include <mortise/operators/bulk_system.h>
 #include <scenes/scene.h>
 
 #include "assembled.h"
@@ -166,7 +166,7 @@ namespace mortise::testing
       for (const unsigned int p : {1, 2, 4})
         {
           TiedBody slave = lower(p, tetrahedra), master = upper(p);
-          slave.held = master.held = {{"xmin", {{true, true, true}}}};
+          slave.dirichlet = master.dirichlet = {{"xmin", {{true, true, true}}}};
           const Assembled   tied(slave, master);
           const std::string what =
             std::string(tetrahedra ? "tetrahedra" : "hexahedra") +
@@ -220,11 +220,11 @@ namespace mortise::testing
     const Assembled modal(slave, master);
     TiedScene       scene(slave, master, MPI_COMM_WORLD, true);
     const IndexSet owned = displacement_indices(scene.spaces[0]->owned_nodes());
-    const NodalSystem system(scene.spaces,
-                             nullptr,
-                             NodalSystem::Scene{scene.field.numbering,
-                                                scene.field.constraints},
-                             scene.comm);
+    const BulkSystem system(scene.spaces,
+                            nullptr,
+                            BulkSystem::Scene{scene.field.numbering,
+                                              scene.field.constraints},
+                            scene.comm);
 
     mortise::Vector at_nodes;
     system.initialize(at_nodes);
@@ -271,7 +271,7 @@ namespace mortise::testing
     const std::vector<Held> rim   = {{"xmin", {{true, true, true}}},
                                      {"ymin", {{false, true, false}}}};
     TiedBody                slave = lower(3), master = upper(2);
-    slave.held = master.held = rim;
+    slave.dirichlet = master.dirichlet = rim;
     check_nodal("hexahedra", slave, master);
     slave.mesh.refine_near  = "0, 0, 1, 0.1, 2; 1, 1, 1, 0.1, 1";
     master.mesh.refine_near = "1, 0, 1, 0.1, 1";

@@ -13,9 +13,10 @@ namespace mortise::testing
   using namespace dealii;
 
   TiedBody
-  slave_box(const unsigned int p, const std::vector<Held> &held = {})
+  slave_box(const unsigned int p, const std::vector<Held> &dirichlet = {})
   {
-    return {box_mesh({0., 0., 0., 1., 1., 1.}, {3, 2, 1}), "zmax", p, held, {}};
+    return {
+      box_mesh({0., 0., 0., 1., 1., 1.}, {3, 2, 1}), "zmax", p, dirichlet, {}};
   }
 
   TiedBody

@@ -14,10 +14,10 @@ namespace mortise::testing
                           const CouplingPartition     &partition)
   {
     std::vector<SparseMatrix::Entry> entries;
-    const auto add = [&](const MultiplierSpace::FaceRows  &rows,
-                         const dealii::FullMatrix<double> &block,
-                         const FaceTrace                  &trace,
-                         const double                      sign) {
+    const auto add = [&](const MultiplierSpace::FaceMultipliers &rows,
+                         const dealii::FullMatrix<double>       &block,
+                         const FaceTrace                        &trace,
+                         const double                            sign) {
       for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
         rows.for_each_direction(
           r,

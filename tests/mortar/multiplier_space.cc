@@ -21,12 +21,12 @@ namespace mortise::testing
             const unsigned int       n,
             const unsigned int       m,
             const bool               tetrahedra,
-            const std::vector<Held> &held = {})
+            const std::vector<Held> &dirichlet = {})
   {
     return {box_mesh({0., 0., 0., 1., 1., 1.}, {n, m, 1}, tetrahedra),
             "zmax",
             p,
-            held,
+            dirichlet,
             {}};
   }
 
@@ -115,9 +115,9 @@ namespace mortise::testing
     unsigned int n = 0;
     for (unsigned int s = 0; s < scene.states.size(); ++s)
       if (is_covered(scene, s))
-        for (const bool held :
-             scene.coupling().multipliers->rows()[s].hold_constants)
-          n += held ? 0 : 1;
+        for (const bool dirichlet :
+             scene.coupling().multipliers->rows()[s].reproduce_constants)
+          n += dirichlet ? 0 : 1;
     return Utilities::MPI::sum(n, scene.comm);
   }
 
@@ -148,14 +148,15 @@ namespace mortise::testing
   /// all numbers of a product of intervals.
   void
   check_quadrilaterals(const std::string       &what,
-                       const std::vector<Held> &held,
+                       const std::vector<Held> &dirichlet,
                        const unsigned int (&ends)[dim][2],
                        const unsigned int n,
                        const unsigned int m)
   {
     for (const unsigned int p : {1, 2, 4})
       {
-        const TiedScene   scene(slave_box(p, n, m, false, held), master_box());
+        const TiedScene   scene(slave_box(p, n, m, false, dirichlet),
+                              master_box());
         const std::string name = what + ", p = " + std::to_string(p);
         Counts            expected{};
         unsigned int      less = 0;
@@ -178,13 +179,14 @@ namespace mortise::testing
 
   void
   check_triangles(const std::string       &what,
-                  const std::vector<Held> &held,
+                  const std::vector<Held> &dirichlet,
                   const unsigned int       less)
   {
     constexpr unsigned int n = 3, m = 2;
     for (const unsigned int p : {1, 2, 4})
       {
-        const TiedScene   scene(slave_box(p, n, m, true, held), master_box());
+        const TiedScene   scene(slave_box(p, n, m, true, dirichlet),
+                              master_box());
         const std::string name          = what + ", p = " + std::to_string(p);
         const Counts      counts        = count_multipliers(scene),
                      free               = count_free(scene);
@@ -192,7 +194,7 @@ namespace mortise::testing
                                edges = vertices + faces - 1;
         const unsigned int on_all =
           vertices + (p - 1) * edges + (p - 1) * (p - 2) / 2 * faces;
-        if (held.empty())
+        if (dirichlet.empty())
           verdict(name + ": count",
                   difference(counts, {{on_all, on_all, on_all}}),
                   0);
@@ -273,7 +275,7 @@ namespace mortise::testing
     TiedBody          slave = slave_box(p, 2, 2, false);
     slave.mesh.refine_near  = "0, 0, 1, 0.1, 2; 1, 1, 1, 0.1, 1";
     check_conforming("hanging nodes" + name, slave, p);
-    slave.held = {ymax};
+    slave.dirichlet = {ymax};
     check_conforming("hanging nodes off a rim" + name, slave, p - 1);
   }
 
@@ -284,7 +286,7 @@ namespace mortise::testing
     slave.mesh.subdivisions = {4, 2, 2};
     slave.degree_by_region  = {{4, 3}, {5, 2}, {6, 4}, {7, 3}};
     check_conforming("degrees 2, 3, 4", slave, 2);
-    slave.held = {xmin};
+    slave.dirichlet = {xmin};
     check_conforming("degrees 2, 3, 4 beside a rim", slave, 1);
     slave                   = slave_box(1, 4, 2, true);
     slave.mesh.subdivisions = {4, 2, 2};

@@ -85,7 +85,7 @@ namespace mortise::testing
       multiplier_coefficients(scene.coupling(), multiplier, scene.comm);
     double error = 0.;
     for (unsigned int s = 0; s < values.size(); ++s)
-      if (scene.states[s].cover != Cover::none)
+      if (scene.states[s].cover != FaceCoverage::none)
         for (unsigned int k = 0; k < values[s].size(); ++k)
           error = std::max(error, std::fabs(values[s][k] - given[s][k]));
     return Utilities::MPI::max(error, scene.comm);

@@ -32,7 +32,7 @@ namespace mortise::testing
     MeshParameters                                 mesh;
     std::string                                    surface;
     unsigned int                                   degree = 1;
-    std::vector<Held>                              held; ///< at zero
+    std::vector<Held>                              dirichlet; ///< at zero
     std::map<dealii::types::material_id, unsigned> degree_by_region;
   };
 
@@ -114,14 +114,14 @@ namespace mortise::testing
   {
   public:
     /// The slave, body 0, and the master, body 1. @p nodal: with B in values at
-    /// nodes, as for solvers without a matrix. @p presses_only: multipliers along normals
+    /// nodes, as for solvers without a matrix. @p one_sided: multipliers along normals
     /// that have the sign of the pressure.
     TiedScene(const TiedBody       &slave,
               const TiedBody       &master,
-              const MPI_Comm        comm         = MPI_COMM_WORLD,
-              const bool            nodal        = false,
-              const MultiplierBasis basis        = MultiplierBasis::standard,
-              const bool            presses_only = false)
+              const MPI_Comm        comm      = MPI_COMM_WORLD,
+              const bool            nodal     = false,
+              const MultiplierBasis basis     = MultiplierBasis::standard,
+              const bool            one_sided = false)
       : comm(comm)
       , given{{slave, master}}
     {
@@ -135,7 +135,7 @@ namespace mortise::testing
       field.constraints = scene_constraints(field.numbering, constraints);
       if (nodal)
         spaces = make_nodal_spaces({bodies[0].get(), bodies[1].get()}, comm);
-      create_coupling(basis, presses_only);
+      create_coupling(basis, one_sided);
     }
 
     dealii::types::boundary_id
@@ -234,16 +234,16 @@ namespace mortise::testing
       body.create_mesh(from.mesh, comm, "", {from.surface});
       body.create_space(from.degree, from.degree_by_region, "");
       std::vector<DirichletCondition> conditions;
-      for (const Held &held : from.held)
+      for (const Held &dirichlet : from.dirichlet)
         conditions.push_back(
-          {body.boundary_id(held.boundary, ""), held.components, {}});
+          {body.boundary_id(dirichlet.boundary, ""), dirichlet.components, {}});
       constraints.emplace_back();
       constraints[b].copy_from(body.conformity);
       add_dirichlet_constraints(body, conditions, constraints[b]);
     }
 
     void
-    create_coupling(const MultiplierBasis basis, const bool presses_only)
+    create_coupling(const MultiplierBasis basis, const bool one_sided)
     {
       const auto side = [&](const unsigned int b) {
         return extract_surface(*bodies[b],
@@ -256,24 +256,24 @@ namespace mortise::testing
       Coupling &coupling = couplings[0];
       coupling.interface = std::make_unique<InterfaceHandler>(
         "glue", side(0), side(1), InterfaceOptions(), comm);
-      if (presses_only)
+      if (one_sided)
         {
-          coupling.law.law  = Law::contact;
-          coupling.law.held = HeldDirections::normal;
+          coupling.law.law         = Law::contact;
+          coupling.law.constrained = ConstrainedDirections::normal;
         }
       coupling.frames = slave_frames(*bodies[0], coupling.interface->slave());
       coupling.local  = integrate_coupling(*coupling.interface, true, basis);
       states          = partner_states(couplings)[0];
 
-      std::vector<bool> blocked;
+      std::vector<bool> constrained;
       for (const auto dof : bodies[0]->dof_handler.locally_owned_dofs())
-        blocked.push_back(constraints[0].is_constrained(dof) &&
-                          !bodies[0]->conformity.is_constrained(dof));
+        constrained.push_back(constraints[0].is_constrained(dof) &&
+                              !bodies[0]->conformity.is_constrained(dof));
       const BodySurface &slave = coupling.interface->slave();
       coupling.multipliers     = std::make_unique<MultiplierSpace>(*bodies[0],
                                                                coupling,
                                                                states,
-                                                               blocked);
+                                                               constrained);
       const auto counts =
         dealii::Utilities::MPI::all_gather(comm,
                                            coupling.multipliers->n_owned());

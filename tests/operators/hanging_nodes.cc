@@ -9,8 +9,8 @@
 // same on every number of ranks.
 #include <mortise/operators/cells/cell_order.h>
 #include <mortise/operators/cells/cell_values.h>
+#include <mortise/operators/levels/block_csr_operator.h>
 #include <mortise/operators/levels/degree_transfer.h>
-#include <mortise/operators/levels/nodal_block_operator.h>
 #include <mortise/operators/levels/vertex_matrix.h>
 
 #include <cmath>
@@ -143,8 +143,8 @@ namespace mortise::testing
   LevelVector<double>
   to_nodes(const NodalScene &scene, const std::vector<BodyVector> &u)
   {
-    const NodalLevel   &level = scene.levels().front();
-    LevelVector<double> result(level.layout);
+    const MultigridLevel &level = scene.levels().front();
+    LevelVector<double>   result(level.layout);
     level.space->for_each_cell(
       [&](const Body &body, const auto &cell, const auto &nodes) {
         for (unsigned int c = 0; c < dim; ++c)
@@ -188,7 +188,7 @@ namespace mortise::testing
 
   template <typename Number>
   double
-  product(const NodalLevel          &level,
+  product(const MultigridLevel      &level,
           const LevelVector<double> &w,
           const LevelVector<double> &u)
   {
@@ -208,8 +208,8 @@ namespace mortise::testing
     const auto   u_nodes = to_nodes(scene, u), w_nodes = to_nodes(scene, w);
     const double size =
                    std::sqrt(by_cells(scene, u, u) * by_cells(scene, w, w)),
-                 exact      = by_cells(scene, w, u);
-    const NodalLevel &level = scene.levels().front();
+                 exact          = by_cells(scene, w, u);
+    const MultigridLevel &level = scene.levels().front();
     verdict(name + ", product",
             std::fabs(product<double>(level, w_nodes, u_nodes) - exact) / size,
             1e-12);
@@ -231,7 +231,7 @@ namespace mortise::testing
   }
 
   LevelVector<double>
-  random_values(const NodalLevel &level, const unsigned int seed)
+  random_values(const MultigridLevel &level, const unsigned int seed)
   {
     LevelVector<double> result(level.layout);
     for (unsigned int i = 0; i < result.locally_owned_size(); ++i)
@@ -249,8 +249,8 @@ namespace mortise::testing
   {
     for (unsigned int l = 0; l + 1 < scene.levels().size(); ++l)
       {
-        const NodalLevel &above = scene.levels()[l],
-                         &below = scene.levels()[l + 1];
+        const MultigridLevel &above = scene.levels()[l],
+                             &below = scene.levels()[l + 1];
         const LevelOperator<double>  fine(above, false), coarse(below, false);
         const DegreeTransfer<double> transfer(fine, coarse);
         const auto f = random_values(above, 1), c = random_values(below, 2);
@@ -274,9 +274,9 @@ namespace mortise::testing
   void
   check_vertices(const std::string &name, const NodalScene &scene)
   {
-    const NodalLevel                &level = scene.levels().back();
-    const LevelOperator<double>      K(level, false);
-    const NodalBlockOperator<double> vertices(
+    const MultigridLevel          &level = scene.levels().back();
+    const LevelOperator<double>    K(level, false);
+    const BlockCsrOperator<double> vertices(
       assemble_vertex_matrix(level).blocks);
     const auto          u = random_values(level, 1);
     LevelVector<double> expected(level.layout), from, to;

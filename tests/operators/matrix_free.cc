@@ -13,9 +13,9 @@
 #include <mortise/body/elements/fe_legendre.h>
 #include <mortise/body/elements/simplex_elements.h>
 #include <mortise/body/elements/simplex_nodes.h>
+#include <mortise/operators/bulk_system.h>
 #include <mortise/operators/levels/degree_transfer.h>
 #include <mortise/operators/matrix_free/simplex_tables.h>
-#include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_system.h>
 #include <verdict.h>
 
@@ -74,7 +74,7 @@ namespace mortise::testing
       auto spaces = make_nodal_spaces(pointers, MPI_COMM_WORLD);
       for (const auto &space : spaces)
         levels.push_back(
-          make_nodal_level(space, numbering, constraints, MPI_COMM_WORLD));
+          make_multigrid_level(space, numbering, constraints, MPI_COMM_WORLD));
     }
 
     Bodies                               bodies;
@@ -82,7 +82,7 @@ namespace mortise::testing
     std::vector<const Body *>            pointers;
     FieldNumbering                       numbering;
     AffineConstraints<double>            constraints;
-    std::vector<NodalLevel>              levels;
+    std::vector<MultigridLevel>          levels;
   };
 
   /// The field at a point, any smooth one; of degree q in each direction of
@@ -149,7 +149,7 @@ namespace mortise::testing
   /// Calls visit(body, cell, basis, nodes) for the owned cells.
   template <typename Visit>
   void
-  for_each_cell(const NodalLevel &level, const Visit &visit)
+  for_each_cell(const MultigridLevel &level, const Visit &visit)
   {
     level.space->for_each_cell(
       [&](const Body &body, const auto &cell, const auto &nodes) {
@@ -172,9 +172,9 @@ namespace mortise::testing
   /// Values at the nodes of level @p level.
   template <typename Number>
   void
-  interpolate(const NodalLevel    &level,
-              const double         shift,
-              LevelVector<Number> &u)
+  interpolate(const MultigridLevel &level,
+              const double          shift,
+              LevelVector<Number>  &u)
   {
     u.reinit(level.layout);
     for_each_cell(level,
@@ -249,8 +249,8 @@ namespace mortise::testing
            const LevelVector<double> &w,
            const LevelVector<double> &u)
   {
-    const NodalLevel &level = scene.levels.front();
-    Sums              sums;
+    const MultigridLevel &level = scene.levels.front();
+    Sums                  sums;
     u.update_ghost_values();
     w.update_ghost_values();
     for_each_cell(level,

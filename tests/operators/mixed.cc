@@ -9,8 +9,8 @@
 #include <deal.II/fe/fe_system.h>
 
 #include <mortise/body/elements/simplex_elements.h>
+#include <mortise/operators/bulk_system.h>
 #include <mortise/operators/cells/cell_order.h>
-#include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_system.h>
 #include <verdict.h>
 
@@ -72,18 +72,18 @@ namespace mortise::testing
       u_nodes           = displacement_indices(spaces.front()->owned_nodes());
       p_nodes           = pressure_space->owned_nodes();
       system =
-        std::make_unique<NodalSystem>(spaces,
-                                      pressure_space,
-                                      NodalSystem::Scene{field.numbering,
-                                                         field.constraints},
-                                      MPI_COMM_WORLD);
+        std::make_unique<BulkSystem>(spaces,
+                                     pressure_space,
+                                     BulkSystem::Scene{field.numbering,
+                                                       field.constraints},
+                                     MPI_COMM_WORLD);
     }
 
     Bodies                            bodies;
     std::vector<const Body *>         pointers;
     SceneField                        field;
     IndexSet                          u_nodes, p_nodes;
-    std::unique_ptr<NodalSystem>      system;
+    std::unique_ptr<BulkSystem>       system;
     std::shared_ptr<const NodalSpace> pressure_space;
   };
 

@@ -4,7 +4,7 @@
 
 #include <deal.II/dofs/dof_tools.h>
 
-#include <mortise/operators/nodal_system.h>
+#include <mortise/operators/bulk_system.h>
 #include <mortise/operators/scene_solution.h>
 #include <verdict.h>
 
@@ -56,21 +56,21 @@ namespace mortise::testing
       SceneField &field = fields.displacement;
       field.numbering   = FieldNumbering(handlers, MPI_COMM_WORLD);
       field.constraints = scene_constraints(field.numbering, constraints);
-      system            = std::make_unique<NodalSystem>(
+      system            = std::make_unique<BulkSystem>(
         make_nodal_spaces(pointers, MPI_COMM_WORLD),
         nullptr,
-        NodalSystem::Scene{field.numbering, field.constraints},
+        BulkSystem::Scene{field.numbering, field.constraints},
         MPI_COMM_WORLD);
     }
 
-    const std::vector<NodalLevel> &
+    const std::vector<MultigridLevel> &
     levels() const
     {
       return system->levels();
     }
 
-    Bodies                       bodies;
-    SceneFields                  fields;
-    std::unique_ptr<NodalSystem> system;
+    Bodies                      bodies;
+    SceneFields                 fields;
+    std::unique_ptr<BulkSystem> system;
   };
 } // namespace mortise::testing

@@ -1,7 +1,7 @@
 // Checks of ThicknessCoarsening and its matrix on one scene.
 #pragma once
 
-#include <mortise/operators/levels/nodal_block_operator.h>
+#include <mortise/operators/levels/block_csr_operator.h>
 #include <mortise/operators/levels/thickness_matrix.h>
 #include <mortise/operators/levels/vertex_transfer.h>
 #include <mortise/solvers/pseudo_random.h>
@@ -66,10 +66,10 @@ namespace mortise::testing
         const unsigned int                 degree,
         const types::global_dof_index      n_kept)
   {
-    const NodalScene  scene = make_scene(meshes, degree);
-    const NodalLevel &level = scene.levels().front();
-    const NodalSpace &space = *level.space;
-    const auto       &owned = space.owned_nodes();
+    const NodalScene      scene = make_scene(meshes, degree);
+    const MultigridLevel &level = scene.levels().front();
+    const NodalSpace     &space = *level.space;
+    const auto           &owned = space.owned_nodes();
     verdict(name + ": one level", scene.levels().size(), 1);
 
     std::vector<types::global_dof_index> beside;
@@ -122,8 +122,8 @@ namespace mortise::testing
     transfer.restrict_to(coarse_force, force);
     for (const unsigned int i : constrained_components(matrix.blocks))
       coarse_force.local_element(i) = 0.;
-    LevelVector<double>              product(coarse);
-    const NodalBlockOperator<double> A(matrix.blocks);
+    LevelVector<double>            product(coarse);
+    const BlockCsrOperator<double> A(matrix.blocks);
     A.vmult(product, coarse);
     const double size = product.l2_norm();
     product -= coarse_force;

@@ -4,11 +4,11 @@
 // the coarsest mesh has the corners of the generator's blocks alone; that
 // matrices are P^T A P, prescribed components included; and that multigrid
 // contracts errors. The same on every number of ranks.
-#include <mortise/operators/levels/nodal_block_operator.h>
+#include <mortise/operators/bulk_system.h>
+#include <mortise/operators/levels/block_csr_operator.h>
 #include <mortise/operators/levels/vertex_matrix.h>
 #include <mortise/operators/levels/vertex_selection.h>
 #include <mortise/operators/levels/vertex_transfer.h>
-#include <mortise/operators/nodal_system.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/solvers/multigrid/vertex_multigrid.h>
 #include <mortise/solvers/pseudo_random.h>
@@ -61,8 +61,8 @@ namespace mortise::testing
   /// The same on every number of ranks as far as norms go.
   template <typename Number>
   void
-  make_pseudo_random(const NodalBlockOperator<Number> &matrix,
-                     LevelVector<Number>              &v)
+  make_pseudo_random(const BlockCsrOperator<Number> &matrix,
+                     LevelVector<Number>            &v)
   {
     matrix.initialize(v);
     for (unsigned int i = 0; i < v.locally_owned_size(); ++i)
@@ -72,7 +72,7 @@ namespace mortise::testing
   }
 
   double
-  energy(const NodalBlockOperator<double> &matrix, const LevelVector<double> &v)
+  energy(const BlockCsrOperator<double> &matrix, const LevelVector<double> &v)
   {
     LevelVector<double> product;
     matrix.initialize(product);
@@ -88,14 +88,14 @@ namespace mortise::testing
               const bool         exact,
               const unsigned int n_corners)
   {
-    VertexMatrix     matrix = assemble_vertex_matrix(scene.levels().back());
-    NodalBlockMatrix fine   = std::move(matrix.blocks);
-    auto             points = std::move(matrix.points);
-    double           values = 0., transposes = 0., products = 0.;
+    VertexMatrix   matrix = assemble_vertex_matrix(scene.levels().back());
+    BlockCsrMatrix fine   = std::move(matrix.blocks);
+    auto           points = std::move(matrix.points);
+    double         values = 0., transposes = 0., products = 0.;
     for (const VertexCoarsening &coarsening :
          make_vertex_coarsenings(*scene.levels().back().space, MPI_COMM_WORLD))
       {
-        NodalBlockMatrix             coarse = coarsen(fine, coarsening);
+        BlockCsrMatrix               coarse = coarsen(fine, coarsening);
         const VertexTransfer<double> transfer(coarsening, coarse);
         std::vector<Point<dim>>      coarse_points;
         for (const unsigned int node : coarsening.kept)
@@ -117,8 +117,8 @@ namespace mortise::testing
                                 std::fabs(on_fine.local_element(dim * i + c) -
                                           function(points[i], c)));
 
-        const NodalBlockOperator<double> A(fine), A_c(coarse);
-        LevelVector<double>              f, g, c, d, r;
+        const BlockCsrOperator<double> A(fine), A_c(coarse);
+        LevelVector<double>            f, g, c, d, r;
         make_pseudo_random(A, f);
         make_pseudo_random(A_c, c);
         A.initialize(g);
@@ -202,9 +202,9 @@ namespace mortise::testing
   void
   check_multigrid(const std::string &name, const NodalScene &scene)
   {
-    const NodalLevel                &level = scene.levels().back();
-    const NodalBlockOperator<double> A(assemble_vertex_matrix(level).blocks);
-    const VertexMultigrid<float>     multigrid(level, true);
+    const MultigridLevel          &level = scene.levels().back();
+    const BlockCsrOperator<double> A(assemble_vertex_matrix(level).blocks);
+    const VertexMultigrid<float>   multigrid(level, true);
     verdict(name + ", not by one factorisation",
             multigrid.description().find("levels") == std::string::npos,
             0.);

@@ -68,7 +68,7 @@ namespace
     verdict(reached == parameters.step, "planned times exactly");
     verdict(written == std::vector<double>({0.3, 1.5, 2.}),
             "output at every second one and the last");
-    verdict(steps.share() == 1. && steps.n_done() == 5, "all is done");
+    verdict(steps.fraction() == 1. && steps.n_done() == 5, "all is done");
     LoadSteps linear(parameters, false);
     verdict(!linear.halve() && linear.next() == 0.1,
             "a linear scene does not halve");

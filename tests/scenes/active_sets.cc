@@ -26,7 +26,7 @@ namespace
       , assembled(two_layers(true),
                   settings + Settings{"Solver/Method=direct"},
                   MPI_COMM_WORLD)
-      , x(places(equations.discretisation, MPI_COMM_WORLD))
+      , x(positions(equations.discretisation, MPI_COMM_WORLD))
       , iterative(solver(equations.discretisation))
       , direct(solver(assembled.discretisation))
     {}
@@ -51,7 +51,7 @@ namespace
       equations.discretisation.select(chosen);
       if (anew)
         {
-          equations.discretisation.show_active();
+          equations.discretisation.update_coarse_active_set();
           iterative->update();
         }
       else

@@ -86,7 +86,7 @@ namespace mortise::testing
 
   /// Where the owned multipliers are: the mean of the nodes that they move.
   inline std::vector<dealii::Point<dim>>
-  places(const Discretisation &discretisation, const MPI_Comm comm)
+  positions(const Discretisation &discretisation, const MPI_Comm comm)
   {
     const dealii::IndexSet &owned =
       discretisation.linear_system().owned_multiplier;

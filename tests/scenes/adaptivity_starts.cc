@@ -101,13 +101,13 @@ namespace
   }
 
   std::string
-  one_body(const std::string &held)
+  one_body(const std::string &prescribed)
   {
     return "set Bodies = b\n" +
            box("b",
                "0, 0, 0, 1, 1, 1",
-               held,
-               held == "xmin" ? "xmax ymin ymax zmin zmax" : "") +
+               prescribed,
+               prescribed == "xmin" ? "xmax ymin ymax zmin zmax" : "") +
            "subsection Body b\nset Degree = 1\nsubsection Mesh\n"
            "set Subdivisions = 1, 1, 1\nend\nend\n";
   }

@@ -489,8 +489,8 @@ namespace mortise::testing
               if (with_chance(percent))
                 scene.boxes[b].prescribed[f] = with_chance(60) ? 7 : draw(1, 6);
             }
-      const DrawnSide held = outside[draw(0, outside.size() - 1)];
-      scene.boxes[held.b].prescribed[held.f] = 7;
+      const DrawnSide prescribed = outside[draw(0, outside.size() - 1)];
+      scene.boxes[prescribed.b].prescribed[prescribed.f] = 7;
       for (unsigned int c = 0; c < 3; ++c)
         for (unsigned int d = 0; d < 3; ++d)
           scene.G[c][d] = (int(draw(0, 20)) - 10) / 100.;

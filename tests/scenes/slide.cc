@@ -32,7 +32,7 @@ namespace
   }
 
   std::string
-  held(const std::string &boundary, const std::string &displacement)
+  prescribed(const std::string &boundary, const std::string &displacement)
   {
     return "  subsection Boundary " + boundary +
            "\n    set Displacement = " + displacement + "\n  end\n";
@@ -68,16 +68,16 @@ namespace
   {
     const double      shortening = 0.05, offset = 0.02;
     const std::string symmetry =
-      held("xmin", "0, -, -") + held("ymin", "-, 0, -");
-    const std::string text =
-      sliding(block("lower",
-                    "0, 0, 0, 1, 1, 1",
-                    lower_and_upper[0],
-                    symmetry + held("zmin", "-, -, 0")) +
-              block("upper",
-                    "0, 0, 1, 1, 1, 3",
-                    lower_and_upper[1],
-                    symmetry + held("zmax", "-, -, " + number(-shortening))));
+      prescribed("xmin", "0, -, -") + prescribed("ymin", "-, 0, -");
+    const std::string text = sliding(
+      block("lower",
+            "0, 0, 0, 1, 1, 1",
+            lower_and_upper[0],
+            symmetry + prescribed("zmin", "-, -, 0")) +
+      block("upper",
+            "0, 0, 1, 1, 1, 3",
+            lower_and_upper[1],
+            symmetry + prescribed("zmax", "-, -, " + number(-shortening))));
     const Summary summary = run_scene(
       text,
       Settings{"Interface glue/Offset=" + number(offset),
@@ -165,10 +165,10 @@ namespace
               const bool        lower = name == "lower";
               const Elasticity &m     = lower_and_upper[lower ? 0 : 1];
               std::string       boundaries =
-                held(lower ? "zmin" : "zmax", bending(m));
+                prescribed(lower ? "zmin" : "zmax", bending(m));
               if (sides == "clamped")
                 for (const std::string side : {"xmin", "xmax", "ymin", "ymax"})
-                  boundaries += held(side, bending(m));
+                  boundaries += prescribed(side, bending(m));
               bodies += block(name,
                               lower ? "0, 0, -1, 1, 1, 0" : "0, 0, 0, 1, 1, 1",
                               m,
@@ -248,11 +248,11 @@ namespace
     const std::string text = sliding(block("lower",
                                            "0, 0, 0, 1, 1, 1",
                                            lower_and_upper[0],
-                                           held("zmin", "0, 0, 0")) +
+                                           prescribed("zmin", "0, 0, 0")) +
                                      block("upper",
                                            "0, 0, 1, 1, 1, 2",
                                            lower_and_upper[1],
-                                           held("ymin", "-, 0, -")));
+                                           prescribed("ymin", "-, 0, -")));
     std::string       message;
     try
       {

@@ -29,7 +29,7 @@ namespace
           verdict(name + ": " + what, got, limit);
       };
     const CouplingProduct<Number> product(system,
-                                          CouplingRows(system.constraint));
+                                          RowsByEntity(system.constraint));
     const auto                   &places = product.indices();
     const double                  n_places =
       Utilities::MPI::sum<double>(places.size(), MPI_COMM_WORLD);

@@ -31,7 +31,7 @@ namespace
   }
 
   void
-  check_held(const std::string &shape, const unsigned int iterations)
+  check_enclosed(const std::string &shape, const unsigned int iterations)
   {
     std::string text =
       "set Bodies = cube\nsubsection Body cube\n  set Degree = 3\n"
@@ -115,11 +115,12 @@ main(int argc, char **argv)
                                    "Body outer/Formulation=displacement"},
         20,
         true);
-  check_held("hexahedra", 26);
+  check_enclosed("hexahedra", 26);
   // patches of different ranks are additive
-  check_held("tetrahedra",
-             dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ? 31 :
-                                                                            55);
+  check_enclosed("tetrahedra",
+                 dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1 ?
+                   31 :
+                   55);
   check("tetrahedra",
         scene(2, "0.5") + of_both("Mesh/Cells=tetrahedra"),
         40,

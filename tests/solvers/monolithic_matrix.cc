@@ -26,7 +26,7 @@ namespace
         v(i) = std::sin(12.9898 * i + shift);
     };
     set(x.displacement, 1.);
-    const NodalLevel &level = system.nodal->levels().front();
+    const MultigridLevel &level = system.nodal->levels().front();
     for (const unsigned int index : level.constrained)
       x.displacement.begin()[index] = 0.;
     if (system.mixed())

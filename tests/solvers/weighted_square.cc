@@ -36,7 +36,7 @@ namespace
       weights(i) = 1. + i / 3 % 5;
 
     const CouplingMatrix by_node = CouplingLine{n_entities}.by_node();
-    const NodalMatrix    C = weighted_square(CouplingRows(by_node), weights);
+    const RowsByNode     C = weighted_square(RowsByEntity(by_node), weights);
     const auto alike   = std::count(C.variants.begin(), C.variants.end(), 1U);
     const int  n_alike = Utilities::MPI::sum<int>(alike, MPI_COMM_WORLD),
               n_nodes  = Utilities::MPI::sum<int>(C.size(), MPI_COMM_WORLD);

@@ -34,13 +34,13 @@ namespace mortise
     double change_of_rest = 0., error_of_rest = 0.;
     /// Error allowed to all cells together per unit of the target: the square
     /// of an energy norm, or a quantity itself.
-    double allowed = 0.;
+    double allowed_error = 0.;
     /// Of the quantity beside its value, or in the energy norm beside that of
     /// the solution; absent in the first cycle and on a new mesh.
     std::optional<double> estimate;
     /// The estimate times a factor for its uncertainty, which the target is
     /// compared with.
-    std::optional<double> at_most;
+    std::optional<double> upper_estimate;
     /// By body, square, of the equations.
     std::vector<double> residual;
 
@@ -49,7 +49,7 @@ namespace mortise
     serialize(Archive &archive, const unsigned int)
     {
       archive &n_cycles &n_estimates &value &change_of_rest &error_of_rest
-        &allowed &estimate &at_most &residual;
+        &allowed_error &estimate &upper_estimate &residual;
     }
   };
 
@@ -62,12 +62,13 @@ namespace mortise
       , comm(comm)
     {}
 
-    /// The solution of the cycle before in the spaces that @p bodies have now, if they go on from its spaces
-    /// (@p goes_on), and that of its dual problem; else empty. Collective.
+    /// The solution of the cycle before in the spaces that @p bodies have now,
+    /// if they go on from its spaces (@p spaces_are_nested), and that of its
+    /// dual problem; else empty. Collective.
     const std::vector<BodySolution> &
-    start(const Bodies &bodies, bool goes_on);
+    start(const Bodies &bodies, bool spaces_are_nested);
     const std::vector<BodySolution> &
-    dual_start(const Bodies &bodies, bool goes_on);
+    dual_start(const Bodies &bodies, bool spaces_are_nested);
 
     /// The next cycle has been solved on @p bodies, which still have its spaces; @p dual: of a
     /// quantity, @p broken, by interface, and @p residuals: without. Collective.
@@ -75,7 +76,7 @@ namespace mortise
     add(const Bodies                      &bodies,
         const std::vector<BodySolution>   &solutions,
         const std::optional<DualSolution> &dual,
-        std::vector<InterfaceViolation>    broken,
+        std::vector<InterfaceResidual>     broken,
         const Residuals                   &residuals);
 
     /// Of all interfaces, relative. A solution is at least as far from the
@@ -85,7 +86,7 @@ namespace mortise
     of_interfaces() const
     {
       double square = 0.;
-      for (const InterfaceViolation &of : violations)
+      for (const InterfaceResidual &of : interface_residuals)
         square += of.size * of.size;
       return std::sqrt(square);
     }
@@ -109,8 +110,8 @@ namespace mortise
     CellStates     cells;
 
     // of the last cycle; empty after a run was continued
-    ErrorSums                       sums;
-    std::vector<InterfaceViolation> violations; ///< with relative sizes
+    ErrorSums                      sums;
+    std::vector<InterfaceResidual> interface_residuals; ///< with relative sizes
     std::optional<double>
       correction; ///< what the quantity lacks, with its sign
     /// Is the quantity rounding beside its other components?
@@ -119,7 +120,7 @@ namespace mortise
   private:
     /// Relative, and in cells that have slave faces.
     void
-    set_violations(double norm);
+    set_interface_residuals(double norm);
     /// From @p residuals, or of a quantity from what the last refinement changed, beside @p norm. Collective.
     void
     estimate(const Bodies                      &bodies,
@@ -132,9 +133,9 @@ namespace mortise
     /// Histories from the change that the refinement before this cycle made;
     /// its squares by body. Collective.
     std::vector<double>
-    learn(const Bodies                      &bodies,
-          const std::vector<BodySolution>   &solutions,
-          const std::optional<DualSolution> &dual);
+    update_history(const Bodies                      &bodies,
+                   const std::vector<BodySolution>   &solutions,
+                   const std::optional<DualSolution> &dual);
 
     const double              accuracy;
     const MPI_Comm            comm;

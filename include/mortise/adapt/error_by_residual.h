@@ -17,7 +17,7 @@ namespace mortise
   /// half as large again, and less,
   /// down to a sixth, where more than two refinements in a row have shown it, @p n_seen with the last one.
   double
-  doubt_of_residuals(unsigned int n_seen);
+  upper_factor(unsigned int n_seen);
 
   /// By more than what may be chance, and so that something is seen.
   bool

@@ -17,7 +17,7 @@ namespace mortise
   };
 
   /// Allowed square of the error of a cell over the mean of all cells.
-  constexpr double share_of_cell = 0.25;
+  constexpr double fraction_of_cell = 0.25;
 
   /// The square of the error that a cell has for certain: what it has changed
   /// by is known, what follows after slow changes is not.

@@ -5,7 +5,7 @@
 #pragma once
 
 #include <mortise/adapt/cell_states.h>
-#include <mortise/mortar/violation.h>
+#include <mortise/mortar/interface_evaluation.h>
 
 #include <string>
 #include <utility>
@@ -17,19 +17,19 @@ namespace mortise
   struct BodyData
   {
     Loads                           loads;
-    std::vector<DirichletCondition> held;
+    std::vector<DirichletCondition> dirichlet;
     /// On its faces that have partners.
     std::vector<const TractionsOnFaces *> interfaces;
   };
 
   /// Error of an interface by violation of its law: gaps, penetration, tension.
-  struct InterfaceViolation
+  struct InterfaceResidual
   {
     std::string         interface;
-    double              size = 0.; ///< energy norm, see violation_energies()
+    double              size = 0.; ///< energy norm, see evaluate_interface()
     unsigned int        body = 0;  ///< of the slave
     std::vector<double> of_cells;  ///< squares, by active cell of that body
-    /// Body and active cell: of both sides, where part of a face presses and
+    /// Body and active cell: of both sides, where part of a face is active and
     /// part is open.
     std::vector<std::pair<unsigned int, unsigned int>> at_contact_edge;
     /// By side: the body, and what acts on its faces.

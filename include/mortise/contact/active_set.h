@@ -17,11 +17,11 @@ namespace mortise
   {
   public:
     /// All multipliers start active. By owned multiplier: @p one_sided, whether
-    /// it belongs to contact (others stay active); @p stiffness, the
+    /// it belongs to contact (others stay active); @p complementarity, the
     /// complementarity parameter c in lambda - c g, force per volume. @p first:
     /// global index of the first owned multiplier. Collective.
     ActiveSet(std::vector<bool>               one_sided,
-              std::vector<double>             stiffness,
+              std::vector<double>             complementarity,
               dealii::types::global_dof_index first,
               MPI_Comm                        comm);
 
@@ -70,7 +70,7 @@ namespace mortise
     const std::vector<bool> &
     undecided() const
     {
-      return unclear;
+      return undecided_multipliers;
     }
 
     /// Has a set recurred since the start?
@@ -102,10 +102,10 @@ namespace mortise
             std::vector<bool>       &turns);
 
     std::vector<bool>               one_sided;
-    std::vector<double>             stiffness;
+    std::vector<double>             complementarity;
     dealii::types::global_dof_index first;
     MPI_Comm                        comm;
-    std::vector<bool>               now, unclear;
+    std::vector<bool>               now, undecided_multipliers;
     std::set<std::uint64_t>         seen; ///< fingerprints
     std::uint64_t       fewest;   ///< violated conditions since the start
     unsigned int        patience; ///< sets until there are fewer

@@ -2,7 +2,7 @@
 // which saves active sets on fine meshes.
 #pragma once
 
-#include <mortise/contact/multiplier_places.h>
+#include <mortise/contact/multiplier_positions.h>
 
 #include <vector>
 
@@ -18,7 +18,7 @@ namespace mortise
   {
   public:
     /// Collective.
-    ContactEdge(MultiplierPlaces places, MPI_Comm comm);
+    ContactEdge(MultiplierPositions positions, MPI_Comm comm);
 
     /// Add to @p turns, the multipliers of wrong sign, the active ones within a
     /// distance of them equal to the width of their zone beside the edge. Both
@@ -27,8 +27,8 @@ namespace mortise
     extend(const std::vector<bool> &active, std::vector<bool> &turns) const;
 
   private:
-    const MultiplierPlaces places;
-    const unsigned int     n_surfaces;
-    const MPI_Comm         comm;
+    const MultiplierPositions positions;
+    const unsigned int        n_surfaces;
+    const MPI_Comm            comm;
   };
 } // namespace mortise

@@ -31,7 +31,7 @@ namespace mortise
   }
 
   /// Components of the jump that have a multiplier.
-  enum class HeldDirections : unsigned char
+  enum class ConstrainedDirections : unsigned char
   {
     all,
     normal ///< of the slave
@@ -39,7 +39,7 @@ namespace mortise
 
   /// Stiffness of a thin layer, traction over jump, along its normal and
   /// tangentially; force per volume. Infinite where the jump is zero.
-  struct Stiffness
+  struct InterfaceStiffness
   {
     double normal     = std::numeric_limits<double>::infinity();
     double tangential = std::numeric_limits<double>::infinity();
@@ -58,13 +58,13 @@ namespace mortise
 
   struct InterfaceLaw
   {
-    Law            law  = Law::tie;
-    HeldDirections held = HeldDirections::all;
+    Law                   law         = Law::tie;
+    ConstrainedDirections constrained = ConstrainedDirections::all;
     /// Does the gap between the meshes count? If not, the surfaces are taken as
     /// coinciding.
     bool has_mesh_gap = false;
     /// Stiffness K of a spring at a point of the slave; null for other laws.
-    std::function<Stiffness(const dealii::Point<3> &)> stiffness;
+    std::function<InterfaceStiffness(const dealii::Point<3> &)> stiffness;
 
     /// Do multipliers satisfy an inequality, with an active set?
     bool
@@ -87,7 +87,7 @@ namespace mortise
     /// Is the point active: pressure - c g > 0 with the complementarity
     /// parameter @p c, force per volume?
     bool
-    presses(const InterfacePoint &point, double c) const
+    is_active(const InterfacePoint &point, double c) const
     {
       return point.traction * point.normal > c * gap(point);
     }
@@ -103,7 +103,8 @@ namespace mortise
     /// Penalty factor of the law in preconditioners, force per volume:
     /// @p of_tie for ties, reduced by the compliance of @p springs, the
     /// stiffnesses K at the nodes of a face.
-    Stiffness
-    penalty(double of_tie, const std::vector<Stiffness> &springs) const;
+    InterfaceStiffness
+    penalty(double                                 of_tie,
+            const std::vector<InterfaceStiffness> &springs) const;
   };
 } // namespace mortise

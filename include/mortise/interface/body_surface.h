@@ -110,7 +110,7 @@ namespace mortise
   /// A rigid surface that coincides with @p surface and faces it; its traces
   /// have no columns.
   BodySurface
-  rigid_counterpart(const BodySurface &surface);
+  rigid_obstacle(const BodySurface &surface);
 
   /// Dofs (numbering of the body's DoFHandler) of the face functions of
   /// component c: entry [c][k], k as in FaceTrace.

@@ -62,7 +62,7 @@ namespace mortise
   assemble_compliance(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition);
 
-  /// Set LocalCoupling::active_share of slave faces for the penalties of
+  /// Set LocalCoupling::active_fraction of slave faces for the penalties of
   /// preconditioners. @p active: by owned multiplier. Collective.
   void
   select_multipliers(const std::vector<bool> &active,

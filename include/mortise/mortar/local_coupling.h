@@ -34,7 +34,7 @@ namespace mortise
       unsigned int master; ///< among InterfaceHandler::master_faces()
       /// Is the master so much coarser that preconditioners move it alone and
       /// let the slave follow? For values at nodes.
-      bool                       leads = false;
+      bool                       is_independent = false;
       dealii::FullMatrix<double> mixed; ///< int N_i^slave N_j^master
       dealii::FullMatrix<double>
         mass; ///< int N_i^master N_j^master; empty unless asked for
@@ -52,7 +52,7 @@ namespace mortise
       gap_moment; ///< int psi_i (x_master - x_slave)
     std::vector<dealii::Tensor<1, dim>> position_moment; ///< int psi_i x_slave
     std::vector<Partner>                partners;
-    std::vector<Stiffness>              springs; ///< by node; empty: a tie
+    std::vector<InterfaceStiffness>     springs; ///< by node; empty: a tie
     /// Standard multipliers along a normal that turns: entry k n + i is the
     /// traction of psi_k at node i of n, the projection of psi_k n, n
     /// interpolated between nodes, onto the polynomials of the face. A body
@@ -60,10 +60,10 @@ namespace mortise
     /// psi_k changes sign from degree 2 on. Empty: psi_k n_k.
     std::vector<dealii::Tensor<1, dim>> along_normals;
     double penalty = 0.; ///< of jumps: about E / h of the softer side, or of
-                         ///< the slave if a master leads
+                         ///< the slave if a master is independent
 
     /// Fraction of active multipliers, see select_multipliers().
-    double active_share = 1.;
+    double active_fraction = 1.;
 
     bool
     is_dual() const
@@ -72,13 +72,13 @@ namespace mortise
     }
   };
 
-  /// Clip @p interface and integrate; one entry per slave face. @p may_lead:
-  /// may Partner::leads be set? @p frames: slave_frames() for multipliers along
+  /// Clip @p interface and integrate; one entry per slave face. @p may_be_independent:
+  /// may Partner::is_independent be set? @p frames: slave_frames() for multipliers along
   /// normals, else empty. Collective.
   std::vector<LocalCoupling>
-  integrate_coupling(InterfaceHandler                      &interface,
-                     bool                                   with_master_mass,
-                     MultiplierBasis                        basis,
-                     bool                                   may_lead = true,
-                     const std::vector<std::vector<Frame>> &frames   = {});
+  integrate_coupling(InterfaceHandler &interface,
+                     bool              with_master_mass,
+                     MultiplierBasis   basis,
+                     bool              may_be_independent          = true,
+                     const std::vector<std::vector<Frame>> &frames = {});
 } // namespace mortise

@@ -10,7 +10,7 @@
 namespace mortise
 {
   /// Coverage of a slave face by partners.
-  enum class Cover : unsigned char
+  enum class FaceCoverage : unsigned char
   {
     none,    ///< no multipliers
     sliver,  ///< little, or less than by another interface: extends multipliers
@@ -20,15 +20,16 @@ namespace mortise
   };
 
   /// @p covered: fraction; @p most: no other interface covers more of the face.
-  Cover
-  cover_of(double covered, bool most);
+  FaceCoverage
+  face_coverage(double covered, bool most);
 
   /// Partners of a slave face.
   struct PartnerState
   {
-    Cover                 cover = Cover::none;
-    std::array<bool, dim> can_follow{}; ///< by component: some displacement of
-                                        ///< slave or master is free
+    FaceCoverage cover = FaceCoverage::none;
+    std::array<bool, dim>
+      has_free_displacement{}; ///< by component: some displacement of
+                               ///< slave or master is free
     bool                                has_dual = false; ///< see LocalCoupling
     std::vector<dealii::Tensor<1, dim>> along_normals;    ///< see LocalCoupling
   };
@@ -38,8 +39,8 @@ namespace mortise
   struct MultiplierFace
   {
     const TraceBasis *basis;
-    Cover             cover = Cover::full;
-    bool              can_follow[dim]; ///< as in PartnerState
+    FaceCoverage      cover = FaceCoverage::full;
+    bool              has_free_displacement[dim]; ///< as in PartnerState
     std::array<std::vector<dealii::types::global_dof_index>, dim>
                  dofs; ///< [c][k] as in FaceTrace
     unsigned int edge_degree[4];
@@ -47,7 +48,7 @@ namespace mortise
     /// [c][edge]: all displacements of the edge are prescribed.
     bool rim[dim][4] = {};
     /// [c][vertex]: prescribed, or hanging.
-    bool blocked_vertex[dim][4] = {};
+    bool constrained_vertex[dim][4] = {};
   };
 
   /// The faces of @p slave, those of ghost cells included. Parameters as for MultiplierSpace.
@@ -56,5 +57,5 @@ namespace mortise
   collect_multiplier_faces(const Body                      &body,
                            const BodySurface               &slave,
                            const std::vector<PartnerState> &partners,
-                           const std::vector<bool>         &blocked);
+                           const std::vector<bool>         &constrained);
 } // namespace mortise

@@ -19,27 +19,29 @@ namespace mortise
     bool kept         = true;  ///< not above the reduced degree of a face
     bool on_full_face = false; ///< some face around it has full coverage
     bool vertex       = false;
-    bool blocked      = false; ///< vertices: the displacement is blocked ...
-    bool made_up      = false; ///< ... and a mode is dropped instead
-    bool on_rim       = false; ///< vertices: end of an edge across a rim ...
-    bool across_kept  = false; ///< ... that has modes left
-    bool can_follow = false; ///< some displacement is free on a face around it
-    Dofs neighbours; ///< across the rim or from a blocked vertex, off all rims
-    Dofs diagonal;   ///< other vertices, off all rims
-    Dofs merged;     ///< have the same value
+    bool constrained = false; ///< vertices: the displacement is constrained ...
+    bool compensated = false; ///< ... and a mode is dropped instead
+    bool on_rim      = false; ///< vertices: end of an edge across a rim ...
+    bool across_kept = false; ///< ... that has modes left
+    bool has_free_displacement =
+      false; ///< some displacement is free on a face around it
+    Dofs
+      neighbours; ///< across the rim or from a constrained vertex, off all rims
+    Dofs diagonal; ///< other vertices, off all rims
+    Dofs merged;   ///< have the same value
     /// Vertices on rims that determine the value if all of the above are empty.
     Dofs beside;
 
-    /// A blocked vertex that is at the end of no rim.
+    /// A constrained vertex that is at the end of no rim.
     bool
-    is_alone() const
+    has_no_rim() const
     {
-      return blocked && !on_rim;
+      return constrained && !on_rim;
     }
 
     /// A vertex on a rim without a free vertex on the faces around it.
     bool
-    is_stranded() const
+    is_isolated() const
     {
       return vertex && on_rim && !across_kept && neighbours.empty() &&
              merged.empty() && diagonal.empty();
@@ -50,7 +52,7 @@ namespace mortise
 
   /// By dof of the slave: the dof of the first component at its node, its
   /// component.
-  using MultiplierPlaces =
+  using NodesAndComponents =
     std::map<dealii::types::global_dof_index,
              std::pair<dealii::types::global_dof_index, unsigned int>>;
 
@@ -68,26 +70,26 @@ namespace mortise
                          unsigned int          c,
                          MultiplierRecords    &records);
 
-  /// After apply_multiplier_rules() for all faces: at a blocked vertex of a
-  /// quadrilateral without a blocked edge the multiplier stays and the highest
-  /// mode inside is dropped instead; at degree 1 the vertex has the mean of its
-  /// neighbours.
+  /// After apply_multiplier_rules() for all faces: at a constrained vertex of a
+  /// quadrilateral without a constrained edge the multiplier stays and the
+  /// highest mode inside is dropped instead; at degree 1 the vertex has the
+  /// mean of its neighbours.
   void
-  make_up_for_blocked_vertices(const MultiplierFace &face,
-                               unsigned int          c,
-                               MultiplierRecords    &records);
+  compensate_constrained_vertices(const MultiplierFace &face,
+                                  unsigned int          c,
+                                  MultiplierRecords    &records);
 
   /// At the boundary and at kinks of the slave, edges of @p faces may hang on
   /// an edge of a larger cell without a face on the slave. The modes of that
   /// edge are multipliers, too, with the reduction beside rims: add them to
-  /// @p places and @p records for @p n_directions components, unless
-  /// @p presses_only, since no face has their Bernstein coefficients. After
+  /// @p nodes_and_components and @p records for @p n_directions components, unless
+  /// @p one_sided, since no face has their Bernstein coefficients. After
   /// apply_multiplier_rules() for all faces.
   void
   add_edges_of_larger_cells(const std::vector<MultiplierFace> &faces,
                             unsigned int                       n_directions,
-                            bool                               presses_only,
+                            bool                               one_sided,
                             const dealii::AffineConstraints<double> &conformity,
-                            MultiplierPlaces                        &places,
-                            MultiplierRecords                       &records);
+                            NodesAndComponents &nodes_and_components,
+                            MultiplierRecords  &records);
 } // namespace mortise

@@ -63,7 +63,7 @@ namespace mortise
     /// Along normals, value_c(xi) = sum_i psi_i(xi) sum_k directions_ki,c sum_j
     /// weight_j lambda_index_j with row = k: the normal of the frame of node k,
     /// where k = i, or along_normals.
-    struct FaceRows
+    struct FaceMultipliers
     {
       std::vector<unsigned int> begin;
       std::vector<Index>  index; ///< numbering of all multipliers of the scene
@@ -75,9 +75,9 @@ namespace mortise
       std::vector<Coefficient> coefficients;
       /// By component (equal for all along normals): is the constant function
       /// on the face a multiplier, so that constant tractions are exact?
-      std::array<bool, dim> hold_constants{};
+      std::array<bool, dim> reproduce_constants{};
       /// By node: the directions of its multipliers, in rows; the axes if all
-      /// components are held.
+      /// components are constrained.
       std::vector<Frame> frames;
       /// See LocalCoupling.
       std::vector<dealii::Tensor<1, dim>> along_normals;
@@ -104,14 +104,14 @@ namespace mortise
     };
 
     /// Choose the multipliers of @p coupling, whose slave belongs to @p body.
-    /// @p partners: by slave face. @p blocked: by owned displacement dof,
+    /// @p partners: by slave face. @p constrained: by owned displacement dof,
     /// whether it is prescribed or belongs to an earlier interface. Multipliers
     /// of a one-sided law have the sign of the pressure: values at nodes if
     /// dual, else Bernstein coefficients of the same polynomials. Collective.
     MultiplierSpace(const Body                      &body,
                     const Coupling                  &coupling,
                     const std::vector<PartnerState> &partners,
-                    const std::vector<bool>         &blocked);
+                    const std::vector<bool>         &constrained);
 
     /// Multipliers owned by this rank.
     unsigned int
@@ -150,12 +150,12 @@ namespace mortise
 
     struct Rows
     {
-      std::vector<FaceRows>            by_face; ///< of the slave
+      std::vector<FaceMultipliers>     by_face; ///< of the slave
       std::vector<CouplingMatrix::Row> owned;
     };
 
     /// By slave face; valid after number().
-    const std::vector<FaceRows> &
+    const std::vector<FaceMultipliers> &
     rows() const
     {
       return numbered.by_face;
@@ -193,16 +193,16 @@ namespace mortise
     make_rows(const BodySurface &slave, Index first) const;
 
     const Body                     &body;
-    std::vector<std::vector<Frame>> frames; ///< by face, see FaceRows
+    std::vector<std::vector<Frame>> frames; ///< by face, see FaceMultipliers
     unsigned int      n_directions;         ///< dim, or 1: along the normals
-    bool              presses_only;
+    bool              one_sided;
     std::vector<bool> has_dual;                                     ///< by face
     std::vector<std::vector<dealii::Tensor<1, dim>>> along_normals; ///< by face
     std::vector<Index>                               owned_dofs;
     std::vector<bool> at_vertices; ///< by owned multiplier
     /// By owned multiplier: the dof of the first component at its node, its
     /// component.
-    std::vector<std::pair<Index, unsigned int>> places;
+    std::vector<std::pair<Index, unsigned int>> nodes_and_components;
     dealii::AffineConstraints<double>
                     reduction; ///< in the body's numbering; closed
     Rows            numbered;

@@ -20,7 +20,7 @@ namespace mortise
   struct NormalMultiplier
   {
     double                 area = 0.; ///< int psi
-    dealii::Point<dim>     place;     ///< int psi x / area
+    dealii::Point<dim>     position;  ///< int psi x / area
     dealii::Tensor<1, dim> normal;    ///< int psi n
     dealii::Tensor<1, dim> moment;    ///< int psi x cross n, about the origin
     /// Weighted gap int psi n . (x_master - x_slave) of the meshes, a volume;
@@ -28,10 +28,10 @@ namespace mortise
     double gap = 0.;
     /// Complementarity parameter c, about E / h of the softer side, force per
     /// volume.
-    double stiffness = 0.;
+    double complementarity = 0.;
   };
 
-  /// By owned multiplier of @p coupling, which has HeldDirections::normal.
+  /// By owned multiplier of @p coupling, which has ConstrainedDirections::normal.
   /// Collective.
   std::vector<NormalMultiplier>
   normal_multipliers(const Coupling         &coupling,

@@ -24,14 +24,14 @@ namespace mortise
   };
 
   /// An Expansion that owns its numbers, filled function by function.
-  class OwnExpansion
+  class ExpansionList
   {
   public:
-    OwnExpansion() = default;
+    ExpansionList() = default;
 
     /// The given @p functions of @p all.
-    OwnExpansion(const Expansion                 &all,
-                 const std::vector<unsigned int> &functions)
+    ExpansionList(const Expansion                 &all,
+                  const std::vector<unsigned int> &functions)
     {
       for (const unsigned int i : functions)
         {
@@ -130,9 +130,9 @@ namespace mortise
     /// Positions of @p wanted in @p pattern, mostly the same as in the last
     /// call with this @p guess, for another component of the same block.
     const std::vector<unsigned int> &
-    find_places(const std::vector<Index> &wanted,
-                const std::vector<Index> &pattern,
-                unsigned int              guess);
+    find_positions(const std::vector<Index> &wanted,
+                   const std::vector<Index> &pattern,
+                   unsigned int              guess);
 
     const dealii::IndexSet &rows, &columns;
     std::vector<int>        number_of_owned; ///< by owned row; -1: not recorded
@@ -144,6 +144,6 @@ namespace mortise
     std::vector<unsigned int>              pattern_of; ///< by recorded row
     std::vector<std::size_t> begin; ///< of values, by recorded row
     std::vector<double>      values;
-    std::vector<std::vector<unsigned int>> guesses; ///< see find_places()
+    std::vector<std::vector<unsigned int>> guesses; ///< see find_positions()
   };
 } // namespace mortise

@@ -37,12 +37,12 @@ namespace mortise
   find_sharp_edge(const Body &body, const BodySurface &slave);
 
   /// By owned displacement dof of the first component: is the normal
-  /// displacement of its node constrained? @p blocked: by owned displacement
+  /// displacement of its node constrained? @p constrained: by owned displacement
   /// dof, whether it is prescribed or belongs to an earlier interface.
   /// Collective.
   std::vector<bool>
-  blocked_normals(const Body                            &body,
-                  const BodySurface                     &slave,
-                  const std::vector<std::vector<Frame>> &frames,
-                  const std::vector<bool>               &blocked);
+  constrained_normals(const Body                            &body,
+                      const BodySurface                     &slave,
+                      const std::vector<std::vector<Frame>> &frames,
+                      const std::vector<bool>               &constrained);
 } // namespace mortise

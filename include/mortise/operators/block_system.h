@@ -5,17 +5,16 @@
 //     [ G  -C    0  ] [ p      ]
 //     [ B   0   -S  ] [ lambda ]
 //
-// where the pressure p is that of bodies in mixed form, if there are any,
-// together with what preconditioners need to know about it. Prescribed
-// displacements are zero here: what they bring is part of a step's load.
+// with the pressures p of bodies in mixed form. Prescribed displacements are
+// zero here; their contribution is part of a SceneLoad.
 #pragma once
 
 #include <deal.II/base/index_set.h>
 
 #include <mortise/base/types.h>
 #include <mortise/mortar/coupling_matrix.h>
+#include <mortise/operators/bulk_system.h>
 #include <mortise/operators/free_pressures.h>
-#include <mortise/operators/nodal_system.h>
 
 #include <memory>
 #include <optional>
@@ -23,8 +22,8 @@
 
 namespace mortise
 {
-  /// (u, p, lambda), or what is dual to them: loads (f, h, g) and residuals. p
-  /// has size zero without mixed bodies, lambda without an interface.
+  /// (u, p, lambda), or dual vectors: loads (f, h, g) and residuals. p has size
+  /// zero without mixed bodies, lambda without an interface.
   struct SystemVector
   {
     Vector displacement, pressure, multiplier;
@@ -43,9 +42,8 @@ namespace mortise
   void
   add_scaled(SystemVector &x, double factor, const SystemVector &y);
 
-  /// Indices are global, numbered rank by rank, so that what a rank owns is one
-  /// contiguous range in the displacement and one in the multiplier numbering;
-  /// either may be empty on a rank.
+  /// Indices are global, numbered rank by rank: the owned displacements,
+  /// pressures and multipliers are contiguous ranges, which may be empty.
   struct BlockSystem
   {
     MPI_Comm communicator = MPI_COMM_NULL;
@@ -54,14 +52,14 @@ namespace mortise
     dealii::IndexSet owned_pressure; ///< empty (of size 0) without mixed bodies
     dealii::IndexSet owned_multiplier;
 
-    /// K, G = -int q div u, C = int c p q with the compressibility c, and
-    /// P = int p q (c + 1 / (2/3 mu + lambda_u)), which C + G K^{-1} G^T is
-    /// spectrally equivalent to, whatever c is; in cells some of whose
-    /// displacements are prescribed, what element_schur() has instead. Indices
-    /// of displacements and pressures are those of its finest level.
-    std::unique_ptr<NodalSystem> nodal;
+    /// K, G = -int q div u, C = int c p q with the compressibility c, and P
+    /// = int p q (c + 1 / (2/3 mu + lambda_u)), spectrally equivalent to C + G
+    /// K^{-1} G^T for all c; in cells at Dirichlet boundaries with
+    /// element_schur() instead. Displacements and pressures have the indices of
+    /// its finest level.
+    std::unique_ptr<BulkSystem> nodal;
 
-    /// Constants that the equations leave free: solutions have none of them.
+    /// Constant pressures in the kernel, which solutions do not contain.
     FreePressures free_pressures;
 
     /// B: rows are multipliers, columns displacements; columns of constrained
@@ -84,8 +82,8 @@ namespace mortise
       return !force_rows;
     }
 
-    /// By owned multiplier: does its constraint hold? The others are zero.
-    /// Nothing, on all ranks: all do.
+    /// The active set, by owned multiplier; others are zero. Nothing, on all
+    /// ranks: all are active.
     std::optional<std::vector<bool>> active;
 
     /// S, the compliance of springs: zero, or empty, where bodies are tied.
@@ -98,20 +96,20 @@ namespace mortise
       return owned_pressure.size() > 0;
     }
 
-    /// Twice the energy of what bodies and springs carry. Collective.
+    /// Twice the energy of bodies and springs. Collective.
     double
     energy_product(const SystemVector &x) const;
 
-    /// dst_u = K u + G^T p, dst_p = G u - C p, the latter without the parts
-    /// that belong to free constants. Collective.
+    /// dst_u = K u + G^T p, dst_p = G u - C p, the latter without the free
+    /// constants. Collective.
     void
     apply_mixed(Vector       &dst_u,
                 Vector       &dst_p,
                 const Vector &u,
                 const Vector &p) const;
 
-    /// Set @p rhs to what the system is times @p u at nodes, which may be other than zero where components are
-    /// constrained. Collective.
+    /// Set @p rhs to the product of the system with @p u, which may be nonzero
+    /// at constrained components. Collective.
     void
     apply_to_constrained(const Vector &u, SystemVector &rhs) const;
 
@@ -120,15 +118,15 @@ namespace mortise
     void
     add_multiplier_force(Vector &dst, const Vector &lambda) const;
 
-    /// dst = B u, what the constraints see. Collective.
+    /// dst = B u. Collective.
     void
     apply_constraint(Vector &dst, const Vector &u) const;
 
-    /// dst -= S lambda, what springs give. Collective.
+    /// dst -= S lambda, the opening of springs. Collective.
     void
     subtract_spring_opening(Vector &dst, const Vector &lambda) const;
 
-    /// Zero those of @p multiplier that are not active.
+    /// Set inactive multipliers to zero.
     void
     clear_inactive(Vector &multiplier) const;
 

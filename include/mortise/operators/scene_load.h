@@ -6,7 +6,7 @@
 
 #include <mortise/body/boundary_conditions.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/operators/levels/nodal_operator.h>
+#include <mortise/operators/levels/level_operator_base.h>
 #include <mortise/operators/prescribed_values.h>
 
 #include <functional>
@@ -32,7 +32,7 @@ namespace mortise
     SystemVector               rhs; ///< (f, h, g)
     PrescribedValues           prescribed;
     std::vector<ThermalStrain> thermal_strains = {}; ///< by body, or none
-    /// NodalSystem::external_forces(), or empty.
+    /// BulkSystem::external_forces(), or empty.
     LevelVector<double> external = {};
   };
 

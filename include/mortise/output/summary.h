@@ -69,7 +69,7 @@ namespace mortise
   /// What is in contact at the nodes of the slave.
   struct ContactSummary
   {
-    double              area = 0.;     ///< that presses
+    double              area = 0.;     ///< in contact
     std::vector<double> force, moment; ///< on the slave; as those of interfaces
     double              pressure_mean = 0.; ///< over that area, positive
     double              pressure_max  = 0.;
@@ -83,7 +83,7 @@ namespace mortise
   /// What a tie with a given force has, in consistent units.
   struct PreloadSummary
   {
-    double force      = 0.; ///< normal, positive where it pulls
+    double force      = 0.; ///< normal, positive in tension
     double shortening = 0.; ///< by how much the sides approach
   };
 

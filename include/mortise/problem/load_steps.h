@@ -48,7 +48,7 @@ namespace mortise
 
     /// Fraction of the end time that was reached.
     double
-    share() const
+    fraction() const
     {
       return reached / times.back();
     }
@@ -76,7 +76,7 @@ namespace mortise
   private:
     std::vector<double> times;
     unsigned int        output_every;
-    double              smallest_share;
+    double              smallest_fraction;
     bool                divisible;
 
     unsigned int n_planned  = 0; ///< times that were reached

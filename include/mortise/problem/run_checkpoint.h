@@ -20,7 +20,7 @@ namespace mortise
     double       longest_step = 0.; ///< see LoadSteps; may be infinite
     unsigned int n_steps      = 0;  ///< accepted
     State        state;             ///< without its solution
-    std::string  adaptivity;        ///< bytes of KeptCycles
+    std::string  adaptivity;        ///< bytes of CycleCheckpoint
     std::vector<StepSummary>                     steps;
     std::vector<std::pair<unsigned int, double>> files; ///< see FieldFiles
   };

@@ -44,9 +44,9 @@ namespace mortise
 
     /// Progress counts from this fraction on.
     void
-    begin_at(const double share)
+    begin_at(const double fraction)
     {
-      clock.share = share;
+      clock.fraction = fraction;
     }
 
     const std::vector<OutputError> &
@@ -61,7 +61,7 @@ namespace mortise
     /// Fraction that was completed at a time.
     struct Clock
     {
-      double share = 0., seconds = 0.;
+      double fraction = 0., seconds = 0.;
     };
 
     const RunContext        &run;

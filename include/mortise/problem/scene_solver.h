@@ -1,5 +1,5 @@
-// A scene on its meshes together with what solves its steps: discretisation,
-// linear solver, preloads and the active sets of contact.
+// Solver of the steps of a scene on given meshes: discretisation, linear
+// solver, preloads and active sets of contact.
 #pragma once
 
 #include <mortise/problem/contact/contact_step.h>
@@ -14,7 +14,7 @@
 
 namespace mortise
 {
-  /// A step that was solved, without its time, and how.
+  /// A solved step without its time, and its report.
   struct SolvedState
   {
     State       state;
@@ -43,24 +43,26 @@ namespace mortise
           const std::vector<BodySolution> &start,
           SceneLoad                       &load);
 
-    /// Add to @p summary how @p solution, of the last solve(), was found.
+    /// Add the reports of the last solve(), with solution @p solution, to
+    /// @p summary.
     void
     summarise(const SolveReport  &report,
               const SystemVector &solution,
               StepSummary        &summary) const;
 
-    /// By owned multiplier of contact, else empty: neither pressure nor gap.
+    /// By owned multiplier: are pressure and gap zero to rounding? Empty
+    /// without contact.
     std::vector<bool>
     undecided() const
     {
       return contact ? contact->undecided() : std::vector<bool>();
     }
 
-    /// Of contact, where they did not come to an end; else zero.
+    /// Number of active sets of contact if they did not converge, else zero.
     unsigned int
-    unsettled_sets() const
+    unconverged_sets() const
     {
-      return contact && !contact->settled() ? contact->n_sets() : 0;
+      return contact && !contact->converged() ? contact->n_sets() : 0;
     }
 
     Discretisation                discretisation;

@@ -1,12 +1,12 @@
-// The composition root: a scene from parameters to results, step by step. Its
-// members stand in the order in which data flows.
+// The composition root: a run from parameters to results. The members stand in
+// the order of the data flow.
 #pragma once
 
 #include <mortise/problem/adaptive/adaptivity.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/load_steps.h>
-#include <mortise/problem/run_checkpoint.h>
 #include <mortise/problem/results/step_results.h>
+#include <mortise/problem/run_checkpoint.h>
 #include <mortise/problem/run_output.h>
 #include <mortise/problem/scene_solver.h>
 #include <mortise/problem/state.h>
@@ -22,19 +22,19 @@ namespace mortise
   public:
     Simulation(const Parameters &parameters, RunLog &log, MPI_Comm comm);
 
-    /// Open the meshes and check what depends on them; builds no spaces.
-    /// Collective; throws InputError.
+    /// Open the meshes and check the parameters that refer to them; builds no
+    /// spaces. Collective; throws InputError.
     void
     create_meshes();
 
-    /// All that can be known of a scene before it is solved, coupling apart:
-    /// create_meshes(), where results would go, and the points that are asked
-    /// for. Collective; throws InputError.
+    /// Check the scene without solving it: create_meshes(), the output
+    /// directory and points. Collective; throws InputError.
     void
     validate();
 
-    /// Go on from @p checkpoint, in @p directory: run() and compute() do the steps behind it.
-    /// Throws InputError if it is of another run, or damaged.
+    /// Continue from @p checkpoint, in @p directory: run() and compute() do the
+    /// remaining steps. Throws InputError for one of another run or a damaged
+    /// one.
     void
     resume(const RunCheckpoint &checkpoint, const std::string &directory);
 
@@ -44,9 +44,8 @@ namespace mortise
     compute();
 
     /// The whole run. Collective; throws InputError before anything is written,
-    /// or after the first step of which something could not be written, when
-    /// all that can be has been, and ConvergenceError after what was reached
-    /// has been written.
+    /// or after a step with an error of writing, and ConvergenceError after the
+    /// last result has been written.
     void
     run();
 
@@ -61,35 +60,33 @@ namespace mortise
     /// The next meshes, if there are cycles, and the equations on them.
     void
     discretise();
-    /// All that is asked for; with files if @p writes.
+    /// All steps or cycles; with files if @p writes.
     void
     march(bool writes);
     /// Step by step on one mesh.
     void
     run_steps(bool writes);
-    /// Each step with other meshes and degrees until the error is small enough,
-    /// or no others are allowed, from the first mesh on.
+    /// Each step with adaptive cycles from the first mesh on.
     void
     run_cycles(bool writes);
-    /// Likewise, one step.
+    /// The cycles of one step.
     void
     cycle(bool writes);
-    /// What the next cycle has beside the parameters: cells become smaller than
-    /// what the sides of contact move, which are looked for as far as they have
-    /// moved in the last one.
+    /// Plan of the next cycle: least search distances of contact by the
+    /// relative motion of the last cycle, since cells become smaller than that.
     CyclePlan
     cycle_plan() const;
     bool
     is_last_cycle() const;
     void
     announce_step() const;
-    /// One step, or half of it if it does not converge and may be halved.
+    /// One step, which is halved if it does not converge and may be halved.
     void
     step(bool writes);
     /// Set the state to that of the checkpoint in @p directory.
     void
     restore(const std::string &directory);
-    /// Estimate the error of the cycle, with a quantity by its dual problem.
+    /// Estimate the error of the cycle; for a quantity solve its dual problem.
     void
     estimate_error(const StepEvaluation &evaluation);
     StepSummary
@@ -100,7 +97,7 @@ namespace mortise
     const Parameters parameters;
     Timers           timers;
     const RunContext context;
-    FieldChecks      field_checks; ///< of what is given
+    FieldChecks      field_checks; ///< of the scene
 
     LoadSteps                    steps;
     std::string                  restart; ///< directory of a checkpoint

@@ -1,7 +1,7 @@
 // State of a run, argument and result of a load step.
 #pragma once
 
-#include <mortise/contact/multiplier_places.h>
+#include <mortise/contact/multiplier_positions.h>
 #include <mortise/operators/block_system.h>
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace mortise
     double       time = 0.;
     SystemVector solution; ///< without prescribed values; empty: unloaded
     /// Active set of contact; absent before it is known.
-    std::optional<ActivePlaces> pressing;
+    std::optional<ActivePositions> active_set;
     /// By interface, the shortening of its preload, a length; empty before the
     /// first step.
     std::vector<double> shortenings;

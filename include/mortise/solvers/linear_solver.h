@@ -40,12 +40,12 @@ namespace mortise
     /// Set the limits of later solves in place of those of SolverOptions.
     void
     set_limits(const double       tolerance,
-               const double       energy_share,
+               const double       energy_fraction,
                const unsigned int max_iterations)
     {
-      options.tolerance      = tolerance;
-      options.energy_share   = energy_share;
-      options.max_iterations = max_iterations;
+      options.tolerance       = tolerance;
+      options.energy_fraction = energy_fraction;
+      options.max_iterations  = max_iterations;
     }
 
     /// Solve for @p rhs = (f, h, g), starting at zero. Without convergence the
@@ -73,15 +73,15 @@ namespace mortise
                  const std::string   &method);
 
     /// Does the method rely on BlockSystem::is_symmetric()? update() throws
-    /// InputError where that does not hold.
+    /// InputError if it does not hold.
     virtual bool
     needs_symmetry() const
     {
       return true;
     }
 
-    /// False, on all ranks, when the system turned out not to be what the
-    /// method needs; run() is not called then.
+    /// False on all ranks if the method cannot solve the system; run() is not
+    /// called then.
     virtual bool
     set_up() = 0;
 

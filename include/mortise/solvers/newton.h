@@ -10,15 +10,15 @@
 
 namespace mortise
 {
-  /// A(x) = b, as Newton's method sees it. Collective.
+  /// A nonlinear problem A(x) = b for Newton's method. Collective.
   class NonlinearProblem
   {
   public:
     virtual ~NonlinearProblem() = default;
 
     /// Evaluate b - A(x); returns its size, free of units. With contact the
-    /// active set that follows from x is chosen, and the share of multipliers
-    /// that it changes is part of the size.
+    /// active set that follows from x is chosen, and the fraction of
+    /// multipliers that it changes is part of the size.
     virtual double
     residual(const SystemVector &x) = 0;
 
@@ -37,8 +37,8 @@ namespace mortise
   {
     double       tolerance      = 1e-10; ///< of NonlinearProblem::residual()
     unsigned int max_iterations = 20;
-    /// Of one increment, where the residual does not fall; 0: increments are
-    /// taken in full, as piecewise linear problems want them.
+    /// Of one increment, where the residual does not fall; 0: full increments,
+    /// for piecewise linear problems.
     unsigned int max_halvings = 8;
     /// Called after each iteration with its number and the residual.
     std::function<void(unsigned int, double)> monitor;

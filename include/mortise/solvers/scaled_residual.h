@@ -50,10 +50,10 @@ namespace mortise
     /// 1964), while @p relative_error, an estimate in the energy norm, is below
     /// 1e-6. Collective.
     void
-    judge(const Solved                  &solved,
-          double                         tolerance,
-          const std::function<double()> &relative_error,
-          SolveReport                   &report) const;
+    assess(const Solved                  &solved,
+           double                         tolerance,
+           const std::function<double()> &relative_error,
+           SolveReport                   &report) const;
 
     /// Lower bound of the energy of displacements that balance a right hand
     /// side of norm @p rhs_norm without multipliers: f D_u^{-1} f over the

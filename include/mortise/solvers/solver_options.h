@@ -31,7 +31,7 @@ namespace mortise
     /// Number of earlier solutions that are kept, see SuccessiveSolutions.
     unsigned int successive = 0;
 
-    double energy_share = 0.03; ///< see energy_tolerance()
+    double energy_fraction = 0.03; ///< see energy_tolerance()
 
     /// Iterative solvers also bound the estimated error in the energy norm,
     /// relative to the solution, since on fine meshes a small residual does not
@@ -39,7 +39,8 @@ namespace mortise
     double
     energy_tolerance() const
     {
-      return std::max(energy_share * tolerance, 1e-12); // what rounding leaves
+      return std::max(energy_fraction * tolerance,
+                      1e-12); // what rounding leaves
     }
 
     /// Called on every rank after each iteration with its number and the

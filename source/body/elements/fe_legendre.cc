@@ -64,17 +64,17 @@ namespace mortise
   cell_dof_indices(const unsigned int degree)
   {
     const unsigned int n = degree + 1;
-    const auto         places =
+    const auto         positions =
       FETools::hierarchic_to_lexicographic_numbering<3>(degree);
-    std::vector<unsigned int> dofs(places.size());
-    for (unsigned int dof = 0; dof < places.size(); ++dof)
+    std::vector<unsigned int> dofs(positions.size());
+    for (unsigned int dof = 0; dof < positions.size(); ++dof)
       {
         const unsigned int i =
-          lexicographic_to_lobatto(degree, places[dof] % n);
+          lexicographic_to_lobatto(degree, positions[dof] % n);
         const unsigned int j =
-          lexicographic_to_lobatto(degree, places[dof] / n % n);
+          lexicographic_to_lobatto(degree, positions[dof] / n % n);
         const unsigned int k =
-          lexicographic_to_lobatto(degree, places[dof] / (n * n));
+          lexicographic_to_lobatto(degree, positions[dof] / (n * n));
         dofs[i + n * (j + n * k)] = dof;
       }
     return dofs;

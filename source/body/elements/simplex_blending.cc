@@ -179,15 +179,15 @@ namespace mortise
         off[j] = cell->line(line)->get_manifold().get_new_point(
                    make_array_view(ends.cbegin(), ends.cend()),
                    make_array_view(weights.cbegin(), weights.cend())) -
-                 Point<3>(places[own[j]]);
+                 Point<3>(positions[own[j]]);
       }
     for (unsigned int k = 0; k < n; ++k)
       {
         Tensor<1, 3> mode;
         for (unsigned int j = 0; j < n; ++j)
           mode += layout.line_modes[line](k, j) * off[j];
-        for (unsigned int q = 0; q < places.size(); ++q)
-          places[q] += layout.modes(q, 4 + line * n + k) * mode;
+        for (unsigned int q = 0; q < positions.size(); ++q)
+          positions[q] += layout.modes(q, 4 + line * n + k) * mode;
       }
   }
 
@@ -204,7 +204,7 @@ namespace mortise
     for (const unsigned int l : layout.face_lines[face])
       for (const unsigned int q : layout.line_nodes[l])
         if (blended)
-          around.emplace_back(places[q]);
+          around.emplace_back(positions[q]);
     std::vector<Tensor<1, 3>> off(own.size());
     for (unsigned int j = 0; j < own.size(); ++j)
       {
@@ -217,7 +217,7 @@ namespace mortise
         off[j] = cell->face(face)->get_manifold().get_new_point(
                    make_array_view(around.cbegin(), around.cend()),
                    make_array_view(weights.cbegin(), weights.cend())) -
-                 Point<3>(places[own[j]]);
+                 Point<3>(positions[own[j]]);
       }
     const unsigned int first =
       4 + 6 * n_line_modes(degree) + face * n_face_modes(degree);
@@ -226,8 +226,8 @@ namespace mortise
         Tensor<1, 3> mode;
         for (unsigned int j = 0; j < own.size(); ++j)
           mode += layout.face_modes[face](k, j) * off[j];
-        for (unsigned int q = 0; q < places.size(); ++q)
-          places[q] += layout.modes(q, first + k) * mode;
+        for (unsigned int q = 0; q < positions.size(); ++q)
+          positions[q] += layout.modes(q, first + k) * mode;
       }
   }
 
@@ -243,7 +243,7 @@ namespace mortise
         const auto          lambda = barycentric_coordinates(nodes[q]);
         for (const unsigned int v : vertex_order(cell))
           weights.push_back(lambda[v]);
-        places[q] = cell->get_manifold().get_new_point(
+        positions[q] = cell->get_manifold().get_new_point(
           make_array_view(vertices.cbegin(), vertices.cend()),
           make_array_view(weights.cbegin(), weights.cend()));
       }
@@ -253,10 +253,10 @@ namespace mortise
   SimplexBlending::points(const CellIterator &cell)
   {
     const Layout &order = layout(vertex_order(cell));
-    places.assign(nodes.size(), Tensor<1, 3>());
+    positions.assign(nodes.size(), Tensor<1, 3>());
     for (unsigned int q = 0; q < nodes.size(); ++q)
       for (unsigned int v = 0; v < 4; ++v)
-        places[q] += barycentric_coordinates(nodes[q])[v] * cell->vertex(v);
+        positions[q] += barycentric_coordinates(nodes[q])[v] * cell->vertex(v);
 
     for (unsigned int l = 0; l < 6; ++l)
       if (!flat(cell->line(l)->manifold_id()))
@@ -266,6 +266,6 @@ namespace mortise
         bend_face(cell, order, f);
     if (!flat(cell->manifold_id()))
       bend_inside(cell, order);
-    return std::vector<Point<3>>(places.begin(), places.end());
+    return std::vector<Point<3>>(positions.begin(), positions.end());
   }
 } // namespace mortise

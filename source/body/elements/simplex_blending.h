@@ -72,6 +72,6 @@ namespace mortise
     std::map<VertexOrder, Layout>       layouts;
 
     /// Of the cell at hand: places, which modes and where they put the nodes.
-    std::vector<dealii::Tensor<1, 3>> places;
+    std::vector<dealii::Tensor<1, 3>> positions;
   };
 } // namespace mortise

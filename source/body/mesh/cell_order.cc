@@ -20,14 +20,14 @@ namespace mortise
           sum += mesh.vertices[v];
         centres.push_back(sum / double(cell.vertices.size()));
       }
-    const auto places =
+    const auto positions =
       Utilities::inverse_Hilbert_space_filling_curve<3>(centres, 20);
     std::vector<std::size_t> order(mesh.cells.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(),
                      order.end(),
                      [&](const auto a, const auto b) {
-                       return places[a] < places[b];
+                       return positions[a] < positions[b];
                      });
 
     std::vector<CellData<3>> cells;

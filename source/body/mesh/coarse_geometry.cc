@@ -223,9 +223,9 @@ namespace mortise
     for (unsigned int level = 1; level < triangulation.n_levels(); ++level)
       for (const auto &cell : triangulation.cell_iterators_on_level(level))
         {
-          const std::vector<Point<3>> places = points(cell, unit);
+          const std::vector<Point<3>> positions = points(cell, unit);
           for (const unsigned int v : cell->vertex_indices())
-            cell->vertex(v) = places[v];
+            cell->vertex(v) = positions[v];
         }
   }
 

@@ -87,9 +87,9 @@ namespace mortise
     {
       GmshElements        block;
       int                 d = 0, order = 0, n_nodes = 0, n_vertices = 0;
-      std::vector<double> places;
+      std::vector<double> positions;
       gmsh::model::mesh::getElementProperties(
-        type, block.type, d, order, n_nodes, places, n_vertices);
+        type, block.type, d, order, n_nodes, positions, n_vertices);
       block.dimension  = d;
       block.order      = order;
       block.n_vertices = n_vertices;
@@ -97,7 +97,7 @@ namespace mortise
         {
           Point<3> x;
           for (int c = 0; c < d; ++c)
-            x[c] = places[d * i + c];
+            x[c] = positions[d * i + c];
           block.reference.push_back(x);
         }
       return block;

@@ -122,17 +122,17 @@ namespace mortise
     }
 
     /// Where the nodes of gmsh's element are in a cell of ours.
-    struct NodePlaces
+    struct NodePositions
     {
       std::vector<unsigned int> vertices; ///< gmsh's node at our vertex
       std::vector<unsigned int> nodes;    ///< our node (of 27 or 10) of gmsh's
     };
 
-    NodePlaces
-    node_places(const GmshElements &block)
+    NodePositions
+    node_positions(const GmshElements &block)
     {
-      NodePlaces places;
-      places.vertices.resize(block.n_vertices);
+      NodePositions positions;
+      positions.vertices.resize(block.n_vertices);
       const bool cube = block.n_vertices == 8 ||
                         (block.dimension == 2 && block.n_vertices == 4);
       for (unsigned int i = 0; i < block.reference.size(); ++i)
@@ -145,8 +145,8 @@ namespace mortise
           if (cube)
             {
               if (i < block.n_vertices)
-                places.vertices[at[0] / 2 + at[1] + 2 * at[2]] = i;
-              places.nodes.push_back(at[0] + 3 * at[1] + 9 * at[2]);
+                positions.vertices[at[0] / 2 + at[1] + 2 * at[2]] = i;
+              positions.nodes.push_back(at[0] + 3 * at[1] + 9 * at[2]);
               continue;
             }
           unsigned int vertex = 0, line = numbers::invalid_unsigned_int;
@@ -164,10 +164,10 @@ namespace mortise
                 line = l;
             }
           if (i < block.n_vertices)
-            places.vertices[vertex] = i;
-          places.nodes.push_back(i < block.n_vertices ? vertex : 4 + line);
+            positions.vertices[vertex] = i;
+          positions.nodes.push_back(i < block.n_vertices ? vertex : 4 + line);
         }
-      return places;
+      return positions;
     }
 
     /// Append the cells of @p block, with the model's numbers of nodes.
@@ -178,7 +178,7 @@ namespace mortise
               CoarseMesh            &mesh,
               std::vector<Point<3>> &curved_nodes)
     {
-      const NodePlaces places = node_places(block);
+      const NodePositions positions = node_positions(block);
       // of the groups that a volume is in, the one that was asked for
       int material = block.groups.empty() ? 0 : block.groups[0];
       for (const int tag : block.groups)
@@ -196,14 +196,14 @@ namespace mortise
           const unsigned int *element = &block.nodes[e * n];
           CellData<3>         cell(block.n_vertices);
           for (unsigned int v = 0; v < block.n_vertices; ++v)
-            cell.vertices[v] = element[places.vertices[v]];
+            cell.vertices[v] = element[positions.vertices[v]];
           cell.material_id = material;
           mesh.cells.push_back(cell);
           if (block.order == 1)
             continue;
           std::vector<Point<3>> nodes(n_nodes);
           for (unsigned int i = 0; i < n; ++i)
-            nodes[places.nodes[i]] = model.nodes[element[i]];
+            nodes[positions.nodes[i]] = model.nodes[element[i]];
           if (n == 20)
             complete_serendipity(nodes);
           curved_nodes.insert(curved_nodes.end(), nodes.begin(), nodes.end());

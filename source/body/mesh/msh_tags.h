@@ -20,17 +20,17 @@ namespace mortise
     {
       if (tag < 1)
         in.fail("a node has the tag 0; allowed: 1 and more");
-      places.emplace_back(tag, places.size());
+      positions.emplace_back(tag, positions.size());
     }
 
     void
     finish(const MshScanner &in)
     {
-      std::sort(places.begin(), places.end());
-      for (std::size_t i = 1; i < places.size(); ++i)
-        if (places[i].first == places[i - 1].first)
+      std::sort(positions.begin(), positions.end());
+      for (std::size_t i = 1; i < positions.size(); ++i)
+        if (positions[i].first == positions[i - 1].first)
           in.fail("there are two nodes with the tag " +
-                  std::to_string(places[i].first) + "; allowed: one");
+                  std::to_string(positions[i].first) + "; allowed: one");
     }
 
     /// Index of the node @p tag in the file's order.
@@ -38,17 +38,17 @@ namespace mortise
     index(const std::uint64_t tag, const MshScanner &in) const
     {
       const auto found =
-        std::lower_bound(places.begin(),
-                         places.end(),
+        std::lower_bound(positions.begin(),
+                         positions.end(),
                          std::make_pair(tag, std::uint64_t(0)));
-      if (found == places.end() || found->first != tag)
+      if (found == positions.end() || found->first != tag)
         in.fail("an element has the node " + std::to_string(tag) +
                 ", which the file does not have");
       return found->second;
     }
 
   private:
-    std::vector<std::pair<std::uint64_t, std::uint64_t>> places;
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> positions;
   };
 
   /// Totals of all blocks in the header of a section of version 4.1.

@@ -87,24 +87,25 @@ namespace mortise
     /// Places in the cell of the nodes of hexahedra, as numbers of
     /// Gauss-Lobatto points along each axis, in the order of FE_Q.
     std::vector<std::array<unsigned int, dim>>
-    hexahedral_places(const unsigned int degree)
+    hexahedral_positions(const unsigned int degree)
     {
-      std::vector<std::array<unsigned int, dim>> places;
+      std::vector<std::array<unsigned int, dim>> positions;
       for (const unsigned int i :
            FETools::hierarchic_to_lexicographic_numbering<dim>(degree))
-        places.push_back({{i % (degree + 1),
-                           i / (degree + 1) % (degree + 1),
-                           i / (degree + 1) / (degree + 1)}});
-      return places;
+        positions.push_back({{i % (degree + 1),
+                              i / (degree + 1) % (degree + 1),
+                              i / (degree + 1) / (degree + 1)}});
+      return positions;
     }
 
     NodesAcross
     hexahedral_lines(const unsigned int degree, const unsigned int axis)
     {
-      const auto places = hexahedral_places(degree);
+      const auto positions = hexahedral_positions(degree);
       std::map<std::array<unsigned int, 2>, std::vector<unsigned int>> lines;
-      for (unsigned int i = 0; i < places.size(); ++i)
-        lines[{{places[i][(axis + 1) % dim], places[i][(axis + 2) % dim]}}]
+      for (unsigned int i = 0; i < positions.size(); ++i)
+        lines[{{positions[i][(axis + 1) % dim],
+                positions[i][(axis + 2) % dim]}}]
           .push_back(i);
       NodesAcross result;
       for (auto &line : lines)
@@ -234,15 +235,15 @@ namespace mortise
     if (cell->reference_cell() == ReferenceCells::Hexahedron)
       {
         const QGaussLobatto<1> points(degree + 1);
-        const auto             places = hexahedral_places(degree);
-        values.reinit(places.size(), 8);
-        for (unsigned int i = 0; i < places.size(); ++i)
+        const auto             positions = hexahedral_positions(degree);
+        values.reinit(positions.size(), 8);
+        for (unsigned int i = 0; i < positions.size(); ++i)
           for (unsigned int v = 0; v < 8; ++v)
             {
               values(i, v) = 1.;
               for (unsigned int d = 0; d < dim; ++d)
                 {
-                  const double x = points.point(places[i][d])[0];
+                  const double x = points.point(positions[i][d])[0];
                   values(i, v) *= (v >> d & 1U) == 1 ? x : 1. - x;
                 }
             }

@@ -7,7 +7,7 @@ namespace mortise
 {
   using namespace dealii;
 
-  LevelFunctions::LevelFunctions(const NodalLevel       &level,
+  LevelFunctions::LevelFunctions(const MultigridLevel   &level,
                                  const Layout           &layout,
                                  const VertexCoarsening *coarsening)
     : level(level)
@@ -114,7 +114,7 @@ namespace mortise
   void
   LevelFunctions::add(const FullMatrix<double> &of_cell,
                       const Masters            &masters,
-                      NodalBlockMatrixBuilder  &builder)
+                      BlockCsrMatrixBuilder    &builder)
   {
     if (!masters.plain)
       resolve(masters, of_cell);
@@ -139,7 +139,7 @@ namespace mortise
   void
   LevelFunctions::add_projected(const FullMatrix<double> &matrix,
                                 const std::vector<Index> &nodes,
-                                NodalBlockMatrixBuilder  &builder)
+                                BlockCsrMatrixBuilder    &builder)
   {
     numbers.clear();
     for (const Index node : nodes)

@@ -1,4 +1,4 @@
-#include <mortise/operators/levels/nodal_penalty.h>
+#include <mortise/operators/levels/jump_penalty.h>
 #include <mortise/operators/matrix_free/tensor_kernel.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace mortise
   using namespace dealii;
 
   template <typename Number>
-  PenaltyProduct<Number>::Part::Part(const NodalPenalty &penalty)
+  PenaltyProduct<Number>::Part::Part(const JumpPenalty &penalty)
     : penalty(penalty)
   {
     // rows are filled with zeros to whole vectors of the processor
@@ -32,12 +32,12 @@ namespace mortise
 
   template <typename Number>
   PenaltyProduct<Number>::PenaltyProduct(
-    std::shared_ptr<const NodalPenalties> given)
+    std::shared_ptr<const JumpPenalties> given)
     : penalties(std::move(given))
     , layout(*penalties->layout)
   {
     std::size_t widest = 0;
-    for (const NodalPenalty &penalty : penalties->parts)
+    for (const JumpPenalty &penalty : penalties->parts)
       {
         parts.emplace_back(penalty);
         for (const auto &group : penalty.groups)

@@ -20,17 +20,17 @@ namespace mortise
     class CoarseJumps
     {
     public:
-      CoarseJumps(const std::vector<WeakJump> &jumps,
-                  const IndexSet              &owned_nodes,
-                  const VertexCoarsening      &coarsening,
-                  NodalBlockMatrixBuilder     &builder,
-                  const MPI_Comm               comm)
+      CoarseJumps(const std::vector<ConstraintPenalty> &jumps,
+                  const IndexSet                       &owned_nodes,
+                  const VertexCoarsening               &coarsening,
+                  BlockCsrMatrixBuilder                &builder,
+                  const MPI_Comm                        comm)
         : jumps(jumps)
         , builder(builder)
         , begin_of_jump({0})
       {
         std::vector<Index> nodes;
-        for (const WeakJump &jump : jumps)
+        for (const ConstraintPenalty &jump : jumps)
           for (const auto &entry : jump.entries)
             nodes.push_back(entry.first);
         std::sort(nodes.begin(), nodes.end());
@@ -45,7 +45,7 @@ namespace mortise
         const std::vector<unsigned int>      begin = rows.begin();
         std::map<unsigned int, double>       sum; // by number in the builder
         std::map<unsigned int, unsigned int> index_of_number;
-        for (const WeakJump &jump : jumps)
+        for (const ConstraintPenalty &jump : jumps)
           {
             sum.clear();
             for (const auto &[node, value] : jump.entries)
@@ -139,8 +139,8 @@ namespace mortise
               }
       }
 
-      const std::vector<WeakJump>                 &jumps;
-      NodalBlockMatrixBuilder                     &builder;
+      const std::vector<ConstraintPenalty>        &jumps;
+      BlockCsrMatrixBuilder                       &builder;
       std::vector<unsigned int>                    begin_of_jump;
       std::vector<std::pair<unsigned int, double>> entries; ///< node, value
       std::vector<unsigned int> numbers_of_nodes;           ///< in the builder
@@ -158,10 +158,10 @@ namespace mortise
 
     /// Of the cells that are not linear.
     void
-    add_projected(const NodalLevel                   &level,
+    add_projected(const MultigridLevel               &level,
                   const MatrixFreeElasticity<double> &elasticity,
                   LevelFunctions                     &functions,
-                  NodalBlockMatrixBuilder            &builder)
+                  BlockCsrMatrixBuilder              &builder)
     {
       const auto find_masters = [&](const auto &cell) {
         std::vector<Index> nodes;
@@ -183,9 +183,9 @@ namespace mortise
     }
 
     void
-    add_linear(const NodalLevel        &level,
-               LevelFunctions          &functions,
-               NodalBlockMatrixBuilder &builder)
+    add_linear(const MultigridLevel  &level,
+               LevelFunctions        &functions,
+               BlockCsrMatrixBuilder &builder)
     {
       LinearCellMatrices matrices;
       level.space->for_each_cell([&](const Body               &body,
@@ -201,17 +201,17 @@ namespace mortise
   } // namespace
 
   VertexMatrix
-  assemble_thickness_matrix(const NodalLevel                   &level,
-                            const MatrixFreeElasticity<double> &elasticity,
-                            const ThicknessCoarsening          &coarsening,
-                            const std::vector<WeakJump>        &jumps)
+  assemble_thickness_matrix(const MultigridLevel                 &level,
+                            const MatrixFreeElasticity<double>   &elasticity,
+                            const ThicknessCoarsening            &coarsening,
+                            const std::vector<ConstraintPenalty> &jumps)
   {
     const VertexCoarsening &kept  = coarsening.functions;
     const NodalSpace       &space = *level.space;
     const IndexSet         &owned = space.owned_nodes();
     const MPI_Comm          comm  = level.layout->get_mpi_communicator();
     LevelFunctions          functions(level, level.layout, &kept);
-    NodalBlockMatrixBuilder builder(kept.owned, comm);
+    BlockCsrMatrixBuilder   builder(kept.owned, comm);
     const CoarseJumps       penalty(jumps, owned, kept, builder, comm);
     for (const Index node : kept.owned)
       builder.couple({builder.local_number(node)});

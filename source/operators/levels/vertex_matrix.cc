@@ -13,11 +13,11 @@ namespace mortise
     using Index = types::global_dof_index;
 
     void
-    couple_all(const NodalLevel        &level,
-               const LevelFunctions    &functions,
-               const LevelFunctions    *of_penalties,
-               const IndexSet          &owned,
-               NodalBlockMatrixBuilder &builder)
+    couple_all(const MultigridLevel  &level,
+               const LevelFunctions  &functions,
+               const LevelFunctions  *of_penalties,
+               const IndexSet        &owned,
+               BlockCsrMatrixBuilder &builder)
     {
       for (const Index node : owned)
         builder.couple({builder.local_number(node)});
@@ -41,7 +41,7 @@ namespace mortise
         return result;
       };
       if (of_penalties != nullptr)
-        for (const NodalPenalty &penalty : level.penalties->parts)
+        for (const JumpPenalty &penalty : level.penalties->parts)
           for (const auto &group : penalty.groups)
             if (const auto rows = find(group.rows),
                 columns         = find(group.columns);
@@ -51,10 +51,10 @@ namespace mortise
     }
 
     void
-    add_cells(const NodalLevel        &level,
-              LevelFunctions          &functions,
-              NodalBlockMatrixBuilder &builder,
-              VertexMatrix            &result)
+    add_cells(const MultigridLevel  &level,
+              LevelFunctions        &functions,
+              BlockCsrMatrixBuilder &builder,
+              VertexMatrix          &result)
     {
       LinearCellMatrices matrices;
       const auto        &owned = level.space->owned_nodes();
@@ -78,9 +78,9 @@ namespace mortise
     class PenaltyEntry
     {
     public:
-      PenaltyEntry(const NodalPenalty      &penalty,
-                   const LevelFunctions    &functions,
-                   NodalBlockMatrixBuilder &builder)
+      PenaltyEntry(const JumpPenalty     &penalty,
+                   const LevelFunctions  &functions,
+                   BlockCsrMatrixBuilder &builder)
         : penalty(penalty)
         , functions(functions)
         , builder(builder)
@@ -112,18 +112,18 @@ namespace mortise
       }
 
     private:
-      const NodalPenalty                &penalty;
+      const JumpPenalty                 &penalty;
       const LevelFunctions              &functions;
-      NodalBlockMatrixBuilder           &builder;
+      BlockCsrMatrixBuilder             &builder;
       std::vector<LevelFunctions::Entry> rows, columns;
     };
 
     void
-    add_penalties(const NodalLevel        &level,
-                  const LevelFunctions    &functions,
-                  NodalBlockMatrixBuilder &builder)
+    add_penalties(const MultigridLevel  &level,
+                  const LevelFunctions  &functions,
+                  BlockCsrMatrixBuilder &builder)
     {
-      for (const NodalPenalty &penalty : level.penalties->parts)
+      for (const JumpPenalty &penalty : level.penalties->parts)
         {
           PenaltyEntry entry(penalty, functions, builder);
           for (const auto &group : penalty.groups)
@@ -137,7 +137,7 @@ namespace mortise
   } // namespace
 
   VertexMatrix
-  assemble_vertex_matrix(const NodalLevel       &level,
+  assemble_vertex_matrix(const MultigridLevel   &level,
                          const VertexCoarsening *coarsening)
   {
     const IndexSet &owned =
@@ -148,8 +148,7 @@ namespace mortise
       of_penalties = std::make_unique<LevelFunctions>(level,
                                                       level.penalties->layout,
                                                       coarsening);
-    NodalBlockMatrixBuilder builder(owned,
-                                    level.layout->get_mpi_communicator());
+    BlockCsrMatrixBuilder builder(owned, level.layout->get_mpi_communicator());
     couple_all(level, functions, of_penalties.get(), owned, builder);
     VertexMatrix result;
     result.points.resize(level.space->owned_nodes().n_elements());

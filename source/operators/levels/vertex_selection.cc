@@ -297,14 +297,16 @@ namespace mortise
           if (!layout.in_local_range(dim * node))
             needed.add_range(dim * node, dim * node + dim);
         const MPI_Comm      comm = layout.get_mpi_communicator();
-        LevelVector<double> places(layout.locally_owned_range(), needed, comm),
+        LevelVector<double> positions(layout.locally_owned_range(),
+                                      needed,
+                                      comm),
           numbers(layout.locally_owned_range(), needed, comm);
         for (unsigned int i = 0; i < dim * n_owned; ++i)
-          places.local_element(i) = place.local_element(i);
+          positions.local_element(i) = place.local_element(i);
         for (unsigned int k = 0; k < result.kept.size(); ++k)
           numbers.local_element(dim * result.kept[k]) =
             result.owned.nth_index_in_set(k);
-        places.update_ghost_values();
+        positions.update_ghost_values();
         numbers.update_ghost_values();
 
         std::vector<Index> candidates;
@@ -329,7 +331,7 @@ namespace mortise
             std::sort(candidates.begin(), candidates.end());
             candidates.erase(std::unique(candidates.begin(), candidates.end()),
                              candidates.end());
-            add_row(at(i), candidates, places, numbers, result);
+            add_row(at(i), candidates, positions, numbers, result);
           }
         result.begin.push_back(result.nodes.size());
       }
@@ -337,7 +339,7 @@ namespace mortise
       void
       add_row(const Tensor<1, dim>      &x,
               const std::vector<Index>  &candidates,
-              const LevelVector<double> &places,
+              const LevelVector<double> &positions,
               const LevelVector<double> &numbers,
               VertexCoarsening          &result) const
       {
@@ -346,7 +348,7 @@ namespace mortise
           {
             nearest.emplace_back(-x, node);
             for (unsigned int c = 0; c < dim; ++c)
-              nearest.back().first[c] += places(dim * node + c);
+              nearest.back().first[c] += positions(dim * node + c);
           }
         std::sort(nearest.begin(),
                   nearest.end(),
@@ -376,7 +378,7 @@ namespace mortise
       /// That a value follows from: doc/measurements/tuning.md.
       static constexpr unsigned int n_nearest = 6;
 
-      const NodalBlockMatrix            &blocks;
+      const BlockCsrMatrix              &blocks;
       const Utilities::MPI::Partitioner &layout;
       const unsigned int                 n_owned;
       LevelVector<double>                place, body, state;

@@ -62,7 +62,7 @@ namespace mortise
   void
   constrain(const std::vector<unsigned int> &constrained_fine,
             const VertexCoarsening          &coarsening,
-            NodalBlockMatrix                &coarse)
+            BlockCsrMatrix                  &coarse)
   {
     std::vector<bool> is_constrained(dim * (coarsening.begin.size() - 1));
     for (const unsigned int index : constrained_fine)
@@ -82,11 +82,11 @@ namespace mortise
               coarse.values[dim * dim * k + dim * c + r] = 0.;
   }
 
-  NodalBlockMatrix
-  coarsen(const NodalBlockMatrix &fine, const VertexCoarsening &coarsening)
+  BlockCsrMatrix
+  coarsen(const BlockCsrMatrix &fine, const VertexCoarsening &coarsening)
   {
-    NodalBlockMatrixBuilder builder(coarsening.owned,
-                                    fine.layout->get_mpi_communicator());
+    BlockCsrMatrixBuilder   builder(coarsening.owned,
+                                  fine.layout->get_mpi_communicator());
     const InterpolationRows rows = interpolation_rows(*fine.layout, coarsening);
     const std::vector<unsigned int> begin = rows.begin();
     std::vector<unsigned int>       indices;
@@ -149,14 +149,14 @@ namespace mortise
 
     IndexSet needed(coarsening.owned.size());
     needed.add_indices(coarsening.nodes.begin(), coarsening.nodes.end());
-    NodalBlockMatrix coarse = builder.finish(needed);
+    BlockCsrMatrix coarse = builder.finish(needed);
     constrain(constrained_components(fine), coarsening, coarse);
     return coarse;
   }
 
   template <typename Number>
   VertexTransfer<Number>::VertexTransfer(const VertexCoarsening &coarsening,
-                                         const NodalBlockMatrix &coarse)
+                                         const BlockCsrMatrix   &coarse)
     : begin(coarsening.begin)
     , weights(coarsening.weights.begin(), coarsening.weights.end())
   {

@@ -60,10 +60,11 @@ namespace mortise
   Adaptivity::add(const Bodies                      &bodies,
                   const std::vector<BodySolution>   &solutions,
                   const std::optional<DualSolution> &dual,
-                  std::vector<InterfaceViolation>    violations,
+                  std::vector<InterfaceResidual>     interface_residuals,
                   const Residuals                   &residuals)
   {
-    of_cycle.add(bodies, solutions, dual, std::move(violations), residuals);
+    of_cycle.add(
+      bodies, solutions, dual, std::move(interface_residuals), residuals);
     if (run.parameters.output.checkpoint_every > 0)
       keep(bodies);
     plan(bodies);
@@ -96,11 +97,12 @@ namespace mortise
                        ": tetrahedra without a geometry keep their size, "
                        "degrees alone rise");
       }
-    std::optional<double> allowed;
+    std::optional<double> allowed_error;
     if (of_cycle.memory.estimate)
-      allowed =
-        of_cycle.memory.allowed * (goal ? target() : target() * target());
-    next = plan_meshes(bodies, options, allowed, n_meshes, of_cycle.cells);
+      allowed_error =
+        of_cycle.memory.allowed_error * (goal ? target() : target() * target());
+    next =
+      plan_meshes(bodies, options, allowed_error, n_meshes, of_cycle.cells);
     if (!next.meshes.empty())
       ++n_meshes;
   }

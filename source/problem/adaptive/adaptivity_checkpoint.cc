@@ -21,7 +21,7 @@ namespace mortise
 
     /// Of all ranks, in an order that does not depend on them. Coefficients of
     /// the solution are in the checkpoint already. Collective.
-    std::vector<KeptCell>
+    std::vector<CellCheckpoint>
     gather(const Body &body, const std::vector<CellState> &states)
     {
       NumberedStates own;
@@ -37,7 +37,7 @@ namespace mortise
       std::sort(result.begin(), result.end(), [](const auto &a, const auto &b) {
         return a.first < b.first;
       });
-      std::vector<KeptCell> cells;
+      std::vector<CellCheckpoint> cells;
       for (const auto &[number, state] : result)
         {
           const CellId id(number);
@@ -105,7 +105,7 @@ namespace mortise
   }
 
   void
-  Adaptivity::resume(KeptCycles given)
+  Adaptivity::resume(CycleCheckpoint given)
   {
     check(given, run.parameters.bodies);
     const std::string name = goal ? goal->name : "";
@@ -138,7 +138,7 @@ namespace mortise
     for (const auto &body : bodies)
       {
         NumberedStates of_kept;
-        for (const KeptCell &cell : kept.cells[body->index])
+        for (const CellCheckpoint &cell : kept.cells[body->index])
           of_kept.emplace_back(number_of(cell), cell.state);
         if (sizes[body->index] != nullptr)
           create_mesh(run, sizes[body->index], *body);

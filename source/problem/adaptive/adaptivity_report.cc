@@ -9,11 +9,11 @@ namespace mortise
   {
     /// That the error may be larger, in words.
     std::string
-    doubt(const EstimateMemory &memory)
+    upper_text(const EstimateMemory &memory)
     {
       constexpr double noticeable = 1.1; // less is not worth saying
-      return *memory.at_most > noticeable * *memory.estimate ?
-               ", perhaps " + RunLog::number(*memory.at_most) :
+      return *memory.upper_estimate > noticeable * *memory.estimate ?
+               ", perhaps " + RunLog::number(*memory.upper_estimate) :
                "";
     }
 
@@ -34,7 +34,7 @@ namespace mortise
             worst = part;
             name  = "body " + bodies[b]->name;
           }
-      for (const InterfaceViolation &of : errors.violations)
+      for (const InterfaceResidual &of : errors.interface_residuals)
         if (const double part = of.size * of.size; part > worst)
           {
             worst = part;
@@ -90,7 +90,7 @@ namespace mortise
     return (goal ? goal->name + " = " + RunLog::number(memory.value) + ", " :
                    std::string()) +
            "estimated error " + RunLog::number(*memory.estimate) +
-           doubt(memory) +
+           upper_text(memory) +
            (goal ? "" : worst_part(adaptivity.errors(), bodies)) + ", target " +
            RunLog::number(adaptivity.target()) +
            (adaptivity.reached() ?
@@ -105,7 +105,7 @@ namespace mortise
     return "The error is " +
            (memory.estimate ?
               "estimated as " + RunLog::number(*memory.estimate) +
-                doubt(memory) :
+                upper_text(memory) :
               std::string("not known")) +
            "; Adaptivity/Target error is " +
            RunLog::number(adaptivity.target()) + ", and Adaptivity/" +

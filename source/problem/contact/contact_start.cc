@@ -75,15 +75,15 @@ namespace mortise
 
     struct Found
     {
-      std::optional<ActivePlaces> pressing;
-      unsigned int                n_sets = 0;
+      std::optional<ActivePositions> active_set;
+      unsigned int                   n_sets = 0;
     };
 
     Found
-    solve(const RunContext           &run,
-          const double                time,
-          Bodies                     &bodies,
-          std::optional<ActivePlaces> start)
+    solve(const RunContext              &run,
+          const double                   time,
+          Bodies                        &bodies,
+          std::optional<ActivePositions> start)
     {
       FieldChecks     checks; // the scene itself tells
       const SceneData data(run.parameters, time, checks);
@@ -101,11 +101,11 @@ namespace mortise
       preloads.begin(data, load);
       if (!step.solve(load, x).converged)
         return {};
-      return {step.active_places(), step.n_sets()};
+      return {step.active_positions(), step.n_sets()};
     }
   } // namespace
 
-  std::optional<ActivePlaces>
+  std::optional<ActivePositions>
   contact_start(const RunContext &run, const double time, Bodies &bodies)
   {
     if (n_nodes(run, bodies) < few_nodes)
@@ -126,8 +126,8 @@ namespace mortise
     std::ostream silent(nullptr);
     RunLog       log(silent, run.comm);
     Timers       timers;
-    std::optional<ActivePlaces> pressing;
-    std::string                 n_sets;
+    std::optional<ActivePositions> active_set;
+    std::string                    n_sets;
     try
       {
         while (!all.empty())
@@ -135,10 +135,10 @@ namespace mortise
             Found found = solve({all.back(), log, timers, run.comm},
                                 time,
                                 bodies,
-                                pressing);
-            if (!found.pressing)
+                                active_set);
+            if (!found.active_set)
               break;
-            pressing = std::move(found.pressing);
+            active_set = std::move(found.active_set);
             n_sets +=
               (n_sets.empty() ? "" : ", ") + std::to_string(found.n_sets);
             all.pop_back();
@@ -150,6 +150,6 @@ namespace mortise
       {}
     stage.details(n_sets.empty() ? "no contact found" :
                                    "active sets of lower degrees: " + n_sets);
-    return pressing;
+    return active_set;
   }
 } // namespace mortise

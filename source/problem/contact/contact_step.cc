@@ -2,8 +2,8 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-#include <mortise/problem/contact/contact_fall.h>
 #include <mortise/problem/contact/contact_step.h>
+#include <mortise/problem/contact/rigid_closing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,25 +48,25 @@ namespace mortise
       return owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
     }
 
-    MultiplierPlaces
-    multiplier_places(const Discretisation &discretisation)
+    MultiplierPositions
+    multiplier_positions(const Discretisation &discretisation)
     {
-      MultiplierPlaces places;
-      const auto      &all = discretisation.interfaces().all();
+      MultiplierPositions positions;
+      const auto         &all = discretisation.interfaces().all();
       for (unsigned int i = 0; i < all.size(); ++i)
         {
           for (const NormalMultiplier &multiplier : all[i].normal_multipliers)
             {
-              places.surfaces.push_back(1 + i);
-              places.points.push_back(multiplier.place);
+              positions.surfaces.push_back(1 + i);
+              positions.points.push_back(multiplier.position);
             }
-          places.surfaces.resize(all[i].multipliers->range().end(), 0);
-          places.points.resize(places.surfaces.size());
+          positions.surfaces.resize(all[i].multipliers->range().end(), 0);
+          positions.points.resize(positions.surfaces.size());
         }
-      return places;
+      return positions;
     }
 
-    /// By owned multiplier: NormalMultiplier::stiffness, or zero.
+    /// By owned multiplier: NormalMultiplier::complementarity, or zero.
     std::vector<double>
     gap_stiffness(const Discretisation &discretisation)
     {
@@ -74,18 +74,18 @@ namespace mortise
       for (const Coupling &coupling : discretisation.interfaces().all())
         {
           for (const NormalMultiplier &multiplier : coupling.normal_multipliers)
-            result.push_back(multiplier.stiffness);
+            result.push_back(multiplier.complementarity);
           result.resize(coupling.multipliers->range().end(), 0.);
         }
       return result;
     }
   } // namespace
 
-  ContactStep::ContactStep(const RunContext           &run,
-                           Discretisation             &discretisation,
-                           LinearSolver               &solver,
-                           Preloads                   &preloads,
-                           std::optional<ActivePlaces> start)
+  ContactStep::ContactStep(const RunContext              &run,
+                           Discretisation                &discretisation,
+                           LinearSolver                  &solver,
+                           Preloads                      &preloads,
+                           std::optional<ActivePositions> start)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
@@ -94,21 +94,21 @@ namespace mortise
           gap_stiffness(discretisation),
           first_multiplier(discretisation.linear_system()),
           run.comm)
-    , places(multiplier_places(discretisation))
-    , edge(places, run.comm)
+    , positions(multiplier_positions(discretisation))
+    , edge(positions, run.comm)
     , first(std::move(start))
     , increments(max_increments)
-    , unclear(discretisation.one_sided().size(), false)
+    , undecided_multipliers(discretisation.one_sided().size(), false)
   {
     const std::vector<bool> contact = discretisation.one_sided();
     n_contact                       = Utilities::MPI::sum<std::uint64_t>(
       std::count(contact.begin(), contact.end(), true), run.comm);
   }
 
-  ActivePlaces
-  ContactStep::active_places() const
+  ActivePositions
+  ContactStep::active_positions() const
   {
-    return {places, set.active(), run.comm};
+    return {positions, set.active(), run.comm};
   }
 
   std::string
@@ -116,7 +116,8 @@ namespace mortise
   {
     try
       {
-        discretisation.interfaces().check_held(active, preloads.have_forces());
+        discretisation.interfaces().check_no_free_motion(
+          active, preloads.have_forces());
       }
     catch (const InputError &error)
       {
@@ -152,7 +153,7 @@ namespace mortise
   void
   ContactStep::resume(const SceneLoad &load, const SystemVector &x)
   {
-    remember({load.rhs, x, first->nearest(places)});
+    remember({load.rhs, x, first->nearest(positions)});
   }
 
   std::vector<bool>
@@ -160,7 +161,7 @@ namespace mortise
   {
     const std::vector<bool> contact = discretisation.one_sided();
     const std::vector<bool> all(contact.size(), true);
-    std::vector<bool>       pressing = all;
+    std::vector<bool>       guess = all;
     if (last)
       {
         x                = last->x;
@@ -179,17 +180,17 @@ namespace mortise
     const Vector gaps = discretisation.gaps(
       load, last ? x : discretisation.linear_system().zero_vector());
     if (!last && first)
-      pressing = first->nearest(places);
+      guess = first->nearest(positions);
     else
       for (unsigned int i = 0; i < contact.size(); ++i)
-        pressing[i] =
+        guess[i] =
           !contact[i] || (last && last->active[i] ?
                             x.multiplier.begin()[i] > 0. :
                             gaps.begin()[i] <= (last ? -closed : closed));
     const auto holds = [this](const std::vector<bool> &active) {
       return free_motions(active).empty();
     };
-    return holds(pressing)             ? pressing :
+    return holds(guess)                ? guess :
            last && holds(last->active) ? last->active :
                                          all;
   }
@@ -216,7 +217,7 @@ namespace mortise
                      if (extends && !is_last)
                        edge.extend(set.active(), turns);
                    });
-    unclear = next.undecided();
+    undecided_multipliers = next.undecided();
     print(change);
     // sets that close again may have opened beyond the edge
     if (extends && extended && change.closed > 0)
@@ -247,11 +248,12 @@ namespace mortise
   {
     if (free_motions(next.active()).empty())
       return;
-    next.start_from(fall(discretisation, preloads, *load, x, next.active()));
+    next.start_from(
+      close_gaps_rigidly(discretisation, preloads, *load, x, next.active()));
     if (const std::string free = free_motions(next.active()); !free.empty())
-      throw InputError("Contact is lost: where it pulls it opens, and what "
-                       "still presses holds no longer. " +
-                       free);
+      throw InputError(
+        "Contact is lost: the contact that remains active does not hold the bodies. " +
+        free);
   }
 
   void
@@ -298,7 +300,7 @@ namespace mortise
   {
     solver.set_limits(tolerance,
                       tolerance == run.parameters.solver.tolerance ?
-                        SolverOptions().energy_share :
+                        SolverOptions().energy_fraction :
                       cold && sets > 1 ? loosest_energy :
                                          loose_energy,
                       max_iterations);
@@ -309,20 +311,21 @@ namespace mortise
   ContactStep::show()
   {
     n_shown = set.n_active();
-    discretisation.show_active();
+    discretisation.update_coarse_active_set();
     solver.update();
   }
 
   void
   ContactStep::print(const ActiveSet::Change &change) const
   {
-    run.log.line("  active set " + std::to_string(sets) + ": " +
-                 std::to_string(set.n_active()) + " press, " +
-                 std::to_string(change.opened) + " open, " +
-                 std::to_string(change.closed) + " close, " +
-                 std::to_string(change.undecided) + " undecided, " +
-                 std::to_string(iterations) + " iterations" +
-                 (set.cycles() ? ", by the energy since sets came back" : ""));
+    run.log.line(
+      "  active set " + std::to_string(sets) + ": " +
+      std::to_string(set.n_active()) + " active, " +
+      std::to_string(change.opened) + " open, " +
+      std::to_string(change.closed) + " close, " +
+      std::to_string(change.undecided) + " undecided, " +
+      std::to_string(iterations) + " iterations" +
+      (set.cycles() ? ", chosen by the energy, since sets recurred" : ""));
   }
 
   SolveReport

@@ -54,7 +54,7 @@ namespace mortise
             run.parameters.fail("Interface " + given.name + "/Preload",
                                 "an interface with edges, in " +
                                   std::to_string(n_patches) + " smooth patches",
-                                "an interface that is about flat");
+                                "a nearly flat interface");
           sum    = Utilities::MPI::sum(sum, run.comm);
           number = Utilities::MPI::sum(number, run.comm);
           if (sum.norm() < flat * number)
@@ -62,7 +62,7 @@ namespace mortise
               "Interface " + given.name + "/Preload",
               "an interface whose normals differ (their mean has length " +
                 RunLog::number(sum.norm() / number) + ")",
-              "an interface that is about flat, whose normal is the direction of the force");
+              "a nearly flat interface, whose normal is the direction of the force");
           indices.push_back(i);
           values.push_back(i < shortenings.size() ? shortenings[i] : 0.);
           units.push_back({discretisation.linear_system().zero_vector(), {}});

@@ -39,7 +39,7 @@ namespace mortise
     InterfaceLaw law;
     law.law = interface.law;
     if (interface.law == Law::slide || interface.law == Law::contact)
-      law.held = HeldDirections::normal;
+      law.constrained = ConstrainedDirections::normal;
     law.has_mesh_gap =
       interface.law == Law::contact && !interface.ignores_mesh_gap;
     if (interface.law != Law::spring)
@@ -54,11 +54,11 @@ namespace mortise
        tangential =
          positive_stiffness(across, *interface.tangential_stiffness)](
         const Point<3> &x) {
-        return Stiffness{normal(x), tangential(x)};
+        return InterfaceStiffness{normal(x), tangential(x)};
       };
     const Expression tangential(*interface.tangential_stiffness, across);
     if (tangential.is_constant() && tangential.value(Point<3>()) == 0.)
-      law.held = HeldDirections::normal;
+      law.constrained = ConstrainedDirections::normal;
     return law;
   }
 } // namespace mortise

@@ -12,8 +12,8 @@ namespace mortise
 
   namespace
   {
-    HeldBoundaries::Components
-    all_but(HeldBoundaries::Components which)
+    DirichletBoundaries::Components
+    all_but(DirichletBoundaries::Components which)
     {
       for (bool &component : which)
         component = !component;
@@ -91,21 +91,21 @@ namespace mortise
         });
     }
 
-    /// The tractions of @p all on boundaries of @p body where @p held, or its opposite, says so by
+    /// The tractions of @p all on boundaries of @p body where @p dirichlet, or its opposite, says so by
     /// component.
     std::vector<TractionCondition>
     tractions_on(const std::vector<TractionCondition> &all,
-                 const HeldBoundaries                 &held,
+                 const DirichletBoundaries            &dirichlet,
                  const unsigned int                    body,
-                 const bool                            on_held)
+                 const bool                            on_prescribed)
     {
       std::vector<TractionCondition> result;
       for (const TractionCondition &condition : all)
         {
-          auto which = held.components(body, condition.boundary);
-          if (!on_held)
+          auto which = dirichlet.components(body, condition.boundary);
+          if (!on_prescribed)
             which = all_but(which);
-          if (which == HeldBoundaries::Components())
+          if (which == DirichletBoundaries::Components())
             continue;
           result.push_back(
             {condition.boundary,
@@ -128,43 +128,43 @@ namespace mortise
     : discretisation(discretisation)
     , solved(solved)
     , solutions(solutions)
-    , held(discretisation)
+    , dirichlet(discretisation)
   {
-    const NodalSystem &nodal = *discretisation.linear_system().nodal;
+    const BulkSystem &nodal = *discretisation.linear_system().nodal;
     borne = nodal.internal_forces(values_at_nodes(discretisation, solutions),
                                   solved.solution.pressure);
     borne -= solved.load.external;
     reactions = borne;
     applied   = sum_over_nodes(solved.load.external);
 
-    std::vector<Loads> on_held(discretisation.bodies().size());
-    bool               any_on_held = false;
+    std::vector<Loads> on_prescribed(discretisation.bodies().size());
+    bool               any_on_prescribed = false;
     for (const auto &body : discretisation.bodies())
       {
         tractions.push_back(solved.data.loads(*body).tractions);
-        auto &there = on_held[body->index].tractions;
-        there       = tractions_on(tractions.back(), held, body->index, true);
-        any_on_held = any_on_held || !there.empty();
+        auto &there = on_prescribed[body->index].tractions;
+        there = tractions_on(tractions.back(), dirichlet, body->index, true);
+        any_on_prescribed = any_on_prescribed || !there.empty();
       }
-    if (any_on_held)
-      borne += nodal.external_forces(on_held);
+    if (any_on_prescribed)
+      borne += nodal.external_forces(on_prescribed);
     if (solved.solution.multiplier.size() > 0)
       {
-        borne += held.multiplier_forces(solved.solution.multiplier);
+        borne += dirichlet.multiplier_forces(solved.solution.multiplier);
         discretisation.linear_system().forces().Tvmult_add_free(
           reactions, solved.solution.multiplier);
       }
-    if (held.any_shared())
+    if (dirichlet.any_shared())
       for (const auto &body : discretisation.bodies())
-        for (const auto &[boundary, which] : held.all()[body->index])
+        for (const auto &[boundary, which] : dirichlet.all()[body->index])
           borne -= stresses_at_nodes(body->index, boundary, which);
   }
 
   LevelVector<double>
   BoundaryForces::stresses_at_nodes(
-    const unsigned int                b,
-    const types::boundary_id          boundary,
-    const HeldBoundaries::Components &which) const
+    const unsigned int                     b,
+    const types::boundary_id               boundary,
+    const DirichletBoundaries::Components &which) const
   {
     const Body         &body   = *discretisation.bodies()[b];
     LevelVector<double> result = discretisation.linear_system().nodal->by_node(
@@ -178,16 +178,16 @@ namespace mortise
                             const types::boundary_id boundary,
                             LevelVector<double>     &forces) const
   {
-    const auto which = held.components(b, boundary);
-    if (which == HeldBoundaries::Components())
+    const auto which = dirichlet.components(b, boundary);
+    if (which == DirichletBoundaries::Components())
       return;
     const LevelVector<double> own =
       nodes_with(discretisation, b, boundary, which);
     for (unsigned int i = 0; i < own.locally_owned_size(); ++i)
       if (own.local_element(i) > 0.)
         forces.local_element(i) +=
-          borne.local_element(i) / held.numbers().local_element(i);
-    if (held.any_shared())
+          borne.local_element(i) / dirichlet.numbers().local_element(i);
+    if (dirichlet.any_shared())
       forces += stresses_at_nodes(b, boundary, which);
   }
 
@@ -196,17 +196,20 @@ namespace mortise
                                  const types::boundary_id boundary,
                                  LevelVector<double>     &forces) const
   {
-    for_each_side_at(
-      discretisation,
-      b,
-      boundary,
-      nodes_with(
-        discretisation, b, boundary, all_but(held.components(b, boundary))),
-      [&](const unsigned int i, const LevelVector<double> &shares) {
-        LevelVector<double> own = held.forces_of(i, solved.solution.multiplier);
-        own.scale(shares);
-        forces -= own;
-      });
+    for_each_side_at(discretisation,
+                     b,
+                     boundary,
+                     nodes_with(discretisation,
+                                b,
+                                boundary,
+                                all_but(dirichlet.components(b, boundary))),
+                     [&](const unsigned int         i,
+                         const LevelVector<double> &shares) {
+                       LevelVector<double> own =
+                         dirichlet.forces_of(i, solved.solution.multiplier);
+                       own.scale(shares);
+                       forces -= own;
+                     });
   }
 
   ForceAndMoment
@@ -217,7 +220,7 @@ namespace mortise
     const Body        &body = *discretisation.bodies()[b];
     std::vector<Loads> loads(discretisation.bodies().size());
     for (const TractionCondition &condition :
-         tractions_on(tractions[b], held, b, false))
+         tractions_on(tractions[b], dirichlet, b, false))
       if (condition.boundary == boundary)
         loads[b].tractions.push_back(condition);
     LevelVector<double> forces =
@@ -228,7 +231,7 @@ namespace mortise
     const LevelVector<double> wanted =
       boundary_nodes(nodes_of(discretisation), body, boundary);
     const LevelVector<double> places =
-      node_places(nodes_of(discretisation), body, wanted);
+      node_positions(nodes_of(discretisation), body, wanted);
     ForceAndMoment result;
     for (unsigned int i = 0; i < forces.locally_owned_size(); i += dim)
       if (wanted.local_element(i) > 0.)
@@ -256,7 +259,7 @@ namespace mortise
     const Pairing &interfaces = discretisation.interfaces();
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       if (interfaces.sides()[i].is_support)
-        supports -= held.forces_of(i, solved.solution.multiplier);
+        supports -= dirichlet.forces_of(i, solved.solution.multiplier);
     const Tensor<1, dim> sum = sum_over_nodes(supports);
     return {components(applied), components(sum), components(applied + sum)};
   }
@@ -275,14 +278,14 @@ namespace mortise
     /// number of boundaries, at its nodes.
     void
     add_stresses(const Discretisation      &discretisation,
-                 const HeldBoundaries      &held,
+                 const DirichletBoundaries &dirichlet,
                  const Part                &part,
                  const LevelVector<double> &shares,
                  SystemVector              &rhs)
     {
       const BlockSystem &system = discretisation.linear_system();
       const Body        &body   = *discretisation.bodies()[part.body];
-      for (const auto &[boundary, which] : held.all()[part.body])
+      for (const auto &[boundary, which] : dirichlet.all()[part.body])
         {
           if (!which[part.component])
             continue;
@@ -319,14 +322,14 @@ namespace mortise
                       const types::boundary_id boundary,
                       const unsigned int       c)
   {
-    const BlockSystem         &system = discretisation.linear_system();
-    const HeldBoundaries       held(discretisation);
-    LinearFunctional           result{system.zero_vector(),
+    const BlockSystem              &system = discretisation.linear_system();
+    const DirichletBoundaries       dirichlet(discretisation);
+    LinearFunctional                result{system.zero_vector(),
                             system.zero_vector().displacement};
-    HeldBoundaries::Components which{};
+    DirichletBoundaries::Components which{};
     which[c]                  = true;
     LevelVector<double> nodes = nodes_with(discretisation, b, boundary, which);
-    if (!held.components(b, boundary)[c])
+    if (!dirichlet.components(b, boundary)[c])
       {
         if (result.rhs.multiplier.size() > 0)
           for_each_side_at(discretisation,
@@ -345,13 +348,14 @@ namespace mortise
     LevelVector<double> lift = nodes;
     for (unsigned int i = 0; i < lift.locally_owned_size(); ++i)
       if (lift.local_element(i) > 0.)
-        lift.local_element(i) = 1. / held.numbers().local_element(i);
+        lift.local_element(i) = 1. / dirichlet.numbers().local_element(i);
     result.lift = lift;
     system.nodal->apply_to_constrained(lift, result.rhs);
     if (result.rhs.multiplier.size() > 0)
-      held.constraint(lift, result.rhs.multiplier);
-    if (held.any_shared())
-      add_stresses(discretisation, held, {b, boundary, c}, lift, result.rhs);
+      dirichlet.constraint(lift, result.rhs.multiplier);
+    if (dirichlet.any_shared())
+      add_stresses(
+        discretisation, dirichlet, {b, boundary, c}, lift, result.rhs);
     return result;
   }
 } // namespace mortise

@@ -89,11 +89,11 @@ namespace mortise
     };
   }
 
-  const Violations &
-  StepEvaluation::violation(const unsigned int i) const
+  const InterfaceEvaluation &
+  StepEvaluation::evaluation_of(const unsigned int i) const
   {
     return once(of_points[i], [&] {
-      return violation_energies(discretisation.interfaces().all()[i],
+      return evaluate_interface(discretisation.interfaces().all()[i],
                                 traces(),
                                 tractions()[i],
                                 offset(i),

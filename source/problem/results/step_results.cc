@@ -14,19 +14,19 @@ namespace mortise
 {
   using namespace dealii;
 
-  std::vector<InterfaceViolation>
-  violations(const StepEvaluation &step)
+  std::vector<InterfaceResidual>
+  interface_residuals(const StepEvaluation &step)
   {
     const Bodies  &bodies     = step.discretisation.bodies();
     const Pairing &interfaces = step.discretisation.interfaces();
-    std::vector<InterfaceViolation> result;
+    std::vector<InterfaceResidual> result;
     for (unsigned int i = 0; i < interfaces.all().size(); ++i)
       {
         const InterfaceParameters &given     = interfaces.sides()[i];
-        const Violations          &broken    = step.violation(i);
+        const InterfaceEvaluation &broken    = step.evaluation_of(i);
         const InterfaceHandler    &interface = *interfaces.all()[i].interface;
         const auto                &cells     = interface.slave().cells;
-        InterfaceViolation of{given.name, 0., given.slave.body, {}, {}, {}};
+        InterfaceResidual of{given.name, 0., given.slave.body, {}, {}, {}};
         of.of_cells.resize(bodies[of.body]->triangulation().n_active_cells(),
                            0.);
         for (unsigned int s = 0; s < cells.size(); ++s)
@@ -53,14 +53,14 @@ namespace mortise
   }
 
   Residuals
-  residuals(const StepEvaluation                  &step,
-            const std::vector<InterfaceViolation> &interfaces)
+  residuals(const StepEvaluation                 &step,
+            const std::vector<InterfaceResidual> &interfaces)
   {
     const SceneData      &given = step.solved.data;
     std::vector<BodyData> data;
     for (const auto &body : step.discretisation.bodies())
       data.push_back({given.loads(*body), given.dirichlet(*body), {}});
-    for (const InterfaceViolation &of : interfaces)
+    for (const InterfaceResidual &of : interfaces)
       for (const auto &[body, tractions] : of.tractions)
         data[body].interfaces.push_back(&tractions);
     return residuals(step.discretisation.bodies(), step.solutions(), data);

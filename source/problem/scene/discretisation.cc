@@ -2,7 +2,7 @@
 #include <mortise/operators/body_volume.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/support/rigid_motions.h>
-#include <mortise/solvers/multipliers/dependent_multipliers.h>
+#include <mortise/solvers/multipliers/redundant_multipliers.h>
 #include <mortise/solvers/scaled_residual.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace mortise
     check_pieces(spaces.bodies, spaces.dirichlet, run.parameters.interfaces);
     auto first = std::make_unique<Pairing>(run, spaces);
     create_bulk();
-    take(std::move(first));
+    set_pairing(std::move(first));
     if (system.mixed())
       find_free_pressures();
   }
@@ -41,20 +41,20 @@ namespace mortise
     auto              stage        = run.log.stage(run.timers, "bulk");
     const SceneField &displacement = spaces.fields.displacement;
     system.nodal =
-      std::make_unique<NodalSystem>(spaces.nodal,
-                                    spaces.nodal_pressures,
-                                    NodalSystem::Scene{displacement.numbering,
-                                                       displacement.constraints,
-                                                       spaces.choice.method !=
-                                                         SolverMethod::direct},
-                                    run.comm);
+      std::make_unique<BulkSystem>(spaces.nodal,
+                                   spaces.nodal_pressures,
+                                   BulkSystem::Scene{displacement.numbering,
+                                                     displacement.constraints,
+                                                     spaces.choice.method !=
+                                                       SolverMethod::direct},
+                                   run.comm);
     const auto n_levels = system.nodal->levels().size();
     stage.details(std::to_string(n_levels) +
                   (n_levels == 1 ? " level" : " levels"));
   }
 
   void
-  Discretisation::take(std::unique_ptr<Pairing> made)
+  Discretisation::set_pairing(std::unique_ptr<Pairing> made)
   {
     pairing                          = std::move(made);
     const std::vector<Coupling> &all = pairing->all();
@@ -270,7 +270,7 @@ namespace mortise
       return;
     const ScaledResidual residual(system);
     const auto           dependent =
-      find_dependent_multipliers(system.constraint,
+      find_redundant_multipliers(system.constraint,
                                  residual.inverse_diagonal_u(),
                                  residual.inverse_diagonal_lambda(),
                                  system.spring_compliance);

@@ -48,7 +48,7 @@ namespace mortise
   }
 
   void
-  Discretisation::show_active()
+  Discretisation::update_coarse_active_set()
   {
     pairing->select(*system.active);
     system.nodal->update_penalties(pairing->all());

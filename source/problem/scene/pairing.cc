@@ -90,7 +90,7 @@ namespace mortise
     BodySurface slave_surface = surface(given.slave, slave);
     slave_surface.direction   = given.direction;
     BodySurface master_surface =
-      given.is_support ? rigid_counterpart(slave_surface) :
+      given.is_support ? rigid_obstacle(slave_surface) :
                          surface(given.master, faces_of(given, given.master));
     InterfaceOptions options;
     options.distance             = given.search_distance;
@@ -125,7 +125,7 @@ namespace mortise
                          given.multiplier == "dual" ? MultiplierBasis::dual :
                                                       MultiplierBasis::standard,
                          !law.is_compliant() && !given.is_support,
-                         law.held == HeldDirections::normal ?
+                         law.constrained == ConstrainedDirections::normal ?
                            coupling.frames :
                            std::vector<std::vector<Frame>>());
     set_springs(coupling);

@@ -1,7 +1,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <mortise/base/error.h>
-#include <mortise/mortar/shared_displacements.h>
+#include <mortise/mortar/interface_order.h>
 #include <mortise/mortar/slave_frames.h>
 #include <mortise/problem/scene/pairing.h>
 #include <mortise/problem/support/rigid_motions.h>
@@ -23,8 +23,8 @@ namespace mortise
     mean_normal(const TieSupport &tie, const MPI_Comm comm)
     {
       Tensor<1, dim> sum;
-      for (const auto &place : tie.places)
-        sum += place.area * place.normal;
+      for (const auto &sample : tie.samples)
+        sum += sample.area * sample.normal;
       sum               = Utilities::MPI::sum(sum, comm);
       const double norm = sum.norm();
       return norm > 0. ? sum / norm : sum;
@@ -32,17 +32,17 @@ namespace mortise
   } // namespace
 
   std::vector<bool>
-  Pairing::blocked_dofs(const unsigned int       b,
-                        const std::vector<bool> &taken) const
+  Pairing::constrained_dofs(const unsigned int       b,
+                            const std::vector<bool> &coupled) const
   {
     const auto       &numbering = spaces.fields.displacement.numbering;
-    std::vector<bool> blocked;
+    std::vector<bool> constrained;
     for (const auto dof : spaces.bodies[b]->dof_handler.locally_owned_dofs())
-      blocked.push_back(
-        taken[numbering.owned().index_within_set(numbering(b, dof))] ||
+      constrained.push_back(
+        coupled[numbering.owned().index_within_set(numbering(b, dof))] ||
         (spaces.constraints[b].is_constrained(dof) &&
          !spaces.bodies[b]->conformity.is_constrained(dof)));
-    return blocked;
+    return constrained;
   }
 
   void
@@ -52,17 +52,18 @@ namespace mortise
     const std::string name    = couplings[i].interface->name();
     const auto       &rows    = couplings[i].multipliers->rows();
     unsigned int      n_fixed = 0, n_covered = 0;
-    const bool        slides = couplings[i].law.held == HeldDirections::normal;
-    std::string       lost;
+    const bool        slides =
+      couplings[i].law.constrained == ConstrainedDirections::normal;
+    std::string lost;
     for (unsigned int s = 0; s < states.size(); ++s)
-      if (states[s].cover != Cover::none)
+      if (states[s].cover != FaceCoverage::none)
         for (unsigned int c = 0; c < (slides ? 1 : dim); ++c)
           {
             ++n_covered;
-            if (rows[s].hold_constants[c])
+            if (rows[s].reproduce_constants[c])
               continue;
             ++n_fixed;
-            if (!states[s].can_follow[c] || !lost.empty())
+            if (!states[s].has_free_displacement[c] || !lost.empty())
               continue;
             std::ostringstream text;
             text << "Interface " << name << ": nothing is tied "
@@ -79,7 +80,7 @@ namespace mortise
             lost = text.str();
           }
     if (slides)
-      if (const auto place =
+      if (const auto sample =
             find_sharp_edge(*spaces.bodies[interfaces[i].slave.body],
                             couplings[i].interface->slave()))
         {
@@ -87,7 +88,7 @@ namespace mortise
           text
             << "Interface " << name << ": bodies slide across an edge of "
             << side_text(run.parameters, interfaces[i].slave) << " at "
-            << *place
+            << *sample
             << ", where the surface has no normal: the edge ends within a smooth "
                "patch. Make what lies on either side of it boundaries, and "
                "interfaces, of their own, or refine a mesh that is too "
@@ -110,27 +111,27 @@ namespace mortise
   void
   Pairing::number_multipliers()
   {
-    const auto          states = partner_states(couplings);
-    SharedDisplacements shared(couplings,
-                               states,
-                               spaces.fields.displacement.numbering,
-                               run.comm);
+    const auto     states = partner_states(couplings);
+    InterfaceOrder shared(couplings,
+                          states,
+                          spaces.fields.displacement.numbering,
+                          run.comm);
     // supports of one boundary take nothing from each other
     std::map<std::string, std::vector<bool>> taken_before;
     for (const unsigned int i : shared.order())
       {
-        const std::vector<bool> &taken =
+        const std::vector<bool> &coupled =
           interfaces[i].direction ?
             taken_before
-              .try_emplace(interfaces[i].displacement_path, shared.taken())
+              .try_emplace(interfaces[i].displacement_path, shared.coupled())
               .first->second :
-            shared.taken();
+            shared.coupled();
         const SideParameters &slave    = interfaces[i].slave;
         const Body           &body     = *spaces.bodies[slave.body];
         Coupling             &coupling = couplings[i];
         coupling.multipliers           = std::make_unique<MultiplierSpace>(
-          body, coupling, states[i], blocked_dofs(slave.body, taken));
-        shared.take(i);
+          body, coupling, states[i], constrained_dofs(slave.body, coupled));
+        shared.add(i);
       }
     types::global_dof_index mine = 0;
     for (const Coupling &coupling : couplings)
@@ -160,7 +161,7 @@ namespace mortise
                                                    interfaces[i].master.body,
                         multiplier_moments(couplings[i], owned, run.comm),
                         report.covered_area / report.slave_area,
-                        couplings[i].law.held,
+                        couplings[i].law.constrained,
                         {},
                         {}});
         const BodySurface &slave = couplings[i].interface->slave();
@@ -170,7 +171,7 @@ namespace mortise
             const double area = couplings[i].interface->coverage()[s] *
                                 std::pow(slave.faces[s].size, 2);
             for (const unsigned int v : face->vertex_indices())
-              ties.back().places.push_back(
+              ties.back().samples.push_back(
                 {face->vertex(v),
                  area,
                  slave.direction.value_or(slave.faces[s].vertex_normals[v])});
@@ -273,18 +274,18 @@ namespace mortise
         TieSupport &tie = ties[i];
         if (!is_preloaded[i])
           tie.released.reset();
-        std::vector<MultiplierMoment> pressing;
+        std::vector<MultiplierMoment> active_multipliers;
         for (unsigned int k = 0; k < tie.multipliers.size(); ++k)
           if (active[couplings[i].multipliers->range().first + k])
-            pressing.push_back(tie.multipliers[k]);
-        tie.multipliers = std::move(pressing);
+            active_multipliers.push_back(tie.multipliers[k]);
+        tie.multipliers = std::move(active_multipliers);
       }
     return ties;
   }
 
   void
-  Pairing::check_held(const std::vector<bool> &active,
-                      const std::vector<bool> &is_preloaded) const
+  Pairing::check_no_free_motion(const std::vector<bool> &active,
+                                const std::vector<bool> &is_preloaded) const
   {
     check_rigid_motions(spaces.bodies,
                         spaces.dirichlet,

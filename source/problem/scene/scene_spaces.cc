@@ -170,7 +170,7 @@ namespace mortise
             for (const BoundaryFace &face : side_faces(
                    bodies, interface.slave, "Interface " + interface.name))
               {
-                const Stiffness at =
+                const InterfaceStiffness at =
                   law.stiffness(face.cell->face(face.number)->center());
                 for (const double k : {at.normal, at.tangential})
                   if (k > 0.)

@@ -129,7 +129,7 @@ namespace mortise
                const std::vector<std::vector<DirichletCondition>> &dirichlet,
                const std::vector<TieSupport>                      &ties)
         : ties(ties)
-        , held(bodies.size(), false)
+        , supported(bodies.size(), false)
       {
         const MPI_Comm comm =
           bodies.front()->triangulation().get_communicator();
@@ -150,7 +150,8 @@ namespace mortise
               Utilities::MPI::sum(tie.multipliers.size(), comm));
           }
         find_held();
-        if (std::find(held.begin(), held.end(), false) != held.end())
+        if (std::find(supported.begin(), supported.end(), false) !=
+            supported.end())
           find_free();
       }
 
@@ -219,9 +220,9 @@ namespace mortise
         for (bool again = true; again;)
           {
             again = false;
-            for (unsigned int b = 0; b < held.size(); ++b)
+            for (unsigned int b = 0; b < supported.size(); ++b)
               {
-                if (held[b])
+                if (supported[b])
                   continue;
                 Resistance resistance(1);
                 resistance.add(0, of_body[b]);
@@ -232,12 +233,12 @@ namespace mortise
                     for (unsigned int i = 0; i < 2; ++i)
                       if (sides[i] == b &&
                           (sides[1 - i] == TieSupport::ground ||
-                           held[sides[1 - i]]))
+                           supported[sides[1 - i]]))
                         resistance.add(i == 0 ? 0 : -1,
                                        i == 1 ? 0 : -1,
                                        of_tie[t]);
                   }
-                again = held[b] = resistance.free_motions().empty();
+                again = supported[b] = resistance.free_motions().empty();
                 if (again)
                   break;
               }
@@ -248,14 +249,14 @@ namespace mortise
       void
       find_free()
       {
-        place.assign(held.size(), -1);
+        place.assign(supported.size(), -1);
         int n = 0;
-        for (unsigned int b = 0; b < held.size(); ++b)
-          if (!held[b])
+        for (unsigned int b = 0; b < supported.size(); ++b)
+          if (!supported[b])
             place[b] = n++;
         Resistance resistance(n);
-        for (unsigned int b = 0; b < held.size(); ++b)
-          if (!held[b])
+        for (unsigned int b = 0; b < supported.size(); ++b)
+          if (!supported[b])
             resistance.add(place[b], of_body[b]);
         for (unsigned int t = 0; t < ties.size(); ++t)
           resistance.add(place[ties[t].slave],
@@ -271,7 +272,7 @@ namespace mortise
       std::vector<Support>             of_body;
       std::vector<TieResistance>       of_tie;
       std::vector<std::size_t>         n_multipliers; ///< by tie, of all ranks
-      std::vector<bool>                held;
+      std::vector<bool>                supported;
       std::vector<int>                 place; ///< by body, in vectors of free
       std::vector<std::vector<double>> free;
     };

@@ -152,7 +152,7 @@ namespace mortise
   {
     TieResistance result{Support(2),
                          Support(2),
-                         tie.held == HeldDirections::normal &&
+                         tie.constrained == ConstrainedDirections::normal &&
                            !is_plane(tie, comm)};
     const auto    rows = [&](const MultiplierMoment &m) {
       Motion minus = row_of(master, m);
@@ -203,7 +203,7 @@ namespace mortise
 
   Resistance::Resistance(const unsigned int n_bodies)
   {
-    for (RigidMatrix *matrix : {&held, &across, &moved})
+    for (RigidMatrix *matrix : {&constrained, &across, &moved})
       matrix->reinit(6 * n_bodies);
   }
 
@@ -224,7 +224,7 @@ namespace mortise
   void
   Resistance::add(const unsigned int b, const Support &support)
   {
-    add_block(held, b, b, support, 0, 0);
+    add_block(constrained, b, b, support, 0, 0);
   }
 
   void
@@ -235,7 +235,7 @@ namespace mortise
       for (unsigned int j = 0; j < 2; ++j)
         if (sides[i] >= 0 && sides[j] >= 0)
           {
-            add_block(tie.curved ? across : held,
+            add_block(tie.curved ? across : constrained,
                       sides[i],
                       sides[j],
                       tie.along_directions,
@@ -316,9 +316,10 @@ namespace mortise
   {
     // surfaces that are approximated leave, squared, up to 1e-6, more in short
     // bodies; the slenderest tapers, 1 : 100 in diameter, 2.5e-5
-    constexpr double zero_held = 1e-10, zero_across = 1e-5;
-    const Spectrum   by_held = spectrum(held);
-    const Vectors    left = null_space(by_held, zero_held * by_held.values[0]);
+    constexpr double zero_constrained = 1e-10, zero_across = 1e-5;
+    const Spectrum   by_constrained = spectrum(constrained);
+    const Vectors    left =
+      null_space(by_constrained, zero_constrained * by_constrained.values[0]);
     if (left.empty())
       return left;
     const Spectrum of_left = spectrum(restricted(moved, left));

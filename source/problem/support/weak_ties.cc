@@ -17,17 +17,17 @@ namespace mortise
     {
       double         area = 0., square = 0.;
       Tensor<1, dim> centre;
-      for (const auto &place : tie.places)
+      for (const auto &sample : tie.samples)
         {
-          area += place.area;
-          centre += place.area * Tensor<1, dim>(place.point);
+          area += sample.area;
+          centre += sample.area * Tensor<1, dim>(sample.point);
         }
       area = Utilities::MPI::sum(area, comm);
       Extent result;
       result.centre = Point<dim>(Utilities::MPI::sum(centre, comm) / area);
-      for (const auto &place : tie.places)
+      for (const auto &sample : tie.samples)
         square +=
-          place.area * place.point.distance_square(result.centre) / area;
+          sample.area * sample.point.distance_square(result.centre) / area;
       result.size = std::sqrt(Utilities::MPI::sum(square, comm));
       return result;
     }
@@ -74,19 +74,19 @@ namespace mortise
       TieSupport       ideal       = tie;
       ideal.multipliers.clear();
       double area = 0.;
-      for (const auto &place : tie.places)
-        area += place.area;
+      for (const auto &sample : tie.samples)
+        area += sample.area;
       area = Utilities::MPI::sum(area, comm);
-      for (const auto &place : tie.places)
+      for (const auto &sample : tie.samples)
         {
-          const double root = std::sqrt(place.area / area);
+          const double root = std::sqrt(sample.area / area);
           const auto   add  = [&](const Tensor<1, dim> &direction) {
             ideal.multipliers.push_back(
               {root * direction,
-               root * outer_product(direction, Tensor<1, dim>(place.point))});
+               root * outer_product(direction, Tensor<1, dim>(sample.point))});
           };
-          if (tie.held == HeldDirections::normal)
-            add(place.normal);
+          if (tie.constrained == ConstrainedDirections::normal)
+            add(sample.normal);
           else
             for (unsigned int c = 0; c < dim; ++c)
               {

@@ -41,10 +41,10 @@ namespace mortise
 
   template <typename Work>
   bool
-  CholeskyInverse<Work>::initialize(const NodalMatrix &rows,
-                                    const Product     &product,
-                                    const Vector      &zero,
-                                    const bool         allow_single)
+  CholeskyInverse<Work>::initialize(const RowsByNode &rows,
+                                    const Product    &product,
+                                    const Vector     &zero,
+                                    const bool        allow_single)
   {
     const MPI_Comm comm = zero.get_mpi_communicator();
     if (allow_single)

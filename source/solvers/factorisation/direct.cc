@@ -166,6 +166,6 @@ namespace mortise
                          system.energy_product(x)) :
                1.;
     };
-    residual->judge({rhs, x, r}, options.tolerance, relative_error, report);
+    residual->assess({rhs, x, r}, options.tolerance, relative_error, report);
   }
 } // namespace mortise

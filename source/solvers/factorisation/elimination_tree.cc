@@ -332,7 +332,8 @@ namespace mortise
   }
 
   std::vector<int>
-  deal_out(const std::vector<Supernode> &supernodes, const int n_ranks)
+  distribute_supernodes(const std::vector<Supernode> &supernodes,
+                        const int                     n_ranks)
   {
     const unsigned int  n = supernodes.size();
     std::vector<double> work(n); // of subtrees

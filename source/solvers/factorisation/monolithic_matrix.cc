@@ -82,11 +82,11 @@ namespace mortise
 
     /// Prescribed values are zero. @p relevant: rows of the cells of this rank.
     AffineConstraints<double>
-    monolithic_constraints(const NodalSystem &nodal,
-                           const Numbering   &numbering,
-                           const IndexSet    &relevant)
+    monolithic_constraints(const BulkSystem &nodal,
+                           const Numbering  &numbering,
+                           const IndexSet   &relevant)
     {
-      const NodalLevel         &level   = nodal.levels().front();
+      const MultigridLevel     &level   = nodal.levels().front();
       const auto               &hanging = level.space->hanging_nodes();
       AffineConstraints<double> constraints(relevant);
       add_hanging_nodes(
@@ -112,7 +112,7 @@ namespace mortise
     class CellIndices
     {
     public:
-      CellIndices(const NodalSystem &nodal, const Numbering &numbering)
+      CellIndices(const BulkSystem &nodal, const Numbering &numbering)
       {
         const auto &layout = *nodal.levels().front().layout;
         for (unsigned int i = 0;
@@ -161,21 +161,21 @@ namespace mortise
       return rows;
     }
 
-    OwnExpansion
+    ExpansionList
     one(const Index i)
     {
-      OwnExpansion result;
+      ExpansionList result;
       result.add(i, 1.);
       result.close();
       return result;
     }
 
     /// @p indices with what @p constraints make of them.
-    OwnExpansion
+    ExpansionList
     resolve(const std::vector<Index>        &indices,
             const AffineConstraints<double> &constraints)
     {
-      OwnExpansion result;
+      ExpansionList result;
       for (const Index i : indices)
         {
           if (!constraints.is_constrained(i))
@@ -211,7 +211,7 @@ namespace mortise
                                  const double        factor,
                                  const bool          transposed) {
         const auto         row = from.row(local);
-        OwnExpansion       columns;
+        ExpansionList      columns;
         FullMatrix<double> values(1, row.length, row.values);
         values *= factor;
         for (unsigned int k = 0; k < row.length; ++k)
@@ -257,7 +257,7 @@ namespace mortise
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering)
   {
-    const NodalSystem &nodal = *system.nodal;
+    const BulkSystem  &nodal = *system.nodal;
     const bool         tied  = system.owned_multiplier.size() > 0;
     const SparseMatrix B = tied ? system.constraint.expanded() : SparseMatrix();
     const SparseMatrix other_forces =
@@ -274,7 +274,7 @@ namespace mortise
                               B,
                               system.is_symmetric() ? B : other_forces,
                               [&](const Index               i,
-                                  const OwnExpansion       &columns,
+                                  const ExpansionList      &columns,
                                   const FullMatrix<double> &values,
                                   const bool                transposed) {
                                 if (transposed)
@@ -292,27 +292,27 @@ namespace mortise
                 false);
     };
     RowAssembler assembler(numbering.owned(), numbering.owned());
-    const auto   record = [&](const OwnExpansion &row,
-                            const OwnExpansion &column) {
+    const auto   record = [&](const ExpansionList &row,
+                            const ExpansionList &column) {
       assembler.record(row(), row.size(), column(), column.size());
     };
     nodal.elasticity().for_each_cell([&](const auto &cell) {
-      const OwnExpansion of_cell = resolve(cells.of(cell), constraints);
+      const ExpansionList of_cell = resolve(cells.of(cell), constraints);
       record(of_cell, of_cell);
     });
-    for_each_row([&](const OwnExpansion &row,
-                     const OwnExpansion &column,
+    for_each_row([&](const ExpansionList &row,
+                     const ExpansionList &column,
                      const FullMatrix<double> &,
                      const bool) { record(row, column); });
     assembler.allocate();
     nodal.elasticity().for_each_cell_matrix(
       [](const auto &) { return true; },
       [&](const auto &cell, const auto &local) {
-        const OwnExpansion of_cell = resolve(cells.of(cell), constraints);
+        const ExpansionList of_cell = resolve(cells.of(cell), constraints);
         assembler.add(of_cell(), of_cell(), local.mixed, 1., false);
       });
-    for_each_row([&](const OwnExpansion       &row,
-                     const OwnExpansion       &column,
+    for_each_row([&](const ExpansionList      &row,
+                     const ExpansionList      &column,
                      const FullMatrix<double> &block,
                      const bool                transposed) {
       assembler.add(row(), column(), block, 1., transposed);

@@ -24,7 +24,7 @@ namespace mortise
 
     /// Owned nodes and those of others in the columns of @p rows. Collective.
     Utilities::MPI::Partitioner
-    nodes_of(const NodalMatrix &rows, const MPI_Comm comm)
+    nodes_of(const RowsByNode &rows, const MPI_Comm comm)
     {
       const IndexSet   owned = owned_range(rows.size(), comm);
       std::vector<int> columns(rows.columns);
@@ -39,7 +39,7 @@ namespace mortise
     class RowCollector
     {
     public:
-      RowCollector(NodalMatrix &to, const Utilities::MPI::Partitioner &nodes)
+      RowCollector(RowsByNode &to, const Utilities::MPI::Partitioner &nodes)
         : to(to)
         , nodes(nodes)
       {}
@@ -67,14 +67,14 @@ namespace mortise
       }
 
     private:
-      NodalMatrix                       &to;
+      RowsByNode                        &to;
       const Utilities::MPI::Partitioner &nodes;
       std::vector<int>                   kept;
     };
 
     /// The rows of @p nodes, local.
     RowPackage
-    pack(const NodalMatrix              &rows,
+    pack(const RowsByNode               &rows,
          const std::vector<int>         &nodes,
          const std::vector<std::size_t> &first_column,
          const std::vector<std::size_t> &first_value)
@@ -96,8 +96,8 @@ namespace mortise
     }
 
     /// Submatrix of owned nodes and ghosts, in this order. Collective.
-    NodalMatrix
-    overlapping_rows(const NodalMatrix                 &rows,
+    RowsByNode
+    overlapping_rows(const RowsByNode                  &rows,
                      const Utilities::MPI::Partitioner &nodes)
     {
       const MPI_Comm comm  = nodes.get_mpi_communicator();
@@ -125,7 +125,7 @@ namespace mortise
           packages[rank] = pack(rows, asked, first_column, first_value);
         }
 
-      NodalMatrix result;
+      RowsByNode result;
       result.n_components = rows.n_components;
       RowCollector collector(result, nodes);
       for (int i = 0; i < n; ++i)
@@ -154,9 +154,9 @@ namespace mortise
   } // namespace
 
   bool
-  SchwarzInverse::initialize(const NodalMatrix &rows,
-                             Product            matrix_product,
-                             const Vector      &zero)
+  SchwarzInverse::initialize(const RowsByNode &rows,
+                             Product           matrix_product,
+                             const Vector     &zero)
   {
     entries              = rows.entries;
     product              = std::move(matrix_product);
@@ -165,7 +165,7 @@ namespace mortise
     nodal.reinit(by_component(nodes.locally_owned_range(), rows.n_components),
                  by_component(nodes.ghost_indices(), rows.n_components),
                  comm);
-    NodalMatrix overlapping = overlapping_rows(rows, nodes);
+    RowsByNode overlapping = overlapping_rows(rows, nodes);
     local_x.resize(overlapping.entries.size());
     for (Vector *vector : {&r, &z, &q})
       vector->reinit(zero);

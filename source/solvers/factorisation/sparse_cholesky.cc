@@ -14,10 +14,10 @@ namespace mortise
   using namespace dealii;
 
   double
-  factorisation_work(const NodalMatrix &rows, const MPI_Comm comm)
+  factorisation_work(const RowsByNode &rows, const MPI_Comm comm)
   {
-    const GatheredNodalMatrix all(rows, comm);
-    double                    sum = 0.;
+    const GatheredRows all(rows, comm);
+    double             sum = 0.;
     for (const Supernode &supernode : EliminationTree(all).supernodes)
       sum += supernode.width * std::pow(supernode.height(), 2);
     return sum;
@@ -25,8 +25,8 @@ namespace mortise
 
   template <typename Number, typename Work>
   bool
-  SparseCholesky<Number, Work>::initialize(const NodalMatrix &rows,
-                                           const MPI_Comm     communicator)
+  SparseCholesky<Number, Work>::initialize(const RowsByNode &rows,
+                                           const MPI_Comm    communicator)
   {
     comm = communicator;
     MPI_Comm_rank(comm, &rank);
@@ -34,7 +34,7 @@ namespace mortise
     n_components = rows.n_components;
     entries      = rows.entries;
     counts = Utilities::MPI::all_gather(comm, static_cast<int>(entries.size()));
-    const GatheredNodalMatrix all(rows, comm);
+    const GatheredRows all(rows, comm);
     starts.assign(n_ranks + 1, 0);
     std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
     if (std::find(all.scale.begin(), all.scale.end(), 0.) != all.scale.end())
@@ -44,7 +44,7 @@ namespace mortise
     EliminationTree tree(all);
     supernodes  = std::move(tree.supernodes);
     permutation = std::move(tree.permutation);
-    owner       = deal_out(supernodes, n_ranks);
+    owner       = distribute_supernodes(supernodes, n_ranks);
     if (n_components == dim && n_ranks >= static_cast<int>(dim))
       common_component = rank % static_cast<int>(dim);
     list_parts();
@@ -69,8 +69,8 @@ namespace mortise
         for (unsigned int s = 0; s < n; ++s)
           if (owner[s] == r)
             for (unsigned int i = 0; i < supernodes[s].width; ++i)
-              part_places.push_back(supernodes[s].first + i);
-        part_starts[r + 1] = part_places.size() * n_components;
+              part_positions.push_back(supernodes[s].first + i);
+        part_starts[r + 1] = part_positions.size() * n_components;
         part_counts[r]     = part_starts[r + 1] - part_starts[r];
       }
     for (unsigned int s = 0; s < n; ++s)
@@ -257,11 +257,11 @@ namespace mortise
     if (n_ranks > 1)
       {
         const int first = part_starts[rank];
-        pack(part_places.data() + first / n_components,
+        pack(part_positions.data() + first / n_components,
              part_counts[rank] / n_components,
              exchange.data() + first);
         gather(part_counts, part_starts);
-        unpack(part_places.data(), part_places.size(), exchange.data());
+        unpack(part_positions.data(), part_positions.size(), exchange.data());
       }
     const unsigned int first = starts[rank] / n_components;
     for (unsigned int i = 0; i < entries.size(); ++i)

@@ -17,8 +17,7 @@ namespace mortise
   class SparseCholesky<Number, Work>::Factorisation
   {
   public:
-    Factorisation(const SparseCholesky      &inverse,
-                  const GatheredNodalMatrix &matrix)
+    Factorisation(const SparseCholesky &inverse, const GatheredRows &matrix)
       : inverse(inverse)
       , matrix(matrix)
       , node_at(inverse.permutation.size())
@@ -147,18 +146,18 @@ namespace mortise
         }
     }
 
-    const SparseCholesky      &inverse;
-    const GatheredNodalMatrix &matrix;
-    std::vector<unsigned int>  node_at;    ///< by position
-    std::vector<int>           local;      ///< in the front, by position
-    std::vector<unsigned int>  n_variants; ///< by supernode
+    const SparseCholesky     &inverse;
+    const GatheredRows       &matrix;
+    std::vector<unsigned int> node_at;    ///< by position
+    std::vector<int>          local;      ///< in the front, by position
+    std::vector<unsigned int> n_variants; ///< by supernode
     /// Update matrices for parents, by supernode and variant.
     std::vector<std::vector<std::vector<Work>>> updates;
   };
 
   template <typename Number, typename Work>
   bool
-  SparseCholesky<Number, Work>::factorise(const GatheredNodalMatrix &matrix)
+  SparseCholesky<Number, Work>::factorise(const GatheredRows &matrix)
   {
     Factorisation factorisation(*this, matrix);
     panels.resize(supernodes.size());
@@ -180,9 +179,9 @@ namespace mortise
   }
 
   template bool
-  SparseCholesky<float, float>::factorise(const GatheredNodalMatrix &);
+  SparseCholesky<float, float>::factorise(const GatheredRows &);
   template bool
-  SparseCholesky<float, double>::factorise(const GatheredNodalMatrix &);
+  SparseCholesky<float, double>::factorise(const GatheredRows &);
   template bool
-  SparseCholesky<double, double>::factorise(const GatheredNodalMatrix &);
+  SparseCholesky<double, double>::factorise(const GatheredRows &);
 } // namespace mortise

@@ -97,7 +97,7 @@ namespace mortise
 
       /// Note what run() reached.
       void
-      judge(const SystemVector &x, SolveReport &report)
+      assess(const SystemVector &x, SolveReport &report)
       {
         const auto relative_error = [&] {
           Vector unused(all_r.multiplier);
@@ -106,10 +106,10 @@ namespace mortise
           precondition();
           return std::sqrt((z * r) / system.energy_product(x));
         };
-        residual.judge({rhs, x, all_r},
-                       options.tolerance,
-                       relative_error,
-                       report);
+        residual.assess({rhs, x, all_r},
+                        options.tolerance,
+                        relative_error,
+                        report);
       }
 
     private:
@@ -207,6 +207,6 @@ namespace mortise
       solver.run(x, report);
     while (!solver.reached() && ++start < 3 &&
            report.iterations < options.max_iterations);
-    solver.judge(x, report);
+    solver.assess(x, report);
   }
 } // namespace mortise

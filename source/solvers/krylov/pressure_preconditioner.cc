@@ -22,7 +22,7 @@ namespace mortise
   {
     struct Matrix : Subscriptor
     {
-      explicit Matrix(const NodalSystem &nodal)
+      explicit Matrix(const BulkSystem &nodal)
         : nodal(nodal)
       {}
 
@@ -44,13 +44,13 @@ namespace mortise
         nodal.apply_pressure_norm(dst, src);
       }
 
-      const NodalSystem &nodal;
+      const BulkSystem &nodal;
     };
 
     using Diagonal  = DiagonalMatrix<Vector>;
     using Chebyshev = PreconditionChebyshev<Matrix, Vector, Diagonal>;
 
-    explicit Polynomial(const NodalSystem &nodal)
+    explicit Polynomial(const BulkSystem &nodal)
       : matrix(nodal)
     {
       const Vector &diagonal = nodal.pressure_norm_diagonal();

@@ -366,7 +366,7 @@ namespace mortise
         reached = residual->norm(all_r);
         goal    = std::min(goal, 0.1 * reached);
       }
-    residual->judge(
+    residual->assess(
       {rhs, solution, all_r},
       options.tolerance,
       [&] {

@@ -18,7 +18,7 @@ namespace mortise
   } // namespace
 
   template <typename Number>
-  Chebyshev<Number>::Chebyshev(const NodalOperator<Number>       &matrix,
+  Chebyshev<Number>::Chebyshev(const LevelOperatorBase<Number>   &matrix,
                                const double                       smallest,
                                const InterfaceCorrection<Number> *correction)
     : matrix(matrix)
@@ -33,7 +33,8 @@ namespace mortise
   Chebyshev<Number>::update(const InterfaceCorrection<Number> *with)
   {
     correction = with;
-    if (has_leaders || (correction != nullptr && correction->has_leaders()))
+    if (has_independent ||
+        (correction != nullptr && correction->has_independent()))
       set_up();
     return is_valid();
   }
@@ -42,11 +43,11 @@ namespace mortise
   void
   Chebyshev<Number>::set_up()
   {
-    has_leaders = correction != nullptr && correction->has_leaders();
+    has_independent = correction != nullptr && correction->has_independent();
     matrix.diagonal(inverse_diagonal);
     matrix.average_components(inverse_diagonal);
     if (correction != nullptr)
-      correction->add_followers(inverse_diagonal);
+      correction->add_dependent_stiffness(inverse_diagonal);
     for (unsigned int i = 0; i < inverse_diagonal.locally_owned_size(); ++i)
       inverse_diagonal.local_element(i) = 1 / inverse_diagonal.local_element(i);
     matrix.initialize(r);
@@ -74,8 +75,8 @@ namespace mortise
       {
         d = r;
         d.scale(inverse_diagonal);
-        // without leaders the constraint makes no eigenvalue larger
-        if (correction != nullptr && correction->has_leaders())
+        // without independent ones the constraint makes no eigenvalue larger
+        if (correction != nullptr && correction->has_independent())
           correction->correct(
             [&](const unsigned int i) { return r.local_element(i); },
             inverse_diagonal,

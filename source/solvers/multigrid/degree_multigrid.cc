@@ -5,7 +5,7 @@
 #include <mortise/solvers/multigrid/degree_multigrid.h>
 #include <mortise/solvers/multigrid/lower_smoothing_bound.h>
 #include <mortise/solvers/multigrid/vertex_multigrid.h>
-#include <mortise/solvers/multipliers/lifting.h>
+#include <mortise/solvers/multipliers/approximate_schur_complement.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,11 +28,11 @@ namespace mortise
     virtual bool
     update_interfaces() = 0;
 
-    std::unique_ptr<CouplingProduct<float>> product;
-    std::unique_ptr<Lifting>                lifting;
-    std::unique_ptr<ConstraintProjector>    projector;
-    Vector                                  carried; ///< by springs
-    bool                                    valid = true;
+    std::unique_ptr<CouplingProduct<float>>     product;
+    std::unique_ptr<ApproximateSchurComplement> schur;
+    std::unique_ptr<ConstraintProjector>        projector;
+    Vector                                      carried; ///< by springs
+    bool                                        valid = true;
   };
 
   namespace
@@ -40,7 +40,7 @@ namespace mortise
     template <typename Number>
     struct SmoothedLevel
     {
-      SmoothedLevel(const NodalLevel                  &level,
+      SmoothedLevel(const MultigridLevel              &level,
                     const double                       lower_bound,
                     const InterfaceCorrection<Number> *correction)
         : matrix(level, correction == nullptr)
@@ -56,27 +56,27 @@ namespace mortise
       LevelVector<Number>   x, b, r;
     };
 
-    std::vector<WeakJump>
+    std::vector<ConstraintPenalty>
     weak_jumps(const BlockSystem &system)
     {
       if (system.owned_multiplier.size() == 0)
         return {};
-      return find_weak_jumps(system.constraint,
-                             system.nodal->node_diagonal(),
-                             system.has_springs() ?
-                               system.spring_compliance.diagonal() :
-                               std::vector<double>(),
-                             system.active);
+      return find_constraint_penalties(system.constraint,
+                                       system.nodal->node_diagonal(),
+                                       system.has_springs() ?
+                                         system.spring_compliance.diagonal() :
+                                         std::vector<double>(),
+                                       system.active);
     }
   } // namespace
 
   template <typename Number>
   struct DegreeMultigrid::ImplementationOf : DegreeMultigrid::Implementation
   {
-    ImplementationOf(const BlockSystem           &system,
-                     const std::size_t            max_gathered,
-                     const ThicknessCoarsening   *thickness,
-                     const std::vector<WeakJump> &jumps)
+    ImplementationOf(const BlockSystem                    &system,
+                     const std::size_t                     max_gathered,
+                     const ThicknessCoarsening            *thickness,
+                     const std::vector<ConstraintPenalty> &jumps)
       : system(system)
       , max_gathered(max_gathered)
     {
@@ -120,10 +120,13 @@ namespace mortise
     {
       if (system.owned_multiplier.size() == 0)
         return;
-      const CouplingRows rows(system.constraint);
+      const RowsByEntity rows(system.constraint);
       product = std::make_unique<CouplingProduct<float>>(system, rows);
-      lifting = std::make_unique<Lifting>(system, rows, *product, max_gathered);
-      valid   = lifting->is_valid() && valid;
+      schur   = std::make_unique<ApproximateSchurComplement>(system,
+                                                           rows,
+                                                           *product,
+                                                           max_gathered);
+      valid   = schur->is_valid() && valid;
       const CouplingProduct<Number> *of_levels = nullptr;
       if constexpr (std::is_same_v<Number, float>)
         of_levels = product.get();
@@ -134,8 +137,8 @@ namespace mortise
         }
       correction = std::make_unique<InterfaceCorrection<Number>>(system,
                                                                  *of_levels,
-                                                                 *lifting);
-      projector = std::make_unique<ConstraintProjector>(system, rows, *lifting);
+                                                                 *schur);
+      projector  = std::make_unique<ConstraintProjector>(system, rows, *schur);
       if (system.has_springs())
         carried.reinit(system.owned_multiplier, system.communicator);
     }
@@ -221,7 +224,7 @@ namespace mortise
 
     const BlockSystem &system;
     const std::size_t  max_gathered;
-    /// Where it is not that of the lifting.
+    /// Where it is not that of the Schur complement.
     std::unique_ptr<CouplingProduct<Number>>            own_product;
     std::unique_ptr<InterfaceCorrection<Number>>        correction;
     std::vector<std::unique_ptr<SmoothedLevel<Number>>> levels;
@@ -254,7 +257,7 @@ namespace mortise
       }
     else
       implementation = std::make_unique<ImplementationOf<float>>(
-        system, max_gathered, nullptr, std::vector<WeakJump>());
+        system, max_gathered, nullptr, std::vector<ConstraintPenalty>());
   }
 
   DegreeMultigrid::~DegreeMultigrid() = default;
@@ -268,7 +271,7 @@ namespace mortise
   bool
   DegreeMultigrid::update_active()
   {
-    return !implementation->lifting || implementation->lifting->update_active();
+    return !implementation->schur || implementation->schur->update_active();
   }
 
   bool
@@ -299,7 +302,7 @@ namespace mortise
   DegreeMultigrid::description() const
   {
     const std::string multipliers =
-      implementation->lifting ? implementation->lifting->description() : "";
+      implementation->schur ? implementation->schur->description() : "";
     return "multigrid in the degree, " +
            implementation->vertices_description() +
            (multipliers.empty() ? "" : ", " + multipliers);

@@ -1,5 +1,5 @@
 // See vertex_multigrid.h.
-#include <mortise/operators/levels/nodal_block_operator.h>
+#include <mortise/operators/levels/block_csr_operator.h>
 #include <mortise/operators/levels/thickness_matrix.h>
 #include <mortise/operators/levels/vertex_selection.h>
 #include <mortise/operators/levels/vertex_transfer.h>
@@ -32,11 +32,11 @@ namespace mortise
     constexpr unsigned int max_gathered = 100000;
 
     bool
-    is_cheap(const NodalBlockMatrix &blocks)
+    is_cheap(const BlockCsrMatrix &blocks)
     {
       if (blocks.layout->size() > max_gathered)
         return false;
-      NodalMatrix graph;
+      RowsByNode graph;
       for (unsigned int i = 0; i < blocks.size(); ++i)
         graph.lengths.push_back(blocks.begin[i + 1] - blocks.begin[i]);
       for (const unsigned int node : blocks.columns)
@@ -54,10 +54,10 @@ namespace mortise
     template <typename Number>
     struct SmoothedVertices
     {
-      SmoothedVertices(NodalBlockMatrix        blocks,
+      SmoothedVertices(BlockCsrMatrix          blocks,
                        const double            smallest,
                        const VertexCoarsening &coarsening,
-                       const NodalBlockMatrix &coarse)
+                       const BlockCsrMatrix   &coarse)
         : matrix(std::move(blocks))
         , smoother(matrix, smallest)
         , transfer(coarsening, coarse)
@@ -67,10 +67,10 @@ namespace mortise
         matrix.initialize(r);
       }
 
-      NodalBlockOperator<Number> matrix;
-      Chebyshev<Number>          smoother;
-      VertexTransfer<Number>     transfer;
-      LevelVector<Number>        x, b, r;
+      BlockCsrOperator<Number> matrix;
+      Chebyshev<Number>        smoother;
+      VertexTransfer<Number>   transfer;
+      LevelVector<Number>      x, b, r;
     };
 
     template <typename To, typename From>
@@ -84,7 +84,7 @@ namespace mortise
   template <typename Number>
   struct VertexMultigrid<Number>::Implementation
   {
-    Implementation(const NodalLevel &level, const bool smooth_finest)
+    Implementation(const MultigridLevel &level, const bool smooth_finest)
       : level(level)
     {
       const MPI_Comm comm        = level.layout->get_mpi_communicator();
@@ -101,9 +101,9 @@ namespace mortise
       set_up(std::move(matrix), {next, coarsenings.end()}, max_factorised);
     }
 
-    Implementation(const BlockSystem           &system,
-                   const ThicknessCoarsening   &thickness,
-                   const std::vector<WeakJump> &jumps)
+    Implementation(const BlockSystem                    &system,
+                   const ThicknessCoarsening            &thickness,
+                   const std::vector<ConstraintPenalty> &jumps)
       : level(system.nodal->levels().front())
       , across_thickness(true)
     {
@@ -119,9 +119,9 @@ namespace mortise
            const std::vector<VertexCoarsening> &coarsenings,
            const unsigned int                   max_size)
     {
-      NodalBlockMatrix &blocks   = matrix.blocks;
-      const double      smallest = lower_smoothing_bound(*level.space, false);
-      auto              next     = coarsenings.begin();
+      BlockCsrMatrix &blocks   = matrix.blocks;
+      const double    smallest = lower_smoothing_bound(*level.space, false);
+      auto            next     = coarsenings.begin();
       while (blocks.layout->size() > max_size &&
              (next != coarsenings.end() || !is_cheap(blocks)))
         {
@@ -129,7 +129,7 @@ namespace mortise
             next != coarsenings.end() ? *next++ : select_vertices(matrix);
           if (coarsening.owned.size() * dim == blocks.layout->size())
             break; // small bodies only
-          NodalBlockMatrix coarse = coarsen(blocks, coarsening);
+          BlockCsrMatrix coarse = coarsen(blocks, coarsening);
           levels.push_back(std::make_unique<SmoothedVertices<Number>>(
             std::move(blocks), smallest, coarsening, coarse));
           valid  = valid && levels.back()->smoother.is_valid();
@@ -140,7 +140,7 @@ namespace mortise
       coarse_b.reinit(blocks.layout);
       constrained             = constrained_components(blocks);
       const SparseMatrix rows = as_sparse_matrix(blocks);
-      blocks                  = NodalBlockMatrix();
+      blocks                  = BlockCsrMatrix();
       vertex_x.reinit(rows.rows(), rows.communicator());
       vertex_r.reinit(vertex_x);
       valid = coarsest.initialize(
@@ -198,8 +198,8 @@ namespace mortise
       return l == levels.size() ? coarse_b : levels[l]->b;
     }
 
-    const NodalLevel &level;
-    const bool        across_thickness =
+    const MultigridLevel &level;
+    const bool            across_thickness =
       false; ///< the first matrix is of these functions
     std::vector<std::unique_ptr<SmoothedVertices<Number>>> levels;
     LevelVector<Number>                                    coarse_x, coarse_b;
@@ -212,15 +212,16 @@ namespace mortise
   };
 
   template <typename Number>
-  VertexMultigrid<Number>::VertexMultigrid(const NodalLevel &level,
-                                           const bool        smooth_finest)
+  VertexMultigrid<Number>::VertexMultigrid(const MultigridLevel &level,
+                                           const bool            smooth_finest)
     : implementation(std::make_unique<Implementation>(level, smooth_finest))
   {}
 
   template <typename Number>
-  VertexMultigrid<Number>::VertexMultigrid(const BlockSystem         &system,
-                                           const ThicknessCoarsening &thickness,
-                                           const std::vector<WeakJump> &jumps)
+  VertexMultigrid<Number>::VertexMultigrid(
+    const BlockSystem                    &system,
+    const ThicknessCoarsening            &thickness,
+    const std::vector<ConstraintPenalty> &jumps)
     : implementation(std::make_unique<Implementation>(system, thickness, jumps))
   {}
 

@@ -5,18 +5,19 @@
 
 namespace mortise
 {
-  ConstraintProjector::ConstraintProjector(const BlockSystem  &system,
-                                           const CouplingRows &rows,
-                                           const Lifting      &lifting)
+  ConstraintProjector::ConstraintProjector(
+    const BlockSystem                &system,
+    const RowsByEntity               &rows,
+    const ApproximateSchurComplement &schur)
     : system(system)
-    , lifting(lifting)
+    , schur(schur)
     , product(system, rows)
     , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
   {
     system.nodal->initialize(force);
     system.nodal->initialize(correction);
-    product.initialize(trace);
+    product.initialize(coupled_values);
     for (unsigned int i = 0; i < jump.locally_owned_size(); ++i)
       {
         const bool is_spring =
@@ -28,16 +29,16 @@ namespace mortise
   void
   ConstraintProjector::remove_multipliers(Vector &r, Vector &lambda) const
   {
-    lifting.vmult(correction, r);
+    schur.apply_inverse_diagonal(correction, r);
     apply(correction);
-    lifting.apply_inverse_schur(multiplier, jump);
+    schur.apply_inverse(multiplier, jump);
     for (const unsigned int i : springs)
       multiplier.local_element(i) = 0.;
     lambda += multiplier;
-    product.multiply_transposed(trace, multiplier);
+    product.multiply_transposed(coupled_values, multiplier);
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
-      r.local_element(indices[k]) -= trace.local_element(k);
+      r.local_element(indices[k]) -= coupled_values.local_element(k);
   }
 
   void
@@ -74,12 +75,12 @@ namespace mortise
   void
   ConstraintProjector::step_to_constraint(Vector &u) const
   {
-    lifting.apply_inverse_schur(multiplier, jump);
-    product.multiply_transposed(trace, multiplier);
+    schur.apply_inverse(multiplier, jump);
+    product.multiply_transposed(coupled_values, multiplier);
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
-      force.local_element(indices[k]) = trace.local_element(k);
-    lifting.vmult(correction, force);
+      force.local_element(indices[k]) = coupled_values.local_element(k);
+    schur.apply_inverse_diagonal(correction, force);
     u -= correction;
   }
 } // namespace mortise

@@ -23,7 +23,7 @@ namespace mortise
   } // namespace
 
   IndexSet
-  touched_displacements(const BlockSystem &system, const CouplingRows &rows)
+  coupled_displacements(const BlockSystem &system, const RowsByEntity &rows)
   {
     IndexSet touched(system.owned_displacement.size());
     for (const int displacement : rows.displacements)
@@ -34,24 +34,25 @@ namespace mortise
   }
 
   std::vector<bool>
-  leading_nodes(const BlockSystem &system, const CouplingRows &rows)
+  independent_nodes(const BlockSystem &system, const RowsByEntity &rows)
   {
-    LevelVector<float> leads(system.owned_displacement,
-                             touched_displacements(system, rows),
-                             system.communicator);
+    LevelVector<float> is_independent(system.owned_displacement,
+                                      coupled_displacements(system, rows),
+                                      system.communicator);
     if (system.nodal)
-      for (const auto &leading : system.nodal->leading_displacements())
-        leads.local_element(leading.index) = 1.;
-    leads.update_ghost_values();
+      for (const auto &independent : system.nodal->independent_displacements())
+        is_independent.local_element(independent.index) = 1.;
+    is_independent.update_ghost_values();
     std::vector<bool> result(rows.n_nodes(), true);
     for (unsigned int v = 0; v < dim * result.size(); ++v)
       if (const int displacement = rows.displacements[v];
-          displacement >= 0 && leads(displacement) == 0.)
+          displacement >= 0 && is_independent(displacement) == 0.)
         result[v / dim] = false;
     return result;
   }
 
-  SplitRows::SplitRows(const SharedRows &shared, const std::vector<bool> &leads)
+  SplitEntityRows::SplitEntityRows(const EntityRows        &shared,
+                                   const std::vector<bool> &is_independent)
     : shared(&shared)
     , own(shared.n_rows, -1)
   {
@@ -59,7 +60,7 @@ namespace mortise
     bool               is_diagonal = true;
     for (int r = 0; r < shared.n_rows && is_diagonal; ++r)
       for (unsigned int k = 0; k < n; ++k)
-        if (!leads[shared.nodes[k]] && shared.values[r * n + k] != 0.)
+        if (!is_independent[shared.nodes[k]] && shared.values[r * n + k] != 0.)
           {
             is_diagonal = is_diagonal && own[r] < 0;
             own[r]      = static_cast<int>(k);
@@ -67,14 +68,14 @@ namespace mortise
     if (!is_diagonal)
       own.assign(own.size(), -1);
     for (unsigned int k = 0; k < n; ++k)
-      if (leads[shared.nodes[k]])
+      if (is_independent[shared.nodes[k]])
         columns[1].push_back(k);
       else if (!is_diagonal)
         columns[0].push_back(k);
   }
 
   bool
-  CouplingCluster::add(const SplitRows &rows)
+  CouplingCluster::add(const SplitEntityRows &rows)
   {
     std::array<std::vector<unsigned int>, 2> united;
     unsigned int n_united = 0, n_own = 0, n_added = 0;
@@ -103,7 +104,7 @@ namespace mortise
   }
 
   std::vector<CouplingCluster>
-  make_clusters(const std::vector<SplitRows> &all)
+  make_clusters(const std::vector<SplitEntityRows> &all)
   {
     std::vector<CouplingCluster> result;
     for (std::size_t s = 0; s < all.size(); ++s)

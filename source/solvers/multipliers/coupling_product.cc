@@ -20,19 +20,19 @@ namespace mortise
                   const CoupledNodes which,
                   const Visit       &visit)
     {
-      for (unsigned int k = 0; k < block.n_following; ++k)
+      for (unsigned int k = 0; k < block.n_dependent; ++k)
         visit(k, k);
-      if (which == CoupledNodes::following)
+      if (which == CoupledNodes::dependent)
         return;
-      const unsigned int first = block.width(CoupledNodes::following);
-      for (unsigned int k = block.n_following; k < block.nodes.size(); ++k)
-        visit(k, first + k - block.n_following);
+      const unsigned int first = block.width(CoupledNodes::dependent);
+      for (unsigned int k = block.n_dependent; k < block.nodes.size(); ++k)
+        visit(k, first + k - block.n_dependent);
     }
   } // namespace
 
   template <typename Number>
   CouplingProduct<Number>::CouplingProduct(const BlockSystem  &system,
-                                           const CouplingRows &rows)
+                                           const RowsByEntity &rows)
   {
     if (rows.matrix.has_frames())
       {
@@ -40,15 +40,15 @@ namespace mortise
         by_component.resize(rows.matrix.scalar().n_rows());
       }
     make_layout(system, rows);
-    make_blocks(rows, leading_nodes(system, rows));
+    make_blocks(rows, independent_nodes(system, rows));
   }
 
   template <typename Number>
   void
   CouplingProduct<Number>::make_layout(const BlockSystem  &system,
-                                       const CouplingRows &rows)
+                                       const RowsByEntity &rows)
   {
-    const IndexSet      touched = touched_displacements(system, rows);
+    const IndexSet      touched = coupled_displacements(system, rows);
     LevelVector<double> number(system.owned_displacement,
                                touched,
                                system.communicator);
@@ -57,14 +57,14 @@ namespace mortise
     number.compress(VectorOperation::add);
     for (unsigned int i = 0; i < number.locally_owned_size(); ++i)
       if (number.local_element(i) > 0.)
-        moved_indices.push_back(i);
+        coupled_indices.push_back(i);
 
     // number what is moved by itself; exact in double precision
     using Index = types::global_dof_index;
     const IndexSet owned =
-      owned_range(moved_indices.size(), system.communicator);
-    for (unsigned int k = 0; k < moved_indices.size(); ++k)
-      number.local_element(moved_indices[k]) = owned.nth_index_in_set(k);
+      owned_range(coupled_indices.size(), system.communicator);
+    for (unsigned int k = 0; k < coupled_indices.size(); ++k)
+      number.local_element(coupled_indices[k]) = owned.nth_index_in_set(k);
     number.update_ghost_values();
     IndexSet relevant(owned.size());
     for (const auto index : touched)
@@ -85,34 +85,34 @@ namespace mortise
   unsigned int
   CouplingProduct<Number>::Block::width(const CoupledNodes which) const
   {
-    const unsigned int following = padded<Number>(n_following);
-    return which == CoupledNodes::following ?
-             following :
-             following + padded<Number>(nodes.size() - n_following);
+    const unsigned int dependent = padded<Number>(n_dependent);
+    return which == CoupledNodes::dependent ?
+             dependent :
+             dependent + padded<Number>(nodes.size() - n_dependent);
   }
 
   template <typename Number>
   void
-  CouplingProduct<Number>::make_blocks(const CouplingRows      &rows,
-                                       const std::vector<bool> &leads)
+  CouplingProduct<Number>::make_blocks(const RowsByEntity      &rows,
+                                       const std::vector<bool> &is_independent)
   {
-    std::vector<SplitRows> all;
+    std::vector<SplitEntityRows> all;
     for (const auto &of_entity : rows.rows)
-      for (const SharedRows &shared : of_entity)
-        all.emplace_back(shared, leads);
+      for (const EntityRows &shared : of_entity)
+        all.emplace_back(shared, is_independent);
     const auto  clusters = make_clusters(all);
     std::size_t size = 0, widest = 0;
     for (const CouplingCluster &cluster : clusters)
       {
         Block &block      = blocks.emplace_back();
         block.nodes       = cluster.nodes[0];
-        block.n_following = block.nodes.size();
+        block.n_dependent = block.nodes.size();
         block.nodes.insert(block.nodes.end(),
                            cluster.nodes[1].begin(),
                            cluster.nodes[1].end());
         for (auto s = cluster.begin; s < cluster.end; ++s)
           {
-            const SharedRows  &shared  = *all[s].shared;
+            const EntityRows  &shared  = *all[s].shared;
             const unsigned int n_nodes = shared.nodes.size();
             for (int r = 0; r < shared.n_rows; ++r)
               {
@@ -140,7 +140,7 @@ namespace mortise
     for (unsigned int b = 0; b < blocks.size(); ++b)
       for (auto s = clusters[b].begin; s < clusters[b].end; ++s)
         {
-          const SharedRows  &shared  = *all[s].shared;
+          const EntityRows  &shared  = *all[s].shared;
           const unsigned int n_nodes = shared.nodes.size();
           for (int r = 0; r < shared.n_rows; ++r)
             {
@@ -148,7 +148,7 @@ namespace mortise
                 for (const unsigned int k : all[s].columns[i])
                   {
                     const auto &nodes = clusters[b].nodes[i];
-                    to[(i == 0 ? 0 : padded<Number>(blocks[b].n_following)) +
+                    to[(i == 0 ? 0 : padded<Number>(blocks[b].n_dependent)) +
                        (std::lower_bound(
                           nodes.begin(), nodes.end(), shared.nodes[k]) -
                         nodes.begin())] =
@@ -265,15 +265,15 @@ namespace mortise
   template <typename Number>
   void
   CouplingProduct<Number>::multiply(Vector                    &jump,
-                                    const LevelVector<Number> &trace,
+                                    const LevelVector<Number> &coupled_values,
                                     const CoupledNodes         nodes) const
   {
-    trace.update_ghost_values();
+    coupled_values.update_ghost_values();
     for (unsigned int v = 0; v < values.size(); ++v)
       values[v] = entry_of_value[v] < 0 ?
                     Number() :
-                    trace.local_element(entry_of_value[v]);
-    trace.zero_out_ghost_values();
+                    coupled_values.local_element(entry_of_value[v]);
+    coupled_values.zero_out_ghost_values();
     double *to = frames ? by_component.data() : jump.begin();
     for_each_block([&](const Block &block, const Number *from) {
       multiply_block(block, from, to, nodes);
@@ -284,9 +284,10 @@ namespace mortise
 
   template <typename Number>
   void
-  CouplingProduct<Number>::multiply_transposed(LevelVector<Number> &trace,
-                                               const Vector        &y,
-                                               const CoupledNodes   nodes) const
+  CouplingProduct<Number>::multiply_transposed(
+    LevelVector<Number> &coupled_values,
+    const Vector        &y,
+    const CoupledNodes   nodes) const
   {
     if (frames)
       {
@@ -298,11 +299,11 @@ namespace mortise
     for_each_block([&](const Block &block, const Number *from) {
       multiply_block_transposed(block, from, factors, nodes);
     });
-    trace = 0;
+    coupled_values = 0;
     for (unsigned int v = 0; v < values.size(); ++v)
       if (entry_of_value[v] >= 0)
-        trace.local_element(entry_of_value[v]) = values[v];
-    trace.compress(VectorOperation::add);
+        coupled_values.local_element(entry_of_value[v]) = values[v];
+    coupled_values.compress(VectorOperation::add);
   }
 
   template class CouplingProduct<float>;

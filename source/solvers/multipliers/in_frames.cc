@@ -3,8 +3,8 @@
 
 namespace mortise
 {
-  NodalMatrix
-  in_frames(const NodalMatrix &C, const SparseMatrix &frames)
+  RowsByNode
+  in_frames(const RowsByNode &C, const SparseMatrix &frames)
   {
     using Index             = SparseMatrix::Index;
     const MPI_Comm     comm = frames.communicator();

@@ -9,42 +9,44 @@ namespace mortise
 
   namespace
   {
-    /// Neighbours that follow together have less energy than each of them by
+    /// Dependent neighbours together have less energy than each of them by
     /// itself: doc/measurements/tuning.md.
-    constexpr double share_of_followers = 0.9;
+    constexpr double fraction_of_dependent = 0.9;
   } // namespace
 
   template <typename Number>
   InterfaceCorrection<Number>::InterfaceCorrection(
-    const BlockSystem             &system,
-    const CouplingProduct<Number> &product,
-    const Lifting                 &lifting)
+    const BlockSystem                &system,
+    const CouplingProduct<Number>    &product,
+    const ApproximateSchurComplement &schur)
     : system(system)
     , product(product)
-    , lifting(lifting)
+    , schur(schur)
     , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
     , carried(jump)
     , added(jump)
     , smoothed(product.indices().size())
   {
-    product.initialize(trace);
+    product.initialize(coupled_values);
     for (const unsigned int i : product.indices())
       weights.push_back(
-        static_cast<Number>(lifting.diagonal().local_element(i)));
-    some_lead =
-      Utilities::MPI::max(system.nodal->leading_displacements().empty() ? 0 : 1,
+        static_cast<Number>(schur.inverse_diagonal().local_element(i)));
+    any_independent =
+      Utilities::MPI::max(system.nodal->independent_displacements().empty() ?
+                            0 :
+                            1,
                           system.communicator) == 1;
   }
 
   template <typename Number>
   void
-  InterfaceCorrection<Number>::add_followers(
+  InterfaceCorrection<Number>::add_dependent_stiffness(
     LevelVector<Number> &diagonal) const
   {
-    for (const auto &leading : system.nodal->leading_displacements())
-      diagonal.local_element(leading.index) +=
-        static_cast<Number>(share_of_followers * leading.followers);
+    for (const auto &independent : system.nodal->independent_displacements())
+      diagonal.local_element(independent.index) += static_cast<Number>(
+        fraction_of_dependent * independent.dependent_stiffness);
   }
 
   template <typename Number>
@@ -53,17 +55,20 @@ namespace mortise
   {
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
-      trace.local_element(k) = x.local_element(indices[k]);
-    product.multiply(jump, trace, CoupledNodes::all);
+      coupled_values.local_element(k) = x.local_element(indices[k]);
+    product.multiply(jump, coupled_values, CoupledNodes::all);
     if (has_springs())
       {
         system.spring_compliance.vmult(multiplier, carried);
         jump -= multiplier;
       }
-    lifting.apply_inverse_schur(multiplier, jump);
-    product.multiply_transposed(trace, multiplier, CoupledNodes::following);
+    schur.apply_inverse(multiplier, jump);
+    product.multiply_transposed(coupled_values,
+                                multiplier,
+                                CoupledNodes::dependent);
     for (unsigned int k = 0; k < indices.size(); ++k)
-      x.local_element(indices[k]) -= weights[k] * trace.local_element(k);
+      x.local_element(indices[k]) -=
+        weights[k] * coupled_values.local_element(k);
     if (has_springs())
       carried += multiplier;
   }
@@ -74,10 +79,11 @@ namespace mortise
   {
     const auto &indices = product.indices();
     for (unsigned int k = 0; k < indices.size(); ++k)
-      trace.local_element(k) = weights[k] * r.local_element(indices[k]);
-    apply(CoupledNodes::following, CoupledNodes::all);
+      coupled_values.local_element(k) =
+        weights[k] * r.local_element(indices[k]);
+    apply(CoupledNodes::dependent, CoupledNodes::all);
     for (unsigned int k = 0; k < indices.size(); ++k)
-      r.local_element(indices[k]) -= trace.local_element(k);
+      r.local_element(indices[k]) -= coupled_values.local_element(k);
   }
 
   template class InterfaceCorrection<float>;

@@ -1,7 +1,7 @@
 // See weighted_square.h.
 #include <Teuchos_BLAS.hpp>
-#include <mortise/solvers/multipliers/nodal_coupling_transpose.h>
 #include <mortise/solvers/multipliers/weighted_square.h>
+#include <mortise/solvers/multipliers/weighted_transpose_by_node.h>
 
 #include <algorithm>
 
@@ -15,9 +15,9 @@ namespace mortise
     class Square
     {
     public:
-      Square(const CouplingRows           &B,
-             const NodalCouplingTranspose &transposed,
-             const NodeNumbers            &numbers)
+      Square(const RowsByEntity            &B,
+             const WeightedTransposeByNode &transposed,
+             const NodeNumbers             &numbers)
         : transposed(transposed)
         , entities(B.multipliers.entities)
         , rows(B.rows)
@@ -42,7 +42,7 @@ namespace mortise
           compute(e, numbers);
       }
 
-      NodalMatrix result;
+      RowsByNode result;
 
     private:
       /// Have all components the same rows?
@@ -51,7 +51,7 @@ namespace mortise
       {
         if (rows[e].size() != 1)
           return false;
-        const SharedRows &all = rows[e].front();
+        const EntityRows &all = rows[e].front();
         return std::all_of(all.first_row.begin(),
                            all.first_row.end(),
                            [](const int first) { return first >= 0; }) &&
@@ -71,7 +71,7 @@ namespace mortise
       pattern(const unsigned int e)
       {
         std::vector<int> result;
-        for (const SharedRows &shared : rows[e])
+        for (const EntityRows &shared : rows[e])
           for (unsigned int c = 0; c < dim; ++c)
             {
               int last = -1;
@@ -124,7 +124,7 @@ namespace mortise
         const std::vector<int> &columns = patterns[e];
         for (unsigned int l = 0; l < columns.size(); ++l)
           index[columns[l]] = l;
-        for (const SharedRows &shared : rows[e])
+        for (const EntityRows &shared : rows[e])
           {
             for (int i = 0; i < shared.n_rows; ++i)
               for (unsigned int c = 0; c < dim; ++c)
@@ -157,7 +157,7 @@ namespace mortise
 
       /// Columns from the entity's own nodes on.
       void
-      multiply(const unsigned int e, const SharedRows &shared)
+      multiply(const unsigned int e, const EntityRows &shared)
       {
         const auto         first = std::find_if(shared.first_row.begin(),
                                         shared.first_row.end(),
@@ -188,7 +188,7 @@ namespace mortise
       /// from the others.
       void
       add_products(const unsigned int e,
-                   const SharedRows  &shared,
+                   const EntityRows  &shared,
                    const unsigned int component,
                    const bool         common)
       {
@@ -244,7 +244,7 @@ namespace mortise
 
       /// Columns in front of the entity's own nodes: owned, computed before.
       void
-      mirror(const unsigned int e, const SharedRows &shared)
+      mirror(const unsigned int e, const EntityRows &shared)
       {
         for (unsigned int c = 0; c < (alike[e] ? 1 : dim); ++c)
           if (shared.first_row[c] >= 0)
@@ -266,9 +266,9 @@ namespace mortise
               }
       }
 
-      const NodalCouplingTranspose               &transposed;
+      const WeightedTransposeByNode              &transposed;
       const std::vector<EntityNodes>             &entities;
-      const std::vector<std::vector<SharedRows>> &rows;        ///< by entity
+      const std::vector<std::vector<EntityRows>> &rows;        ///< by entity
       std::vector<int>                            index, mark; ///< by node
       std::vector<char>                           alike;       ///< by entity
       std::vector<std::vector<int>>    patterns; ///< nodes, by entity
@@ -279,16 +279,16 @@ namespace mortise
     };
   } // namespace
 
-  NodalMatrix
-  weighted_square(const CouplingRows        &coupling,
+  RowsByNode
+  weighted_square(const RowsByEntity        &coupling,
                   const LevelVector<double> &weights)
   {
-    CouplingTranspose transposed(coupling, weights);
+    WeightedTranspose transposed(coupling, weights);
     const NodeNumbers numbers =
       number_nodes(coupling.multipliers, transposed.multipliers);
-    const NodalCouplingTranspose by_node(std::move(transposed),
-                                         coupling,
-                                         numbers);
+    const WeightedTransposeByNode by_node(std::move(transposed),
+                                          coupling,
+                                          numbers);
     return Square(coupling, by_node, numbers).result;
   }
 } // namespace mortise

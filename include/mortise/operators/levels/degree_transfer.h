@@ -1,7 +1,7 @@
 // Prolongation and restriction between two degrees on the same mesh.
 #pragma once
 
-#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/operators/levels/multigrid_level.h>
 
 #include <memory>
 #include <vector>

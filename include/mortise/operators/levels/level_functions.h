@@ -4,8 +4,8 @@
 
 #include <deal.II/lac/full_matrix.h>
 
-#include <mortise/operators/levels/nodal_block_matrix.h>
-#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/operators/levels/block_csr_matrix.h>
+#include <mortise/operators/levels/multigrid_level.h>
 #include <mortise/operators/levels/vertex_transfer.h>
 
 #include <vector>
@@ -43,7 +43,7 @@ namespace mortise
 
     /// @p level is kept by reference; @p coarsening may be null. Local nodes are those of @p layout,
     /// which owns what that of the level does. Collective.
-    LevelFunctions(const NodalLevel       &level,
+    LevelFunctions(const MultigridLevel   &level,
                    const Layout           &layout,
                    const VertexCoarsening *coarsening);
 
@@ -64,13 +64,13 @@ namespace mortise
     void
     add(const dealii::FullMatrix<double> &matrix,
         const Masters                    &masters,
-        NodalBlockMatrixBuilder          &builder);
+        BlockCsrMatrixBuilder            &builder);
 
     /// Adds a matrix of these functions.
     void
     add_projected(const dealii::FullMatrix<double> &matrix,
                   const std::vector<Index>         &nodes,
-                  NodalBlockMatrixBuilder          &builder);
+                  BlockCsrMatrixBuilder            &builder);
 
   private:
     void
@@ -82,7 +82,7 @@ namespace mortise
       return layout->global_to_local(dim * node) / dim;
     }
 
-    const NodalLevel          &level;
+    const MultigridLevel      &level;
     const Layout               layout;
     std::vector<unsigned int>  constrained; ///< by local node, bits
     InterpolationRows          rows;        ///< of the coarsening

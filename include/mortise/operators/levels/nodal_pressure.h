@@ -2,7 +2,7 @@
 // nodes.
 #pragma once
 
-#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/operators/levels/multigrid_level.h>
 #include <mortise/operators/matrix_free/hanging_nodes.h>
 
 #include <memory>

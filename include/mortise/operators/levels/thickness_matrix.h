@@ -2,8 +2,8 @@
 #pragma once
 
 #include <mortise/body/spaces/thickness_coarsening.h>
+#include <mortise/operators/levels/constraint_penalty.h>
 #include <mortise/operators/levels/vertex_matrix.h>
-#include <mortise/operators/levels/weak_jumps.h>
 
 #include <vector>
 
@@ -12,8 +12,8 @@ namespace mortise
   /// P^T (K + J) P: of flat bodies with the matrices of cells of all degrees, @p elasticity, of
   /// others with those of degree one; J are @p jumps. @p level: the finest. Collective.
   VertexMatrix
-  assemble_thickness_matrix(const NodalLevel                   &level,
-                            const MatrixFreeElasticity<double> &elasticity,
-                            const ThicknessCoarsening          &coarsening,
-                            const std::vector<WeakJump>        &jumps);
+  assemble_thickness_matrix(const MultigridLevel                 &level,
+                            const MatrixFreeElasticity<double>   &elasticity,
+                            const ThicknessCoarsening            &coarsening,
+                            const std::vector<ConstraintPenalty> &jumps);
 } // namespace mortise

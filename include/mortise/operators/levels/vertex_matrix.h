@@ -3,8 +3,8 @@
 #pragma once
 
 #include <mortise/body/spaces/vertex_coarsening.h>
-#include <mortise/operators/levels/nodal_block_matrix.h>
-#include <mortise/operators/levels/nodal_level.h>
+#include <mortise/operators/levels/block_csr_matrix.h>
+#include <mortise/operators/levels/multigrid_level.h>
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace mortise
 {
   struct VertexMatrix
   {
-    NodalBlockMatrix                blocks; ///< K + J on degree one
+    BlockCsrMatrix                  blocks; ///< K + J on degree one
     std::vector<dealii::Point<dim>> points; ///< of owned nodes
     std::vector<unsigned int>       bodies; ///< of owned nodes
 
@@ -33,6 +33,6 @@ namespace mortise
   /// K + J on @p level, of degree one in all bodies, or with @p coarsening
   /// directly P^T (K + J) P on the coarser mesh. Collective.
   VertexMatrix
-  assemble_vertex_matrix(const NodalLevel       &level,
+  assemble_vertex_matrix(const MultigridLevel   &level,
                          const VertexCoarsening *coarsening = nullptr);
 } // namespace mortise

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <mortise/body/spaces/vertex_coarsening.h>
-#include <mortise/operators/levels/nodal_block_matrix.h>
-#include <mortise/operators/levels/nodal_operator.h>
+#include <mortise/operators/levels/block_csr_matrix.h>
+#include <mortise/operators/levels/level_operator_base.h>
 
 #include <numeric>
 #include <vector>
@@ -48,12 +48,12 @@ namespace mortise
   void
   constrain(const std::vector<unsigned int> &constrained,
             const VertexCoarsening          &coarsening,
-            NodalBlockMatrix                &coarse);
+            BlockCsrMatrix                  &coarse);
 
   /// P^T A P with the constraints of the coarse vertices and the ghosts that P
   /// needs. Collective.
-  NodalBlockMatrix
-  coarsen(const NodalBlockMatrix &fine, const VertexCoarsening &coarsening);
+  BlockCsrMatrix
+  coarsen(const BlockCsrMatrix &fine, const VertexCoarsening &coarsening);
 
   /// P is the same for all components.
   template <typename Number>
@@ -62,7 +62,7 @@ namespace mortise
   public:
     /// @p coarse: by coarsen().
     VertexTransfer(const VertexCoarsening &coarsening,
-                   const NodalBlockMatrix &coarse);
+                   const BlockCsrMatrix   &coarse);
 
     /// fine += P coarse, constrained components included. Collective.
     void

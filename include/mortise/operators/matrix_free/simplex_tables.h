@@ -14,9 +14,9 @@ namespace mortise
   constexpr unsigned int sum_factorised_from = 6;
 
   /// The points of curved tetrahedra: exact up to twice the degree, see
-  /// doc/measurements/tuning.md; in single precision, which serves preconditioners
-  /// alone, one degree less where sum factorisation does not need more, still
-  /// exact on affine cells.
+  /// doc/measurements/tuning.md; in single precision, which serves
+  /// preconditioners alone, one degree less where sum factorisation does not
+  /// need more, still exact on affine cells.
   template <typename Number>
   dealii::Quadrature<dim>
   simplex_rule(unsigned int degree);

@@ -5,7 +5,7 @@
 #include <mortise/adapt/cycle_errors.h>
 #include <mortise/adapt/mesh_plan.h>
 #include <mortise/output/summary.h>
-#include <mortise/problem/adaptive/kept_cycles.h>
+#include <mortise/problem/adaptive/cycle_checkpoint.h>
 #include <mortise/problem/input/quantity.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/scene_spaces.h>
@@ -42,14 +42,14 @@ namespace mortise
     const std::vector<BodySolution> &
     start(const Bodies &bodies)
     {
-      return of_cycle.start(bodies, goes_on());
+      return of_cycle.start(bodies, spaces_are_nested());
     }
 
     /// The same for the dual problem of quantity(). Collective.
     const std::vector<BodySolution> &
     dual_start(const Bodies &bodies)
     {
-      return of_cycle.dual_start(bodies, goes_on());
+      return of_cycle.dual_start(bodies, spaces_are_nested());
     }
 
     /// Number of cycles that were added.
@@ -77,7 +77,7 @@ namespace mortise
     add(const Bodies                      &bodies,
         const std::vector<BodySolution>   &solutions,
         const std::optional<DualSolution> &dual,
-        std::vector<InterfaceViolation>    violations,
+        std::vector<InterfaceResidual>     interface_residuals,
         const Residuals                   &residuals);
 
     /// Of the last cycle.
@@ -97,8 +97,8 @@ namespace mortise
     bool
     reached() const
     {
-      const auto &at_most = of_cycle.memory.at_most;
-      return at_most && *at_most <= met_at();
+      const auto &upper_estimate = of_cycle.memory.upper_estimate;
+      return upper_estimate && *upper_estimate <= met_at();
     }
 
     /// The limit that prevents the next cycle before the target is reached, in
@@ -108,7 +108,7 @@ namespace mortise
 
     /// Data of a checkpoint beside the last solution; empty without
     /// checkpoints.
-    const KeptCycles &
+    const CycleCheckpoint &
     checkpoint() const
     {
       return kept;
@@ -118,7 +118,7 @@ namespace mortise
     /// InputError for another quantity(), std::out_of_range for impossible
     /// data.
     void
-    resume(KeptCycles given);
+    resume(CycleCheckpoint given);
 
     /// After resume(), before there are spaces: make the meshes of that cycle
     /// from the first ones. Collective; throws InputError if gmsh fails or
@@ -138,7 +138,7 @@ namespace mortise
 
     /// Do the spaces of the next cycle contain those of the last one?
     bool
-    goes_on() const
+    spaces_are_nested() const
     {
       return n_cycles() > 0 && next.meshes.empty();
     }
@@ -158,7 +158,7 @@ namespace mortise
     unsigned int                  n_meshes = 0; ///< number of remeshings
     /// By body, sizes of the mesh; null: those of the file.
     std::vector<std::shared_ptr<const SizeField>> sizes;
-    KeptCycles                                    kept;
+    CycleCheckpoint                               kept;
   };
 
   /// Summary of the last cycle. @p exact may be null; @p errors: of the whole

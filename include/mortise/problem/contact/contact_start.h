@@ -1,9 +1,9 @@
-// What presses first in a scene with contact: what presses with lower degrees,
-// which is known after a fraction of the time, since sets are as many as there
-// are nodes between the first guess and the edge of the contact.
+// First active set by nested iteration over the degree: solutions with lower
+// degrees are cheap, and the number of sets grows with the nodes between the
+// first guess and the edge of the contact.
 #pragma once
 
-#include <mortise/contact/multiplier_places.h>
+#include <mortise/contact/multiplier_positions.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/scene_spaces.h>
 
@@ -11,11 +11,10 @@
 
 namespace mortise
 {
-  /// For the loads at @p time, from degree one (bodies in mixed form: two) up to half of what the
-  /// parameters say. Nothing without contact, for few nodes, where degrees are
-  /// lowest anyway, and where no contact is found (what is wrong then is told
-  /// by the scene itself). Changes the spaces of
-  /// @p bodies. Collective.
-  std::optional<ActivePlaces>
+  /// For the loads at @p time, from degree one (bodies in mixed form: two) up
+  /// to half of what the parameters say. Nothing without contact, for few
+  /// nodes, with the lowest degrees, or if contact is lost, which the scene
+  /// itself reports. Changes the spaces of @p bodies. Collective.
+  std::optional<ActivePositions>
   contact_start(const RunContext &run, double time, Bodies &bodies);
 } // namespace mortise

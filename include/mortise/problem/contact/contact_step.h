@@ -21,30 +21,33 @@ namespace mortise
   class ContactStep : private NonlinearProblem
   {
   public:
-    /// All must live on. @p start: what presses first, or pressed in the last step, if that is known. Collective.
-    ContactStep(const RunContext           &run,
-                Discretisation             &discretisation,
-                LinearSolver               &solver,
-                Preloads                   &preloads,
-                std::optional<ActivePlaces> start);
+    /// References must live on. @p start: the first active set, or that of the
+    /// last step, if known. Collective.
+    ContactStep(const RunContext              &run,
+                Discretisation                &discretisation,
+                LinearSolver                  &solver,
+                Preloads                      &preloads,
+                std::optional<ActivePositions> start);
 
-    /// Solve for @p load, of which shortenings of preloads become a part. The first set is what presses as the last steps go on, in the first step what
-    /// the constructor was told, or where the gap is closed before anything
-    /// moves; all where these do not hold the bodies. On the way linear solves
-    /// are as loose as the choice of the next set allows. The report is that of
-    /// the last one, its seconds those of all; not converged after 1000 sets.
-    /// Throws InputError that names body and motion where contact is lost.
-    /// Collective.
+    /// Solve for @p load, of which shortenings of preloads become a part. The
+    /// first set is extrapolated from the last steps; in the first step it is
+    /// that of the constructor, or the closed gaps of the undeformed meshes;
+    /// all multipliers if it leaves a rigid motion free. Before the last set
+    /// linear solves are as loose as the choice of the next set allows. The
+    /// report is that of the last one, its seconds those of all; not converged
+    /// after 1000 sets. Throws InputError with body and motion if contact is
+    /// lost. Collective.
     SolveReport
     solve(SceneLoad &load, SystemVector &x);
 
-    /// Go on from @p x, a solution for @p load that was found before, with what the constructor was told for the multipliers that press. Collective.
+    /// Continue from @p x, an earlier solution for @p load, with the active set
+    /// of the constructor. Collective.
     void
     resume(const SceneLoad &load, const SystemVector &x);
 
-    /// What presses now. Collective.
-    ActivePlaces
-    active_places() const;
+    /// The present active set. Collective.
+    ActivePositions
+    active_positions() const;
 
     /// Of the last solve().
     unsigned int
@@ -53,18 +56,19 @@ namespace mortise
       return sets;
     }
 
-    /// Of the last solve(): did the sets come to an end?
+    /// Of the last solve(): did the active sets converge?
     bool
-    settled() const
+    converged() const
     {
       return report.converged || !report.linear.converged;
     }
 
-    /// Of the last solve(), by owned multiplier: neither pressure nor gap.
+    /// Of the last solve(), by owned multiplier: are pressure and gap zero to
+    /// rounding?
     const std::vector<bool> &
     undecided() const
     {
-      return unclear;
+      return undecided_multipliers;
     }
 
     /// Of the last solve(), of all sets.
@@ -75,19 +79,19 @@ namespace mortise
     }
 
   private:
-    /// Of the last step that was solved.
+    /// The last solved step.
     struct Solved
     {
       SystemVector      rhs, x;
       std::vector<bool> active;
     };
 
-    /// Set @p x to what @p load should come to where steps go on; returns the set that
-    /// follows from it, the first one of the step.
+    /// Extrapolate @p x to @p load from the last steps; returns the first set
+    /// of the step.
     std::vector<bool>
     predict(const SceneLoad &load, SystemVector &x);
     /// Choose the set that follows from @p x, and how exactly it is to be
-    /// solved; returns the share of multipliers that change.
+    /// solved; returns the fraction of multipliers that change.
     double
     residual(const SystemVector &x) override;
     void
@@ -96,50 +100,51 @@ namespace mortise
     solve(SystemVector &x) override;
     SolveReport
     solve_set(unsigned int max_iterations, SystemVector &x);
-    /// Where @p next, which follows from @p x, leaves motions free, bodies fall until it does not.
-    /// Throws InputError where nothing stops them.
+    /// If @p next, which follows from @p x, leaves rigid motions free, move the
+    /// bodies along their loads until gaps close. Throws InputError if none
+    /// does.
     void
     catch_bodies(const SystemVector &x, ActiveSet &next) const;
-    /// For the start of the next step.
+    /// Keep the solution for the prediction of the next step.
     void
     remember(Solved now);
-    /// Those that the multipliers leave, in words; nothing where they hold the
-    /// bodies.
+    /// The free rigid motions in words; empty without.
     std::string
     free_motions(const std::vector<bool> &active) const;
     void
     print(const ActiveSet::Change &change) const;
-    /// Let preconditioners see the set.
+    /// Update the penalties of preconditioners to the set.
     void
     show();
 
-    const RunContext &run;
-    Discretisation   &discretisation;
-    LinearSolver     &solver;
-    Preloads         &preloads;
-    ActiveSet         set;
-    MultiplierPlaces  places;
-    ContactEdge       edge;
-    std::uint64_t     n_contact; ///< multipliers that may press only
+    const RunContext   &run;
+    Discretisation     &discretisation;
+    LinearSolver       &solver;
+    Preloads           &preloads;
+    ActiveSet           set;
+    MultiplierPositions positions;
+    ContactEdge         edge;
+    std::uint64_t       n_contact; ///< multipliers of contact
 
-    std::optional<ActivePlaces> first; ///< what presses in the first step
-    std::optional<Solved>       last;  ///< with steps
+    std::optional<ActivePositions> first; ///< active set of the first step
+    std::optional<Solved>          last;  ///< with steps
     SuccessiveSolutions
          increments; ///< from step to step, with the set of the last one
-    bool mixed_increment = false; ///< was the set of the last but one another?
-    std::unique_ptr<ScaledResidual> scaled; ///< their product
+    bool mixed_increment =
+      false; ///< did the last two steps have different sets?
+    std::unique_ptr<ScaledResidual> scaled; ///< for the product of increments
 
     SceneLoad        *load = nullptr; ///< of solve()
     NewtonReport      report;
     double            tolerance  = 0.; ///< of the next linear solve
     unsigned int      sets       = 0;
     unsigned int      iterations = 0; ///< of the last set
-    std::vector<bool> unclear;
-    /// Active multipliers of the set that coarse levels see.
+    std::vector<bool> undecided_multipliers;
+    /// Active multipliers of the set in the penalties of coarse levels.
     std::optional<std::uint64_t> n_shown;
-    bool                         shows = false; ///< do they see the next one?
-    bool cold = true; ///< does the first set of the step know little?
-    /// Do sets that open go on up to where the edge of the contact is?
+    bool shows = false; ///< is the next one to be in these?
+    bool cold  = true;  ///< is the first set of the step a poor guess?
+    /// Are sets that open extended to the predicted edge of the contact?
     bool         extends    = false;
     bool         extended   = false; ///< did one open?
     unsigned int overshoots = 0;     ///< sets that closed again

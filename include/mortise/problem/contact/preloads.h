@@ -1,13 +1,12 @@
-// Ties that carry a given force, as the heads of bolts that are tightened: by
-// how much the sides approach is one unknown for each, a part of the offset of
-// the interface.
+// Ties with a given normal force (bolt pretension). The shortening of each, an
+// additional unknown, is part of the offset of its interface.
 //
 //     [  A    -w ] [ x ]   [ b ]
 //     [ -w^T   0 ] [ d ] = [ F ]
 //
 // A is the system of LinearSolver, w = int psi . n of the interface, d its
-// shortening, and -w^T lambda the normal force that it carries. One solution of
-// A for each w gives the small matrix -w^T A^{-1} w, from which d follows.
+// shortening, -w^T lambda its normal force. One solution with A per w gives the
+// Schur complement -w^T A^{-1} w of d.
 #pragma once
 
 #include <mortise/problem/scene/discretisation.h>
@@ -21,15 +20,15 @@ namespace mortise
   class Preloads
   {
   public:
-    /// All must live on. Throws InputError for interfaces that are not about
-    /// flat. @p shortenings: of an earlier one for the same interfaces, by interface, or none.
+    /// References must live on. Throws InputError for interfaces that are not
+    /// nearly flat. @p shortenings: initial ones by interface, or none.
     /// Collective.
     Preloads(const RunContext          &run,
              const Discretisation      &discretisation,
              LinearSolver              &solver,
              const std::vector<double> &shortenings = {});
 
-    /// By preloaded interface: by how much the sides approach, a length.
+    /// By preloaded interface, a length.
     const std::vector<double> &
     shortenings() const
     {
@@ -40,7 +39,7 @@ namespace mortise
     std::vector<double>
     shortenings_by_interface() const;
 
-    /// Index of the interface of each.
+    /// Indices of the preloaded interfaces.
     const std::vector<unsigned int> &
     interfaces() const
     {
@@ -52,8 +51,8 @@ namespace mortise
     std::vector<bool>
     have_forces() const;
 
-    /// What the given forces do along a motion that the constraint feels as @p opening.
-    /// Collective.
+    /// Work of the given forces on a motion with the constraint residual
+    /// @p opening. Collective.
     double
     work(const Vector &opening) const;
 
@@ -67,14 +66,15 @@ namespace mortise
     void
     begin(const SceneData &data, SceneLoad &load);
 
-    /// As LinearSolver::solve(), or solve_from() if @p goes_on. The shortenings become part of
-    /// @p load. What the shortenings move has to be held: Pairing::check_held(). Collective.
+    /// As LinearSolver::solve(), or solve_from() if @p goes_on. The shortenings
+    /// become part of @p load. There must be no free motion:
+    /// Pairing::check_no_free_motion(). Collective.
     SolveReport
     solve(bool goes_on, SceneLoad &load, SystemVector &x);
 
-    /// Of @p z, a solution of the system of the solver for @p rhs: that of the
-    /// system with the shortenings, which is symmetric, for no other loads and
-    /// no forces. What it takes is added to @p report and @p rhs. Collective.
+    /// Change @p z, a solution of the solver's system for @p rhs, to that of
+    /// the symmetric system with shortenings and zero forces. The changes are
+    /// added to @p report and @p rhs. Collective.
     void
     release(SystemVector &rhs, SystemVector &z, SolveReport &report);
 
@@ -88,22 +88,22 @@ namespace mortise
     /// The solutions for all w; their reports are added to @p report.
     void
     solve_units(SolveReport &report);
-    /// For @p load without the shortenings, then what these bring: other loads
-    /// start from those of earlier steps, beside which shortenings are large.
+    /// Solve for @p load without shortenings, which start from earlier steps,
+    /// then add the contribution of the shortenings.
     SolveReport
     solve_other_loads(const SceneLoad &load, SystemVector &x);
-    /// The part of what the constraint feels, @p opening, that is d w. Collective.
+    /// The d of the part d w of the constraint residual @p opening. Collective.
     double
     shortening(unsigned int j, const Vector &opening) const;
-    /// Add d w to @p load, and to x what it brings.
+    /// Add d w to @p load and its solution to @p x.
     void
     shorten(unsigned int j, double d, SceneLoad &load, SystemVector *x);
-    /// What the forces lack, by preloaded interface; zero where the shortening
-    /// is kept.
+    /// Missing forces by preloaded interface; zero if the shortening is kept.
     dealii::Vector<double>
     missing(const SystemVector &x) const;
 
-    /// What the forces are short of by @p lacks. After solve_units().
+    /// Changes of shortenings for the missing forces @p lacks. After
+    /// solve_units().
     dealii::Vector<double>
     shortenings_for(const dealii::Vector<double> &lacks) const;
 

@@ -9,7 +9,7 @@
 // variationally consistent postprocessing (2003).
 #pragma once
 
-#include <mortise/problem/results/held_boundaries.h>
+#include <mortise/problem/results/dirichlet_boundaries.h>
 #include <mortise/problem/results/solved_step.h>
 
 #include <vector>
@@ -45,9 +45,9 @@ namespace mortise
     /// int (sigma n) . v over @p boundary by node, for the components @p which of the
     /// nodes there.
     LevelVector<double>
-    stresses_at_nodes(unsigned int                      b,
-                      dealii::types::boundary_id        boundary,
-                      const HeldBoundaries::Components &which) const;
+    stresses_at_nodes(unsigned int                           b,
+                      dealii::types::boundary_id             boundary,
+                      const DirichletBoundaries::Components &which) const;
     /// Add forces at components that @p boundary prescribes.
     void
     add_borne(unsigned int               b,
@@ -62,7 +62,7 @@ namespace mortise
     const Discretisation                       &discretisation;
     const SolvedStep                           &solved;
     const std::vector<BodySolution>            &solutions;
-    const HeldBoundaries                        held;
+    const DirichletBoundaries                   dirichlet;
     std::vector<std::vector<TractionCondition>> tractions; ///< by body
     /// Forces on prescribing boundaries, at shared nodes less those of
     /// stresses.

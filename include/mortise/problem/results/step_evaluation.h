@@ -1,7 +1,7 @@
 // Lazy evaluation of a solved step: each result is computed once, on demand.
 #pragma once
 
-#include <mortise/mortar/violation.h>
+#include <mortise/mortar/interface_evaluation.h>
 #include <mortise/problem/results/boundary_forces.h>
 #include <mortise/problem/results/solved_step.h>
 #include <mortise/problem/scene/discretisation.h>
@@ -53,10 +53,10 @@ namespace mortise
     forces() const;
 
     /// Of interface @p i.
-    const Violations &
-    violation(unsigned int i) const;
+    const InterfaceEvaluation &
+    evaluation_of(unsigned int i) const;
 
-    /// Of interface @p i, from violation() if that is known.
+    /// Of interface @p i, from evaluation_of() if that is known.
     double
     penetration(unsigned int i) const;
 
@@ -72,6 +72,6 @@ namespace mortise
     mutable std::optional<Vector>                    all_gaps;
     mutable std::optional<TraceDisplacement>         on_traces;
     mutable std::optional<BoundaryForces>            at_boundaries;
-    mutable std::vector<std::optional<Violations>>   of_points;
+    mutable std::vector<std::optional<InterfaceEvaluation>> of_points;
   };
 } // namespace mortise

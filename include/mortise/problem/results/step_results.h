@@ -12,13 +12,13 @@
 namespace mortise
 {
   /// Of all interfaces. Collective.
-  std::vector<InterfaceViolation>
-  violations(const StepEvaluation &step);
+  std::vector<InterfaceResidual>
+  interface_residuals(const StepEvaluation &step);
 
   /// Of the bodies, with tractions at @p interfaces. Collective.
   Residuals
-  residuals(const StepEvaluation                  &step,
-            const std::vector<InterfaceViolation> &interfaces);
+  residuals(const StepEvaluation                 &step,
+            const std::vector<InterfaceResidual> &interfaces);
 
   /// Add to @p summary the largest values in bodies, the balance of interfaces,
   /// errors against the exact solution, Points, equilibrium and Resultants.

@@ -52,11 +52,10 @@ namespace mortise
       system.force_rows = system.constraint.with_frames(std::move(frames));
     }
 
-    /// Let preconditioners see on coarse levels what is active now, where that
-    /// is another set than when they last did. LinearSolver::update() must
-    /// follow. Collective.
+    /// Update the penalties of coarse levels to the active set.
+    /// LinearSolver::update() must follow. Collective.
     void
-    show_active();
+    update_coarse_active_set();
 
     /// By owned multiplier: does it belong to contact?
     std::vector<bool>
@@ -137,7 +136,7 @@ namespace mortise
     void
     pair(const std::vector<BodySolution> &displaced)
     {
-      take(std::make_unique<Pairing>(run, spaces, &displaced));
+      set_pairing(std::make_unique<Pairing>(run, spaces, &displaced));
     }
 
   private:
@@ -149,7 +148,7 @@ namespace mortise
     };
 
     void
-    take(std::unique_ptr<Pairing> pairing);
+    set_pairing(std::unique_ptr<Pairing> pairing);
     void
     create_bulk();
     void

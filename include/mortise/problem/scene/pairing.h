@@ -53,11 +53,11 @@ namespace mortise
     /// its normal force given, so that its sides may approach each other?
     /// Collective.
     void
-    check_held(const std::vector<bool> &active,
-               const std::vector<bool> &is_preloaded) const;
+    check_no_free_motion(const std::vector<bool> &active,
+                         const std::vector<bool> &is_preloaded) const;
 
     /// Free rigid motions with the @p active multipliers; arguments of
-    /// check_held(). Collective.
+    /// check_no_free_motion(). Collective.
     FreeMotions
     free_motions(const std::vector<bool> &active,
                  const std::vector<bool> &is_preloaded) const;
@@ -69,7 +69,8 @@ namespace mortise
       return std::any_of(couplings.begin(),
                          couplings.end(),
                          [](const Coupling &coupling) {
-                           return coupling.law.held == HeldDirections::normal;
+                           return coupling.law.constrained ==
+                                  ConstrainedDirections::normal;
                          });
     }
 
@@ -166,10 +167,10 @@ namespace mortise
     void
     check_constants(unsigned int                     i,
                     const std::vector<PartnerState> &states) const;
-    /// By owned displacement dof of body @p b: is it prescribed or @p taken (by
+    /// By owned displacement dof of body @p b: is it prescribed or @p coupled (by
     /// owned displacement of the scene)?
     std::vector<bool>
-    blocked_dofs(unsigned int b, const std::vector<bool> &taken) const;
+    constrained_dofs(unsigned int b, const std::vector<bool> &coupled) const;
 
     const RunContext                &run;
     const SceneSpaces               &spaces;

@@ -121,15 +121,15 @@ namespace mortise
     unsigned int                  slave, master; ///< bodies
     std::vector<MultiplierMoment> multipliers;   ///< of this rank
     double                        coverage;      ///< of the slave surface
-    HeldDirections                held;
-    struct Place
+    ConstrainedDirections         constrained;
+    struct Sample
     {
       dealii::Point<dim>     point;
       double                 area; ///< that it stands for
       dealii::Tensor<1, dim> normal;
     };
     /// Of this rank, spread over the covered part of the slave surface.
-    std::vector<Place> places;
+    std::vector<Sample> samples;
     /// The direction along which a preload lets the sides approach each other.
     std::optional<dealii::Tensor<1, dim>> released;
   };
@@ -188,7 +188,7 @@ namespace mortise
     RigidMatrix
     sum() const
     {
-      RigidMatrix result = held;
+      RigidMatrix result = constrained;
       result.add(1., across);
       return result;
     }
@@ -210,7 +210,7 @@ namespace mortise
               unsigned int   a,
               unsigned int   b);
 
-    RigidMatrix held; ///< exactly
+    RigidMatrix constrained; ///< exactly
     RigidMatrix across,
       moved; ///< of curved sliding surfaces: along normals, along all
              ///< directions

@@ -21,10 +21,10 @@ namespace mortise
     /// @p zero: a vector with the entries of the rows. False on all ranks if
     /// the matrix is not positive definite. Collective.
     bool
-    initialize(const NodalMatrix &rows,
-               const Product     &product,
-               const Vector      &zero,
-               bool               allow_single);
+    initialize(const RowsByNode &rows,
+               const Product    &product,
+               const Vector     &zero,
+               bool              allow_single);
 
     /// x = matrix^{-1} b, to four digits at least in the norm of the matrix.
     /// Collective.

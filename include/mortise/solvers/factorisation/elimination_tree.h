@@ -54,5 +54,5 @@ namespace mortise
   /// The rank of each supernode: whole subtrees, balanced by entries of the
   /// factor, and on_all_ranks above them.
   std::vector<int>
-  deal_out(const std::vector<Supernode> &supernodes, int n_ranks);
+  distribute_supernodes(const std::vector<Supernode> &supernodes, int n_ranks);
 } // namespace mortise

@@ -49,10 +49,9 @@ namespace mortise
   };
 
   /// [K G^T B^T; G -C 0; B 0 -S], with BlockSystem::force_rows in place of B^T
-  /// where there are. Rows and columns of what is prescribed or hangs, and of
-  /// multipliers that are not active, have their diagonal alone; the diagonal
-  /// of a pressure that stands for a free constant has the norm of
-  /// @p residual added. Collective.
+  /// where there are. Constrained dofs and inactive multipliers have a diagonal
+  /// alone; the norm of @p residual is added to the diagonal of one pressure
+  /// per free constant. Collective.
   SparseMatrix
   monolithic_matrix(const BlockSystem         &system,
                     const ScaledResidual      &residual,

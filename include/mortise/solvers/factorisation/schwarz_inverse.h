@@ -5,7 +5,7 @@
 #pragma once
 
 #include <mortise/base/types.h>
-#include <mortise/solvers/factorisation/nodal_matrix.h>
+#include <mortise/solvers/factorisation/rows_by_node.h>
 #include <mortise/solvers/factorisation/sparse_cholesky.h>
 
 #include <functional>
@@ -23,7 +23,7 @@ namespace mortise
     /// do not decrease fast enough. @p product: a fast product with the matrix,
     /// kept. @p zero: a vector with the entries of the rows. Collective.
     bool
-    initialize(const NodalMatrix &rows, Product product, const Vector &zero);
+    initialize(const RowsByNode &rows, Product product, const Vector &zero);
 
     /// x = matrix^{-1} b to six digits, linear in b since the number of
     /// corrections is fixed. Collective.
@@ -45,7 +45,7 @@ namespace mortise
     void
     solve_local(Vector &to, const Vector &from) const;
 
-    std::vector<int>            entries; ///< as in NodalMatrix
+    std::vector<int>            entries; ///< as in RowsByNode
     Product                     product;
     SparseCholesky<float>       local;   ///< owned nodes and neighbours
     mutable Vector              nodal;   ///< by these and component

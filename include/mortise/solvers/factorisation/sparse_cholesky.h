@@ -7,8 +7,8 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <mortise/solvers/factorisation/gathered_nodal_matrix.h>
-#include <mortise/solvers/factorisation/nodal_matrix.h>
+#include <mortise/solvers/factorisation/gathered_rows.h>
+#include <mortise/solvers/factorisation/rows_by_node.h>
 
 #include <vector>
 
@@ -17,7 +17,7 @@ namespace mortise
   /// Number of multiplications to factorise one component of @p rows.
   /// Collective.
   double
-  factorisation_work(const NodalMatrix &rows, MPI_Comm comm);
+  factorisation_work(const RowsByNode &rows, MPI_Comm comm);
 
   /// Computed in the precision of @p Work, kept and applied in @p Number.
   template <typename Number, typename Work = double>
@@ -28,9 +28,9 @@ namespace mortise
     /// same values. False on all ranks if it is not positive definite.
     /// Collective.
     bool
-    initialize(const NodalMatrix &rows, MPI_Comm comm);
+    initialize(const RowsByNode &rows, MPI_Comm comm);
 
-    /// x = matrix^{-1} b, both with the entries of NodalMatrix. Collective.
+    /// x = matrix^{-1} b, both with the entries of RowsByNode. Collective.
     void
     solve(double *x, const double *b) const;
 
@@ -40,7 +40,7 @@ namespace mortise
     void
     list_parts();
     bool
-    factorise(const GatheredNodalMatrix &matrix);
+    factorise(const GatheredRows &matrix);
     /// visit(panel, number of components, the first of them).
     template <typename Visit>
     void
@@ -93,7 +93,7 @@ namespace mortise
     MPI_Comm                  comm = MPI_COMM_NULL;
     int                       rank = 0, n_ranks = 1;
     unsigned int              n_components = 1;
-    std::vector<int>          entries;        ///< as in NodalMatrix
+    std::vector<int>          entries;        ///< as in RowsByNode
     std::vector<int>          counts, starts; ///< nodes, components, by rank
     std::vector<double>       scale;          ///< by owned node
     std::vector<unsigned int> permutation;    ///< of each node in the order
@@ -105,7 +105,7 @@ namespace mortise
     std::vector<unsigned int> common_indices; ///< of nodes
     /// Nodes, components, of subtrees.
     std::vector<int>          part_counts, part_starts;
-    std::vector<unsigned int> part_places; ///< of nodes, rank by rank
+    std::vector<unsigned int> part_positions; ///< of nodes, rank by rank
     /// By supernode, see Front::eliminate(); one if all components have the
     /// same values.
     std::vector<dealii::AlignedVector<Number>> panels;

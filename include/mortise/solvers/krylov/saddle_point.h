@@ -7,8 +7,8 @@
 namespace mortise
 {
   /// Preconditioned GMRES; the preconditioner takes a DegreeMultigrid, the
-  /// Schur complement of its Lifting for the multipliers and a
-  /// PressurePreconditioner. Only for systems with multipliers or pressures.
+  /// Schur complement of its ApproximateSchurComplement for the multipliers and
+  /// a PressurePreconditioner. Only for systems with multipliers or pressures.
   class SaddlePointSolver : public LinearSolver
   {
   public:

@@ -1,7 +1,7 @@
 // Chebyshev smoother with the diagonal as preconditioner, one value per node.
 #pragma once
 
-#include <mortise/operators/levels/nodal_operator.h>
+#include <mortise/operators/levels/level_operator_base.h>
 #include <mortise/solvers/multipliers/interface_correction.h>
 
 namespace mortise
@@ -15,7 +15,7 @@ namespace mortise
     /// ratio. With @p correction D^{-1} acts within the kernel of the
     /// constraint. @p matrix and @p correction must stay alive. Not valid if A
     /// is not positive definite. Collective.
-    Chebyshev(const NodalOperator<Number>       &matrix,
+    Chebyshev(const LevelOperatorBase<Number>   &matrix,
               double                             smallest,
               const InterfaceCorrection<Number> *correction = nullptr);
 
@@ -43,12 +43,12 @@ namespace mortise
     double
     estimate_largest() const;
 
-    const NodalOperator<Number>       &matrix;
+    const LevelOperatorBase<Number>   &matrix;
     const InterfaceCorrection<Number> *correction;
     LevelVector<Number>                inverse_diagonal;
     mutable LevelVector<Number>        r, d;
     const double                       smallest;
-    bool                               has_leaders = false;
+    bool                               has_independent = false;
     double                             largest, range;
     unsigned int                       degree;
   };

@@ -1,7 +1,7 @@
 // p-multigrid: Chebyshev smoothers on the degrees p, lower_degree(p), ..., and
 // VertexMultigrid on degree one. On the finest level smoothers act within the
-// kernel of the constraint; coarse levels contain the penalties of NodalLevel.
-// With flat cells the only coarse level is ThicknessCoarsening.
+// kernel of the constraint; coarse levels contain the penalties of
+// MultigridLevel. With flat cells the only coarse level is ThicknessCoarsening.
 #pragma once
 
 #include <mortise/operators/block_system.h>

@@ -5,7 +5,7 @@
 
 #include <mortise/body/spaces/thickness_coarsening.h>
 #include <mortise/operators/block_system.h>
-#include <mortise/operators/levels/weak_jumps.h>
+#include <mortise/operators/levels/constraint_penalty.h>
 
 #include <memory>
 #include <string>
@@ -19,13 +19,13 @@ namespace mortise
     /// @p level: of degree one in all bodies, kept by reference.
     /// @p smooth_finest: false if the caller smooths on the finest mesh.
     /// Collective.
-    VertexMultigrid(const NodalLevel &level, bool smooth_finest);
+    VertexMultigrid(const MultigridLevel &level, bool smooth_finest);
 
     /// On the functions of @p thickness for the finest level of @p system,
     /// which the caller smooths. Collective.
-    VertexMultigrid(const BlockSystem           &system,
-                    const ThicknessCoarsening   &thickness,
-                    const std::vector<WeakJump> &jumps);
+    VertexMultigrid(const BlockSystem                    &system,
+                    const ThicknessCoarsening            &thickness,
+                    const std::vector<ConstraintPenalty> &jumps);
     ~VertexMultigrid();
 
     /// False if a matrix is not positive definite.

@@ -1,22 +1,23 @@
 // The projector onto { u : B u = 0 } that the condensed system is written with.
 #pragma once
 
+#include <mortise/solvers/multipliers/approximate_schur_complement.h>
 #include <mortise/solvers/multipliers/coupling_product.h>
-#include <mortise/solvers/multipliers/lifting.h>
 
 #include <vector>
 
 namespace mortise
 {
-  /// P = I - T B^T C^{-1} B with C = B T B^T + S and T of the Lifting. With
-  /// lambda = C^{-1} B u, P u satisfies B P u = S lambda.
+  /// P = I - T B^T C^{-1} B with C = B T B^T + S and T of
+  /// ApproximateSchurComplement. With lambda = C^{-1} B u, P u satisfies B P u
+  /// = S lambda.
   class ConstraintProjector
   {
   public:
-    /// @p lifting must stay alive. @p rows: of system.constraint. Collective.
-    ConstraintProjector(const BlockSystem  &system,
-                        const CouplingRows &rows,
-                        const Lifting      &lifting);
+    /// @p schur must stay alive. @p rows: of system.constraint. Collective.
+    ConstraintProjector(const BlockSystem                &system,
+                        const RowsByEntity               &rows,
+                        const ApproximateSchurComplement &schur);
 
     /// Move from @p r to @p lambda the forces that multipliers of ties can
     /// balance: r := P^T r = r - B^T y, lambda += y, y = C^{-1} B T r; y = 0
@@ -48,18 +49,18 @@ namespace mortise
     {
       const auto &indices = product.indices();
       for (unsigned int k = 0; k < indices.size(); ++k)
-        trace.local_element(k) = u.local_element(indices[k]);
-      product.multiply(jump, trace);
+        coupled_values.local_element(k) = u.local_element(indices[k]);
+      product.multiply(jump, coupled_values);
     }
     /// multiplier = C^{-1} jump, u -= T B^T multiplier.
     void
     step_to_constraint(Vector &u) const;
 
-    const BlockSystem            &system;
-    std::vector<unsigned int>     ties, springs; ///< owned multipliers
-    const Lifting                &lifting;
-    const CouplingProduct<double> product;
-    mutable LevelVector<double>   trace;
-    mutable Vector                jump, multiplier, force, correction;
+    const BlockSystem                &system;
+    std::vector<unsigned int>         ties, springs; ///< owned multipliers
+    const ApproximateSchurComplement &schur;
+    const CouplingProduct<double>     product;
+    mutable LevelVector<double>       coupled_values;
+    mutable Vector                    jump, multiplier, force, correction;
   };
 } // namespace mortise

@@ -5,7 +5,7 @@
 #include <deal.II/base/index_set.h>
 
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/multipliers/coupling_rows.h>
+#include <mortise/solvers/multipliers/rows_by_entity.h>
 
 #include <array>
 #include <vector>
@@ -14,19 +14,20 @@ namespace mortise
 {
   /// Columns of owned rows of B in the numbering of the system.
   dealii::IndexSet
-  touched_displacements(const BlockSystem &system, const CouplingRows &rows);
+  coupled_displacements(const BlockSystem &system, const RowsByEntity &rows);
 
   /// By node of the columns: are all its components independent? Collective.
   std::vector<bool>
-  leading_nodes(const BlockSystem &system, const CouplingRows &rows);
+  independent_nodes(const BlockSystem &system, const RowsByEntity &rows);
 
-  /// The SharedRows as a dense part and single entries.
-  struct SplitRows
+  /// The EntityRows as a dense part and single entries.
+  struct SplitEntityRows
   {
-    /// @p leads: leading_nodes().
-    SplitRows(const SharedRows &shared, const std::vector<bool> &leads);
+    /// @p is_independent: independent_nodes().
+    SplitEntityRows(const EntityRows        &shared,
+                    const std::vector<bool> &is_independent);
 
-    const SharedRows *shared;
+    const EntityRows *shared;
     /// By row: the column among shared->nodes of its only dependent node; -1:
     /// there are several.
     std::vector<int> own;
@@ -44,9 +45,9 @@ namespace mortise
 
     /// Add @p rows unless separate blocks cost less; true if added.
     bool
-    add(const SplitRows &rows);
+    add(const SplitEntityRows &rows);
   };
 
   std::vector<CouplingCluster>
-  make_clusters(const std::vector<SplitRows> &all);
+  make_clusters(const std::vector<SplitEntityRows> &all);
 } // namespace mortise

@@ -7,7 +7,7 @@
 #include <deal.II/base/aligned_vector.h>
 
 #include <mortise/operators/block_system.h>
-#include <mortise/solvers/multipliers/coupling_rows.h>
+#include <mortise/solvers/multipliers/rows_by_entity.h>
 
 #include <memory>
 #include <vector>
@@ -18,7 +18,7 @@ namespace mortise
   enum class CoupledNodes : unsigned char
   {
     all,
-    following
+    dependent
   };
 
   template <typename Number>
@@ -26,33 +26,33 @@ namespace mortise
   {
   public:
     /// @p rows: of system.constraint. Collective.
-    CouplingProduct(const BlockSystem &system, const CouplingRows &rows);
+    CouplingProduct(const BlockSystem &system, const RowsByEntity &rows);
 
     /// The owned displacements with a column in B of any rank.
     const std::vector<unsigned int> &
     indices() const
     {
-      return moved_indices;
+      return coupled_indices;
     }
 
     /// A vector with one entry for each of indices(), in their order.
     void
-    initialize(LevelVector<Number> &trace) const
+    initialize(LevelVector<Number> &coupled_values) const
     {
-      trace.reinit(layout);
+      coupled_values.reinit(layout);
     }
 
-    /// jump = B u, @p trace the values of u at indices(); nodes other than
+    /// jump = B u, @p coupled_values the values of u at indices(); nodes other than
     /// @p nodes are zero and may be left out. Collective.
     void
     multiply(Vector                    &jump,
-             const LevelVector<Number> &trace,
+             const LevelVector<Number> &coupled_values,
              CoupledNodes               nodes = CoupledNodes::all) const;
 
-    /// @p trace = the values of B^T y at indices(), where alone it is not zero;
+    /// @p coupled_values = the values of B^T y at indices(), where alone it is not zero;
     /// nodes other than @p nodes may be left out. Collective.
     void
-    multiply_transposed(LevelVector<Number> &trace,
+    multiply_transposed(LevelVector<Number> &coupled_values,
                         const Vector        &y,
                         CoupledNodes         nodes = CoupledNodes::all) const;
 
@@ -64,7 +64,7 @@ namespace mortise
       std::vector<int>          rows;  ///< by node and component; -1: none
       std::vector<unsigned int> nodes; ///< among those of values
       /// The first nodes are dependent, the others independent.
-      unsigned int        n_following = 0;
+      unsigned int        n_dependent = 0;
       std::vector<int>    own_node;  ///< by node: the single entry; -1: none
       std::vector<Number> own_entry; ///< likewise
 
@@ -75,9 +75,10 @@ namespace mortise
 
     /// Numbers the entries of traces.
     void
-    make_layout(const BlockSystem &system, const CouplingRows &rows);
+    make_layout(const BlockSystem &system, const RowsByEntity &rows);
     void
-    make_blocks(const CouplingRows &rows, const std::vector<bool> &leads);
+    make_blocks(const RowsByEntity      &rows,
+                const std::vector<bool> &is_independent);
     /// visit(block, entries).
     template <typename Visit>
     void
@@ -97,7 +98,7 @@ namespace mortise
     const SparseMatrix         *frames = nullptr;
     mutable std::vector<double> by_component; ///< rows of B_c, with frames
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> layout;
-    std::vector<unsigned int>                                  moved_indices;
+    std::vector<unsigned int>                                  coupled_indices;
     std::vector<Block>                                         blocks;
     dealii::AlignedVector<Number> entries; ///< by block, rows padded
     /// Of a trace; -1: none.

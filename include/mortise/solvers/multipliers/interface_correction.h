@@ -3,8 +3,8 @@
 // Dahmen, Wieners (1999).
 #pragma once
 
+#include <mortise/solvers/multipliers/approximate_schur_complement.h>
 #include <mortise/solvers/multipliers/coupling_product.h>
-#include <mortise/solvers/multipliers/lifting.h>
 
 #include <vector>
 
@@ -16,21 +16,21 @@ namespace mortise
   class InterfaceCorrection
   {
   public:
-    /// @p product and @p lifting must stay alive. Collective.
-    InterfaceCorrection(const BlockSystem             &system,
-                        const CouplingProduct<Number> &product,
-                        const Lifting                 &lifting);
+    /// @p product and @p schur must stay alive. Collective.
+    InterfaceCorrection(const BlockSystem                &system,
+                        const CouplingProduct<Number>    &product,
+                        const ApproximateSchurComplement &schur);
 
     /// Are there independent displacements on any rank?
     bool
-    has_leaders() const
+    has_independent() const
     {
-      return some_lead;
+      return any_independent;
     }
 
-    /// Add LeadingDisplacement::followers to the diagonal of K.
+    /// Add IndependentDisplacement::dependent_stiffness to the diagonal of K.
     void
-    add_followers(LevelVector<Number> &diagonal) const;
+    add_dependent_stiffness(LevelVector<Number> &diagonal) const;
 
     /// subtract(i, c_i) with c = (D^{-1} - P D^{-1} P^T) r, r_i = residual(i),
     /// for the owned displacements i with a column in B. @p inverse: D^{-1}.
@@ -44,23 +44,24 @@ namespace mortise
       const auto        &indices = product.indices();
       const unsigned int n       = indices.size();
       for (unsigned int k = 0; k < n; ++k)
-        trace.local_element(k) = weights[k] * residual(indices[k]);
-      apply(CoupledNodes::following, CoupledNodes::all);
-      if (some_lead)
+        coupled_values.local_element(k) = weights[k] * residual(indices[k]);
+      apply(CoupledNodes::dependent, CoupledNodes::all);
+      if (any_independent)
         {
           for (unsigned int k = 0; k < n; ++k)
-            trace.local_element(k) = smoothed[k] =
+            coupled_values.local_element(k) = smoothed[k] =
               inverse.local_element(indices[k]) *
-              (residual(indices[k]) - trace.local_element(k));
-          apply(CoupledNodes::all, CoupledNodes::following);
+              (residual(indices[k]) - coupled_values.local_element(k));
+          apply(CoupledNodes::all, CoupledNodes::dependent);
           for (unsigned int k = 0; k < n; ++k)
             subtract(indices[k],
                      inverse.local_element(indices[k]) * residual(indices[k]) -
-                       smoothed[k] + weights[k] * trace.local_element(k));
+                       smoothed[k] +
+                       weights[k] * coupled_values.local_element(k));
         }
       else
         for (unsigned int k = 0; k < n; ++k)
-          subtract(indices[k], weights[k] * trace.local_element(k));
+          subtract(indices[k], weights[k] * coupled_values.local_element(k));
     }
 
     /// x := x - T B^T y, y = C^{-1} (B x - S lambda), and add y to lambda, the
@@ -90,10 +91,10 @@ namespace mortise
     void
     add_spring_forces(LevelVector<Number> &r) const
     {
-      product.multiply_transposed(trace, carried);
+      product.multiply_transposed(coupled_values, carried);
       const auto &indices = product.indices();
       for (unsigned int k = 0; k < indices.size(); ++k)
-        r.local_element(indices[k]) += trace.local_element(k);
+        r.local_element(indices[k]) += coupled_values.local_element(k);
     }
 
     const Vector &
@@ -117,19 +118,19 @@ namespace mortise
     void
     apply(CoupledNodes from, CoupledNodes to) const
     {
-      product.multiply(jump, trace, from);
-      lifting.apply_inverse_schur(multiplier, jump);
-      product.multiply_transposed(trace, multiplier, to);
+      product.multiply(jump, coupled_values, from);
+      schur.apply_inverse(multiplier, jump);
+      product.multiply_transposed(coupled_values, multiplier, to);
     }
 
-    const BlockSystem             &system;
-    const CouplingProduct<Number> &product;
-    const Lifting                 &lifting;
-    std::vector<Number>            weights;           ///< T, by index
-    bool                           some_lead = false; ///< on some rank
-    mutable Vector                 jump, multiplier;
-    mutable Vector                 carried, added; ///< by springs
-    mutable LevelVector<Number>    trace;          ///< values at the indices
-    mutable std::vector<Number>    smoothed;       ///< likewise
+    const BlockSystem                &system;
+    const CouplingProduct<Number>    &product;
+    const ApproximateSchurComplement &schur;
+    std::vector<Number>               weights;                 ///< T, by index
+    bool                              any_independent = false; ///< on some rank
+    mutable Vector                    jump, multiplier;
+    mutable Vector                    carried, added; ///< by springs
+    mutable LevelVector<Number>       coupled_values; ///< values at the indices
+    mutable std::vector<Number>       smoothed;       ///< likewise
   };
 } // namespace mortise

@@ -1,0 +1,245 @@
+// The matrix-free operator of all bodies with values at nodes: multigrid
+// levels, products with the stiffness, loads, and the transfer to hierarchical
+// coefficients.
+#pragma once
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <mortise/operators/cell_functional.h>
+#include <mortise/operators/levels/dirichlet_cell_pressures.h>
+#include <mortise/operators/levels/independent_displacements.h>
+#include <mortise/operators/levels/nodal_pressure.h>
+#include <mortise/operators/prescribed_values.h>
+
+#include <memory>
+#include <vector>
+
+namespace mortise
+{
+  struct Loads;
+  struct SceneLoad;
+  struct SystemVector;
+
+  class BulkSystem
+  {
+  public:
+    /// Arguments of the constructor, not kept.
+    struct Scene
+    {
+      const FieldNumbering                    &numbering;
+      const dealii::AffineConstraints<double> &constraints; ///< of the scene
+      bool preconditioned = true; ///< by multigrid with penalties of interfaces
+    };
+
+    /// @p pressures may be null. Collective; throws InputError for tangled cells.
+    BulkSystem(const NodalSpaces                &spaces,
+               std::shared_ptr<const NodalSpace> pressures,
+               const Scene                      &scene,
+               MPI_Comm                          comm);
+
+    /// Replace the interfaces by @p couplings, whose traces have the nodes of
+    /// the levels, and update independent_displacements() and the penalties.
+    /// Collective.
+    void
+    couple(const std::vector<Coupling> &couplings);
+
+    /// Update the penalties of coarse levels to the active set, see
+    /// LocalCoupling::active_fraction. Collective.
+    void
+    update_penalties(const std::vector<Coupling> &couplings);
+
+    /// The finest first.
+    const std::vector<MultigridLevel> &
+    levels() const
+    {
+      return all_levels;
+    }
+
+    /// Vectors of displacements and pressures on the layouts of the finest
+    /// level. Unless stated otherwise they are zero at constrained components
+    /// and hanging nodes.
+    void
+    initialize(Vector &displacement) const
+    {
+      stiffness->initialize(displacement);
+    }
+    void
+    initialize_pressure(Vector &pressure) const
+    {
+      pressures->initialize(pressure);
+    }
+
+    /// dst = K src. Collective.
+    void
+    apply_stiffness(Vector &dst, const Vector &src) const
+    {
+      stiffness->vmult(dst, src);
+    }
+
+    /// dst_u = K u + G^T p, dst_p = G u - C p, see BlockSystem. Collective.
+    void
+    apply_mixed(Vector       &dst_u,
+                Vector       &dst_p,
+                const Vector &u,
+                const Vector &p) const
+    {
+      apply_free(dst_u, dst_p, u, p);
+      stiffness->clear_constrained(dst_u);
+    }
+
+    /// dst += G^T p. Collective.
+    void
+    add_pressure_force(Vector &dst, const Vector &p) const;
+
+    /// dst = P p, see BlockSystem. Collective.
+    void
+    apply_pressure_norm(Vector &dst, const Vector &p) const;
+
+    /// dst_k = int p q_k times pressure_norm() of the material. Collective.
+    void
+    apply_pressure_mass(Vector &dst, const Vector &p) const;
+
+    /// Set @p p to 1 at the nodes of @p body that do not hang.
+    void
+    set_constant_pressure(const Body &body, Vector &p) const;
+
+    /// diag(P), 1 where nodes hang.
+    const Vector &
+    pressure_norm_diagonal() const
+    {
+      return norm_diagonal;
+    }
+
+    /// diag(K), 1 where constrained.
+    const Vector &
+    diagonal() const
+    {
+      return stiffness_diagonal;
+    }
+
+    /// diag(K), averaged over the free components of each node.
+    Vector
+    node_diagonal() const
+    {
+      Vector mean(stiffness_diagonal);
+      stiffness->average_components(mean);
+      return mean;
+    }
+
+    /// The products of this rank's cells on the finest level.
+    const MatrixFreeElasticity<double> &
+    elasticity() const
+    {
+      return stiffness->elasticity();
+    }
+
+    /// Null without bodies in mixed form.
+    const NodalPressure *
+    pressure() const
+    {
+      return pressures.get();
+    }
+
+    const std::vector<IndependentDisplacement> &
+    independent_displacements() const
+    {
+      return independent;
+    }
+
+    /// A hierarchical coefficient, by body and dof.
+    using Coefficients =
+      std::function<double(unsigned int, dealii::types::global_dof_index)>;
+
+    /// The values at nodes, prescribed ones included, of the function with
+    /// these coefficients. Collective.
+    Vector
+    values_at_nodes(const Coefficients &coefficient) const;
+
+    /// Internal forces K u + G^T p by node, also at constrained components;
+    /// @p p is not read without bodies in mixed form. Collective.
+    Vector
+    internal_forces(const Vector &u, const Vector &p) const;
+
+    /// Set displacements and pressures of @p rhs to K u, zero at constrained
+    /// components, and G u, for @p u that need not be zero there. Collective.
+    void
+    apply_to_constrained(const Vector &u, SystemVector &rhs) const;
+
+    /// int b.v + int t.v - int sigma_0 : grad v by node, also at constrained
+    /// components, see for_each_loaded_cell(). @p loads: by body. Collective.
+    Vector
+    external_forces(const std::vector<Loads> &loads) const;
+
+    /// The @p functionals on cells of @p body by node, also at constrained
+    /// components. Collective.
+    Vector
+    by_node(const Body &body, const CellFunctionals &functionals) const;
+
+    /// Set external forces of @p load, and add them at free components, and the
+    /// thermal strains of pressures, to its right hand side. Collective.
+    void
+    add_loads(const std::vector<Loads> &loads, SceneLoad &load) const;
+
+    /// Add the thermal strains to the right hand side of the pressures.
+    void
+    add_expansion(const std::vector<Loads> &loads, Vector &pressure_load) const;
+
+    /// Set @p rhs to the sum of @p functionals on cells of @p body, zero at
+    /// constrained components. Collective.
+    void
+    assemble_functional(const Body            &body,
+                        const CellFunctionals &functionals,
+                        SystemVector          &rhs) const;
+
+    /// The inverse of for_each_coefficient(): values at nodes, zero at
+    /// constrained components. Collective.
+    void
+    set_displacement(const Coefficients &coefficient,
+                     Vector             &displacement) const
+    {
+      displacement = values_at_nodes(coefficient);
+      stiffness->clear_constrained(displacement);
+    }
+
+    /// The inverse of for_each_pressure_coefficient(); zero at hanging nodes.
+    /// Collective.
+    void
+    set_pressure(const Coefficients &coefficient, Vector &pressure) const;
+
+    /// Calls set(body, dof, value) with the hierarchical coefficient of each
+    /// dof of owned cells that is not prescribed. @p displacement: values at
+    /// nodes. Collective.
+    void
+    for_each_coefficient(
+      const Vector                            &displacement,
+      const std::function<void(unsigned int                    body,
+                               dealii::types::global_dof_index dof,
+                               double value)> &set) const;
+
+    /// The same for the PressureSpace of bodies in mixed form.
+    void
+    for_each_pressure_coefficient(
+      const Vector                            &pressure,
+      const std::function<void(unsigned int                    body,
+                               dealii::types::global_dof_index dof,
+                               double value)> &set) const;
+
+  private:
+    /// [K G^T; G -C] (u, p) with constrained components; @p dst_p and @p p are
+    /// not used without bodies in mixed form.
+    void
+    apply_free(Vector       &dst_u,
+               Vector       &dst_p,
+               const Vector &u,
+               const Vector &p) const;
+
+    const bool                             preconditioned;
+    std::vector<MultigridLevel>            all_levels;
+    std::unique_ptr<LevelOperator<double>> stiffness;
+    Vector                                 stiffness_diagonal;
+    std::vector<IndependentDisplacement>   independent;
+    std::unique_ptr<NodalPressure>         pressures; ///< in mixed form
+    DirichletCellPressures                 dirichlet_cell_pressures;
+    Vector                                 norm_diagonal;
+  };
+} // namespace mortise
