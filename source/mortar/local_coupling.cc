@@ -32,8 +32,7 @@ namespace mortise
                        &values(q, 0));
     }
 
-    /// w_q N_i(x_q). Weights of signed sectors may be negative, so there is no
-    /// root to take.
+    /// w_q N_i(x_q); weights of signed sectors may be negative.
     void
     scale_rows(const FullMatrix<double> &values,
                const double             *weights,
@@ -42,11 +41,10 @@ namespace mortise
       scaled.reinit(values.m(), values.n(), true);
       for (unsigned int q = 0; q < values.m(); ++q)
         {
-          const double  weight = weights[q];
-          const double *from   = &values(q, 0);
-          double       *to     = &scaled(q, 0);
+          const double *from = &values(q, 0);
+          double       *to   = &scaled(q, 0);
           for (unsigned int i = 0; i < values.n(); ++i)
-            to[i] = weight * from[i];
+            to[i] = weights[q] * from[i];
         }
     }
 
@@ -243,9 +241,9 @@ namespace mortise
       return result;
     }
 
-    /// LocalCoupling::along_normals, the projection on the whole face, put
-    /// right
-    /// on its covered part, @p moments being those of multipliers there.
+    /// LocalCoupling::along_normals: the projection on the whole face,
+    /// corrected
+    /// on its covered part by @p moments of the multipliers there.
     void
     set_along_normals(const SurfaceFace        &face,
                       const FaceTrace          &trace,
@@ -253,7 +251,7 @@ namespace mortise
                       const NormalMoments      &moments,
                       LocalCoupling            &local)
     {
-      /// So much less is put right what lives on the rest of the face.
+      /// Weight of the correction on the rest of the face.
       constexpr double   share = 1e-9;
       const unsigned int n     = frames.size();
       local.along_normals      = projected_products<Tensor<1, dim>>(
@@ -382,22 +380,20 @@ namespace mortise
       local.partners.push_back(std::move(partner));
     });
     for (unsigned int s = 0; s < couplings.size(); ++s)
-      if (!couplings[s].partners.empty())
+      if (LocalCoupling &local = couplings[s]; !local.partners.empty())
         {
-          set_multipliers(interface.slave().traces[s],
+          const FaceTrace &trace = interface.slave().traces[s];
+          set_multipliers(trace,
                           basis == MultiplierBasis::dual &&
                             interface.coverage()[s] > covered_as_a_whole,
-                          couplings[s]);
-          if (!turning[s].empty() && !couplings[s].is_dual())
+                          local);
+          if (!turning[s].empty() && !local.is_dual())
             set_along_normals(interface.slave().faces[s],
-                              interface.slave().traces[s],
+                              trace,
                               frames[s],
                               normal_moments[s],
-                              couplings[s]);
-          set_independent_masters(interface,
-                                  s,
-                                  may_be_independent,
-                                  couplings[s]);
+                              local);
+          set_independent_masters(interface, s, may_be_independent, local);
         }
     return couplings;
   }
