@@ -77,8 +77,7 @@ namespace mortise
       return vertices - part(n + 2);
     }
 
-    /// Add squares of the coefficients of a function of one @p degree less,
-    /// likewise.
+    /// Add squares of the coefficients of a function of one @p degree less.
     void
     add_squares(const unsigned int         degree,
                 const unsigned int         d,

@@ -27,7 +27,7 @@ namespace mortise
         }
     }
 
-    /// dst += A^T src, likewise.
+    /// dst += A^T src.
     template <unsigned int n>
     void
     multiply_rows_transposed(const SparseMatrix &A,

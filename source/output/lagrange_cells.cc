@@ -66,7 +66,7 @@ namespace mortise
                      nodes);
     }
 
-    /// Likewise a tetrahedron, with one of degree n - 4 inside.
+    /// The same for a tetrahedron, with one of degree n - 4 inside.
     void
     add_tetrahedron(const unsigned int        n,
                     const Barycentric        &origin,

@@ -40,7 +40,7 @@ namespace mortise
     /// been split none.
     unsigned int n_rises    = 0;
     bool         is_refined = false; ///< by the last refinement
-    bool         is_split   = false; ///< likewise, and has siblings
+    bool         is_split   = false; ///< by the last refinement, with siblings
     bool         is_new =
       true; ///< has not changed yet: change and error are the solution itself
 
@@ -100,13 +100,13 @@ namespace mortise
   energy_by_cell(const Bodies                    &bodies,
                  const std::vector<BodySolution> &solutions);
 
-  /// Likewise, of what the coefficients of @p states have in the modes that the last rise of a cell's degree
-  /// brought; of other cells zero.
+  /// The same for the modes that the last rise of a cell's degree added to
+  /// @p states; zero for other cells.
   NumbersByCell
   energy_of_new_modes(const Bodies &bodies, const CellStates &states);
 
-  /// What the operator of a scene has between @p a and @p b: without pressures the product that belongs to
-  /// the energy norm.
+  /// Products of @p a and @p b with the operator of the scene by cell: without
+  /// pressures those of the energy norm.
   NumbersByCell
   products_by_cell(const Bodies                    &bodies,
                    const std::vector<BodySolution> &a,

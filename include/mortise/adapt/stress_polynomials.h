@@ -58,8 +58,8 @@ namespace mortise
     const bool                        simplex;
     std::vector<dealii::Point<1>>     line; ///< of hexahedra, nodes()
     std::array<LineTable, dim>        to_rule;
-    std::vector<std::vector<double>>  ends;       ///< values at 0 and 1
-    dealii::FullMatrix<double>        projection; ///< of tetrahedra
-    dealii::FullMatrix<double> derivatives; ///< likewise, slopes() from values
+    std::vector<std::vector<double>>  ends;        ///< values at 0 and 1
+    dealii::FullMatrix<double>        projection;  ///< of tetrahedra
+    dealii::FullMatrix<double>        derivatives; ///< slopes() from values
   };
 } // namespace mortise

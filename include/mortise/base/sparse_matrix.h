@@ -189,7 +189,7 @@ namespace mortise
       vmult(dst.begin(), src.begin());
     }
 
-    /// dst += A^T src, likewise. Collective.
+    /// dst += A^T src. Collective.
     void
     Tvmult_add(double *dst, const double *src) const
     {

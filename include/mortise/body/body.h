@@ -58,8 +58,8 @@ namespace mortise
       const std::vector<Ball>                              &degree_near = {},
       unsigned int least_mapping_degree                                 = 1);
 
-    /// Likewise, of degrees by active cell of the mesh, of which those of owned
-    /// cells are asked for. Collective.
+    /// The same with degrees by active cell of the mesh, which are read for
+    /// owned cells. Collective.
     void
     create_space(const std::vector<unsigned int> &degrees);
 

@@ -33,12 +33,13 @@ namespace mortise
                    const std::vector<Coupling> &couplings,
                    MPI_Comm                     comm);
 
-  /// What @p file has for the scene as it stands now. Of @p couplings the slave faces are needed, not yet
-  /// multipliers; without them only what was written without them can be read.
-  /// The file is read @p block bytes at a time. Collective; throws InputError if it is damaged, and one
-  /// that names what differs between the scene of the checkpoint and this one:
-  /// bodies (names, shapes, cells, degrees, dofs, geometry) and interfaces
-  /// (names, slaves, faces).
+  /// Read the values of @p file for the present scene. Of @p couplings the
+  /// slave faces are needed, not yet multipliers; without them only what was
+  /// written without them can be read. The file is read @p block bytes at a
+  /// time. Collective; throws InputError if it is damaged, and one that names
+  /// what differs between the scene of the checkpoint and this one: bodies
+  /// (names, shapes, cells, degrees, dofs, geometry) and interfaces (names,
+  /// slaves, faces).
   SceneValues
   read_scene(const CheckpointFile        &file,
              const Bodies                &bodies,

@@ -61,8 +61,8 @@ namespace mortise
     std::string
     read(const std::string &section) const;
 
-    /// Likewise, as to_bytes() gave it; throws InputError if it is none of
-    /// these.
+    /// The same as the inverse of to_bytes(); throws InputError if that is
+    /// impossible.
     template <typename T>
     T
     get(const std::string &section) const
@@ -77,8 +77,8 @@ namespace mortise
         }
     }
 
-    /// Likewise, one after the other, the texts of @p section, each as to_bytes() gives it; of the
-    /// file @p block bytes at a time.
+    /// Pass the texts of @p section, written by to_bytes(), one after the
+    /// other, reading @p block bytes at a time.
     void
     for_each_record(const std::string                              &section,
                     const std::function<void(const std::string &)> &take,
@@ -98,7 +98,7 @@ namespace mortise
     }
 
   private:
-    /// What one rank has of a section: size and checksum, then its start.
+    /// The part of one rank in a section: size, checksum, start.
     using Part = std::array<std::uint64_t, 3>;
 
     /// On the first rank: the header; throws InputError.

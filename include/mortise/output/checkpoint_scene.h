@@ -1,5 +1,4 @@
-// What a checkpoint says of its scene, so that values never go to a mesh that
-// is not theirs. It never holds values.
+// Description of the scene of a checkpoint, by which other scenes are refused.
 #pragma once
 
 #include <mortise/mortar/coupling.h>

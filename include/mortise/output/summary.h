@@ -66,7 +66,7 @@ namespace mortise
     std::uint64_t                total = 0;
   };
 
-  /// What is in contact at the nodes of the slave.
+  /// Results of contact at the nodes of the slave.
   struct ContactSummary
   {
     double              area = 0.;     ///< in contact
@@ -80,7 +80,7 @@ namespace mortise
     std::uint64_t undecided = 0; ///< among these: neither pressure nor gap
   };
 
-  /// What a tie with a given force has, in consistent units.
+  /// Results of a tie with a given force, in consistent units.
   struct PreloadSummary
   {
     double force      = 0.; ///< normal, positive in tension
@@ -98,7 +98,7 @@ namespace mortise
     std::uint64_t quadrature_points = 0;
     double        slave_area        = 0.;
     double        covered_area      = 0.;
-    /// What the slave puts on the master, the moment about Output/Moments
+    /// Resultants from the slave on the master, the moment about Output/Moments
     /// about; empty until solved.
     std::vector<double> force, moment;
     /// Between the meshes along the slave's normal, over the covered area, see
@@ -149,8 +149,8 @@ namespace mortise
     std::optional<double>      value;    ///< of the quantity
     double                     target = 0.;
     std::optional<double>      estimate; ///< absent in the first cycle
-    /// What of it comes from cells and from where an interface's sides are
-    /// apart; absent with a quantity. The sum of squares is that of estimate.
+    /// Parts of the estimate from cells and from interfaces, whose squares add
+    /// up; absent with a quantity.
     std::optional<double> estimate_bulk, estimate_interface;
     std::optional<double>
       correction; ///< what is to be added to it, as far as the sign is known
@@ -205,8 +205,8 @@ namespace mortise
   std::string
   steps_to_json(const std::vector<StepSummary> &steps);
 
-  /// What steps_to_json() wrote. Throws std::out_of_range or an exception of
-  /// nlohmann::json if it is something else.
+  /// The inverse of steps_to_json(). Throws std::out_of_range or an exception
+  /// of nlohmann::json for other input.
   std::vector<StepSummary>
   steps_from_json(const std::string &text);
 

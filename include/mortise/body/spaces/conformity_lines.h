@@ -55,8 +55,8 @@ namespace mortise
     virtual void
     constrain_hanging_face(const HangingFace &at) = 0;
 
-    /// What of @p cell, whose dofs are in own, is above the degree of its lines and faces, or
-    /// follows from a neighbour's dofs.
+    /// Constrain the dofs of @p cell, in own, that are above the degree of its
+    /// lines and faces or depend on those of a neighbour.
     virtual void
     constrain_mixed_degrees(const CellIterator &cell) = 0;
 

@@ -24,10 +24,9 @@ namespace mortise
             const EntityDegrees                          &degrees,
             std::vector<dealii::types::global_dof_index> &nodes);
 
-  /// What the values at nodes that do not carry the function of the
-  /// hierarchical space of the same degrees follow from, for the nodes of owned
-  /// cells at
-  /// least. @p constraints is initialised here and left open. Collective.
+  /// Constraints of the nodes (at least those of owned cells) that do not carry
+  /// a function of the hierarchical space of the same degrees. @p constraints
+  /// is initialised here and left open. Collective.
   void
   make_nodal_constraints(const dealii::DoFHandler<3>       &dof_handler,
                          const EntityDegrees               &degrees,

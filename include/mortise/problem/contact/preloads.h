@@ -35,7 +35,7 @@ namespace mortise
       return values;
     }
 
-    /// Likewise of all interfaces, zero without a preload.
+    /// By interface; zero without a preload.
     std::vector<double>
     shortenings_by_interface() const;
 
