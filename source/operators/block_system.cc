@@ -40,7 +40,7 @@ namespace mortise
   BlockSystem::energy_product(const SystemVector &x) const
   {
     Vector force(x.displacement);
-    nodal->apply_stiffness(force, x.displacement);
+    bulk->apply_stiffness(force, x.displacement);
     double result = force * x.displacement;
     if (has_springs())
       {
@@ -58,7 +58,7 @@ namespace mortise
                            const Vector &u,
                            const Vector &p) const
   {
-    nodal->apply_mixed(dst_u, dst_p, u, p);
+    bulk->apply_mixed(dst_u, dst_p, u, p);
     free_pressures.project_residual(dst_p);
   }
 
@@ -79,7 +79,7 @@ namespace mortise
   void
   BlockSystem::apply_to_constrained(const Vector &u, SystemVector &rhs) const
   {
-    nodal->apply_to_constrained(u, rhs);
+    bulk->apply_to_constrained(u, rhs);
     if (owned_multiplier.size() > 0)
       constraint.vmult_free(rhs.multiplier, u);
   }

@@ -36,13 +36,13 @@ namespace mortise
       if (vector.in_local_range(dof))
         vector(dof) = value;
     };
-    system.nodal->for_each_coefficient(
+    system.bulk->for_each_coefficient(
       solution.displacement,
       [&](const auto body, const auto dof, const double value) {
         set(result[body].displacement, dof, value);
       });
     if (solution.pressure.size() > 0)
-      system.nodal->for_each_pressure_coefficient(
+      system.bulk->for_each_pressure_coefficient(
         solution.pressure,
         [&](const auto body, const auto dof, const double value) {
           set(result[body].pressure, dof, value);
@@ -72,7 +72,7 @@ namespace mortise
                 const std::vector<BodySolution> &solutions)
   {
     SystemVector x = system.zero_vector();
-    system.nodal->set_displacement(
+    system.bulk->set_displacement(
       [&](const auto body, const auto dof) {
         return solutions[body].displacement(dof) -
                prescribed_value(prescribed,
@@ -80,7 +80,7 @@ namespace mortise
       },
       x.displacement);
     if (system.mixed())
-      system.nodal->set_pressure(
+      system.bulk->set_pressure(
         [&](const auto body, const auto dof) {
           return solutions[body].pressure(dof);
         },

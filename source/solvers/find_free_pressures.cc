@@ -21,7 +21,7 @@ namespace mortise
       vmult(Vector &dst, const Vector &src) const
       {
         Vector force;
-        system.nodal->initialize(force);
+        system.bulk->initialize(force);
         system.add_multiplier_force(force, src);
         scale(force);
         system.apply_constraint(dst, force);
@@ -99,7 +99,7 @@ namespace mortise
     result.state          = system.zero_vector();
     result.state.pressure = one;
     Vector force(result.state.displacement);
-    system.nodal->add_pressure_force(force, one);
+    system.bulk->add_pressure_force(force, one);
     // what a pressure on a free boundary would bring is h / L of this norm
     double norm = 0.;
     for (unsigned int i = 0; i < one.locally_owned_size(); ++i)

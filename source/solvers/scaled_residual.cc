@@ -41,9 +41,9 @@ namespace mortise
     , weight(system.zero_vector())
     , interface_present(system.owned_multiplier.size() > 0)
   {
-    weight.displacement = system.nodal->diagonal();
+    weight.displacement = system.bulk->diagonal();
     if (system.mixed())
-      weight.pressure = system.nodal->pressure_norm_diagonal();
+      weight.pressure = system.bulk->pressure_norm_diagonal();
     invert(weight.displacement);
     invert(weight.pressure);
     if (!interface_present)
@@ -73,7 +73,7 @@ namespace mortise
         r.pressure.sadd(-1., 1., rhs.pressure);
       }
     else
-      system.nodal->apply_stiffness(r.displacement, x.displacement);
+      system.bulk->apply_stiffness(r.displacement, x.displacement);
     if (interface_present)
       {
         system.add_multiplier_force(r.displacement, x.multiplier);

@@ -26,13 +26,13 @@ namespace
         v(i) = std::sin(12.9898 * i + shift);
     };
     set(x.displacement, 1.);
-    const MultigridLevel &level = system.nodal->levels().front();
+    const MultigridLevel &level = system.bulk->levels().front();
     for (const unsigned int index : level.constrained)
       x.displacement.begin()[index] = 0.;
     if (system.mixed())
       {
         set(x.pressure, 2.);
-        const auto nodes = system.nodal->pressure()->nodes();
+        const auto nodes = system.bulk->pressure()->nodes();
         for (const auto &line : nodes.space.hanging_nodes().get_lines())
           if (nodes.layout.in_local_range(line.index))
             x.pressure.begin()[nodes.layout.global_to_local(line.index)] = 0.;

@@ -57,7 +57,7 @@ namespace mortise
     /// K^{-1} G^T for all c; in cells at Dirichlet boundaries with
     /// element_schur() instead. Displacements and pressures have the indices of
     /// its finest level.
-    std::unique_ptr<BulkSystem> nodal;
+    std::unique_ptr<BulkSystem> bulk;
 
     /// Constant pressures in the kernel, which solutions do not contain.
     FreePressures free_pressures;
@@ -142,9 +142,9 @@ namespace mortise
     zero_vector() const
     {
       SystemVector zero;
-      nodal->initialize(zero.displacement);
+      bulk->initialize(zero.displacement);
       if (mixed())
-        nodal->initialize_pressure(zero.pressure);
+        bulk->initialize_pressure(zero.pressure);
       if (owned_multiplier.size() > 0)
         zero.multiplier.reinit(owned_multiplier, communicator);
       return zero;

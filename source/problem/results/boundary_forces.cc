@@ -85,7 +85,7 @@ namespace mortise
     values_at_nodes(const Discretisation            &discretisation,
                     const std::vector<BodySolution> &solutions)
     {
-      return discretisation.linear_system().nodal->values_at_nodes(
+      return discretisation.linear_system().bulk->values_at_nodes(
         [&](const unsigned int body, const auto dof) {
           return solutions[body].displacement(dof);
         });
@@ -130,9 +130,9 @@ namespace mortise
     , solutions(solutions)
     , dirichlet(discretisation)
   {
-    const BulkSystem &nodal = *discretisation.linear_system().nodal;
-    borne = nodal.internal_forces(values_at_nodes(discretisation, solutions),
-                                  solved.solution.pressure);
+    const BulkSystem &bulk = *discretisation.linear_system().bulk;
+    borne = bulk.internal_forces(values_at_nodes(discretisation, solutions),
+                                 solved.solution.pressure);
     borne -= solved.load.external;
     reactions = borne;
     applied   = sum_over_nodes(solved.load.external);
@@ -147,7 +147,7 @@ namespace mortise
         any_on_prescribed = any_on_prescribed || !there.empty();
       }
     if (any_on_prescribed)
-      borne += nodal.external_forces(on_prescribed);
+      borne += bulk.external_forces(on_prescribed);
     if (solved.solution.multiplier.size() > 0)
       {
         borne += dirichlet.multiplier_forces(solved.solution.multiplier);
@@ -167,7 +167,7 @@ namespace mortise
     const DirichletBoundaries::Components &which) const
   {
     const Body         &body   = *discretisation.bodies()[b];
-    LevelVector<double> result = discretisation.linear_system().nodal->by_node(
+    LevelVector<double> result = discretisation.linear_system().bulk->by_node(
       body, stress_functionals(body, solutions[b], boundary));
     result.scale(nodes_with(discretisation, b, boundary, which));
     return result;
@@ -224,7 +224,7 @@ namespace mortise
       if (condition.boundary == boundary)
         loads[b].tractions.push_back(condition);
     LevelVector<double> forces =
-      discretisation.linear_system().nodal->external_forces(loads);
+      discretisation.linear_system().bulk->external_forces(loads);
     add_borne(b, boundary, forces);
     add_interfaces(b, boundary, forces);
 
@@ -350,7 +350,7 @@ namespace mortise
       if (lift.local_element(i) > 0.)
         lift.local_element(i) = 1. / dirichlet.numbers().local_element(i);
     result.lift = lift;
-    system.nodal->apply_to_constrained(lift, result.rhs);
+    system.bulk->apply_to_constrained(lift, result.rhs);
     if (result.rhs.multiplier.size() > 0)
       dirichlet.constraint(lift, result.rhs.multiplier);
     if (dirichlet.any_shared())

@@ -10,7 +10,7 @@ namespace mortise
   const MultigridLevel &
   nodes_of(const Discretisation &discretisation)
   {
-    return discretisation.linear_system().nodal->levels().front();
+    return discretisation.linear_system().bulk->levels().front();
   }
 
   LevelVector<double>

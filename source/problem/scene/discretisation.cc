@@ -40,7 +40,7 @@ namespace mortise
   {
     auto              stage        = run.log.stage(run.timers, "bulk");
     const SceneField &displacement = spaces.fields.displacement;
-    system.nodal =
+    system.bulk =
       std::make_unique<BulkSystem>(spaces.nodal,
                                    spaces.nodal_pressures,
                                    BulkSystem::Scene{displacement.numbering,
@@ -48,7 +48,7 @@ namespace mortise
                                                      spaces.choice.method !=
                                                        SolverMethod::direct},
                                    run.comm);
-    const auto n_levels = system.nodal->levels().size();
+    const auto n_levels = system.bulk->levels().size();
     stage.details(std::to_string(n_levels) +
                   (n_levels == 1 ? " level" : " levels"));
   }
@@ -74,13 +74,13 @@ namespace mortise
           assemble_by_node(all,
                            partition,
                            pairing->slide() || pairing->have_springs());
-        system.constraint.constrain(system.nodal->levels().front().constrained);
+        system.constraint.constrain(system.bulk->levels().front().constrained);
         if (pairing->have_springs())
           system.spring_compliance = assemble_compliance(all, partition);
       }
     for (unsigned int i = 0; i < all.size(); ++i)
       interface_summaries.push_back(pairing->summary(i));
-    system.nodal->couple(all);
+    system.bulk->couple(all);
   }
 
   namespace
@@ -129,7 +129,7 @@ namespace mortise
         for (const unsigned int b : group)
           {
             ones.emplace_back(zero);
-            system.nodal->set_constant_pressure(*bodies[b], ones.back());
+            system.bulk->set_constant_pressure(*bodies[b], ones.back());
             all += ones.back();
             names += (names.empty() ? "" : ", ") + bodies[b]->name;
           }
@@ -140,7 +140,7 @@ namespace mortise
         for (unsigned int i = 0; i < group.size(); ++i)
           {
             Vector of_body(integrals);
-            system.nodal->apply_pressure_mass(of_body, ones[i]);
+            system.bulk->apply_pressure_mass(of_body, ones[i]);
             integrals.add(1. / bodies[group[i]]->material.pressure_norm(),
                           of_body);
           }
@@ -163,13 +163,13 @@ namespace mortise
       {
         const auto &numbering = spaces.fields.displacement.numbering;
         system.apply_to_constrained(
-          system.nodal->values_at_nodes([&](const auto body, const auto dof) {
+          system.bulk->values_at_nodes([&](const auto body, const auto dof) {
             return prescribed_value(load.prescribed, numbering(body, dof));
           }),
           load.rhs);
         scale(load.rhs, -1.);
       }
-    system.nodal->add_loads(loads, load);
+    system.bulk->add_loads(loads, load);
     for (unsigned int i = 0; i < pairing->all().size(); ++i)
       if (const auto offset = data.offset(pairing->sides()[i]);
           offset && load.rhs.multiplier.size() > 0)
@@ -204,7 +204,7 @@ namespace mortise
                        const CellFunctionals &functionals) const
   {
     SceneLoad load{system.zero_vector(), {}};
-    system.nodal->assemble_functional(body, functionals, load.rhs);
+    system.bulk->assemble_functional(body, functionals, load.rhs);
     if (system.mixed())
       system.free_pressures.project_residual(load.rhs.pressure);
     return load;

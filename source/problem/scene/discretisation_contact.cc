@@ -51,6 +51,6 @@ namespace mortise
   Discretisation::update_coarse_active_set()
   {
     pairing->select(*system.active);
-    system.nodal->update_penalties(pairing->all());
+    system.bulk->update_penalties(pairing->all());
   }
 } // namespace mortise

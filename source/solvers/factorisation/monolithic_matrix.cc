@@ -82,17 +82,17 @@ namespace mortise
 
     /// Prescribed values are zero. @p relevant: rows of the cells of this rank.
     AffineConstraints<double>
-    monolithic_constraints(const BulkSystem &nodal,
+    monolithic_constraints(const BulkSystem &bulk,
                            const Numbering  &numbering,
                            const IndexSet   &relevant)
     {
-      const MultigridLevel     &level   = nodal.levels().front();
+      const MultigridLevel     &level   = bulk.levels().front();
       const auto               &hanging = level.space->hanging_nodes();
       AffineConstraints<double> constraints(relevant);
       add_hanging_nodes(
         *level.space, dim, Numbering::displacement, numbering, constraints);
-      if (nodal.pressure() != nullptr)
-        add_hanging_nodes(nodal.pressure()->nodes().space,
+      if (bulk.pressure() != nullptr)
+        add_hanging_nodes(bulk.pressure()->nodes().space,
                           1,
                           Numbering::pressure,
                           numbering,
@@ -112,17 +112,17 @@ namespace mortise
     class CellIndices
     {
     public:
-      CellIndices(const BulkSystem &nodal, const Numbering &numbering)
+      CellIndices(const BulkSystem &bulk, const Numbering &numbering)
       {
-        const auto &layout = *nodal.levels().front().layout;
+        const auto &layout = *bulk.levels().front().layout;
         for (unsigned int i = 0;
              i < layout.locally_owned_size() + layout.n_ghost_indices();
              ++i)
           displacements.push_back(
             numbering(Numbering::displacement, layout.local_to_global(i)));
-        if (nodal.pressure() == nullptr)
+        if (bulk.pressure() == nullptr)
           return;
-        const auto &of_pressure = nodal.pressure()->nodes().layout;
+        const auto &of_pressure = bulk.pressure()->nodes().layout;
         for (unsigned int i = 0; i < of_pressure.locally_owned_size() +
                                        of_pressure.n_ghost_indices();
              ++i)
@@ -257,14 +257,14 @@ namespace mortise
                     const ScaledResidual      &residual,
                     const MonolithicNumbering &numbering)
   {
-    const BulkSystem  &nodal = *system.nodal;
-    const bool         tied  = system.owned_multiplier.size() > 0;
+    const BulkSystem  &bulk = *system.bulk;
+    const bool         tied = system.owned_multiplier.size() > 0;
     const SparseMatrix B = tied ? system.constraint.expanded() : SparseMatrix();
     const SparseMatrix other_forces =
       system.is_symmetric() ? SparseMatrix() : system.forces().expanded();
-    CellIndices                     cells(nodal, numbering);
+    CellIndices                     cells(bulk, numbering);
     const AffineConstraints<double> constraints =
-      monolithic_constraints(nodal, numbering, relevant_rows(cells, numbering));
+      monolithic_constraints(bulk, numbering, relevant_rows(cells, numbering));
 
     // visit(row expansion, column expansion, block, transposed)
     const auto for_each_row = [&](const auto &visit) {
@@ -296,7 +296,7 @@ namespace mortise
                             const ExpansionList &column) {
       assembler.record(row(), row.size(), column(), column.size());
     };
-    nodal.elasticity().for_each_cell([&](const auto &cell) {
+    bulk.elasticity().for_each_cell([&](const auto &cell) {
       const ExpansionList of_cell = resolve(cells.of(cell), constraints);
       record(of_cell, of_cell);
     });
@@ -305,7 +305,7 @@ namespace mortise
                      const FullMatrix<double> &,
                      const bool) { record(row, column); });
     assembler.allocate();
-    nodal.elasticity().for_each_cell_matrix(
+    bulk.elasticity().for_each_cell_matrix(
       [](const auto &) { return true; },
       [&](const auto &cell, const auto &local) {
         const ExpansionList of_cell = resolve(cells.of(cell), constraints);

@@ -132,7 +132,7 @@ namespace mortise
       bool
       step(SystemVector &x, const double rho)
       {
-        system.nodal->apply_stiffness(kd, d);
+        system.bulk->apply_stiffness(kd, d);
         if (has_springs)
           system.add_multiplier_force(kd, d_lambda);
         const double energy = d * kd;

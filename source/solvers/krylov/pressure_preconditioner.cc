@@ -22,38 +22,38 @@ namespace mortise
   {
     struct Matrix : Subscriptor
     {
-      explicit Matrix(const BulkSystem &nodal)
-        : nodal(nodal)
+      explicit Matrix(const BulkSystem &bulk)
+        : bulk(bulk)
       {}
 
       types::global_dof_index
       m() const
       {
-        return nodal.pressure_norm_diagonal().size();
+        return bulk.pressure_norm_diagonal().size();
       }
 
       double
       el(const types::global_dof_index i, const types::global_dof_index) const
       {
-        return nodal.pressure_norm_diagonal()(i);
+        return bulk.pressure_norm_diagonal()(i);
       }
 
       void
       vmult(Vector &dst, const Vector &src) const
       {
-        nodal.apply_pressure_norm(dst, src);
+        bulk.apply_pressure_norm(dst, src);
       }
 
-      const BulkSystem &nodal;
+      const BulkSystem &bulk;
     };
 
     using Diagonal  = DiagonalMatrix<Vector>;
     using Chebyshev = PreconditionChebyshev<Matrix, Vector, Diagonal>;
 
-    explicit Polynomial(const BulkSystem &nodal)
-      : matrix(nodal)
+    explicit Polynomial(const BulkSystem &bulk)
+      : matrix(bulk)
     {
-      const Vector &diagonal = nodal.pressure_norm_diagonal();
+      const Vector &diagonal = bulk.pressure_norm_diagonal();
       const double  least    = Utilities::MPI::min(
         diagonal.locally_owned_size() == 0 ?
           1. :
@@ -79,7 +79,7 @@ namespace mortise
   };
 
   PressurePreconditioner::PressurePreconditioner(const BlockSystem &system)
-    : polynomial(std::make_unique<Polynomial>(*system.nodal))
+    : polynomial(std::make_unique<Polynomial>(*system.bulk))
   {}
 
   PressurePreconditioner::~PressurePreconditioner() = default;

@@ -80,7 +80,7 @@ namespace mortise
                              scaled.block(u),
                              scaled.block(p));
         else
-          system.nodal->apply_stiffness(y.block(u), scaled.block(u));
+          system.bulk->apply_stiffness(y.block(u), scaled.block(u));
         if (tied)
           {
             system.add_multiplier_force(y.block(u), scaled.block(l));
@@ -136,8 +136,8 @@ namespace mortise
           {
             pressure->vmult(z.block(p), t.block(p));
             system.free_pressures.project(z.block(p));
-            system.nodal->add_pressure_force(t.block(u),
-                                             z.block(p)); // z_p is minus it
+            system.bulk->add_pressure_force(t.block(u),
+                                            z.block(p)); // z_p is minus it
             z.block(p) *= -1.;
           }
         z_l = 0.;
@@ -232,7 +232,7 @@ namespace mortise
       if (system.mixed())
         {
           Vector g(x.pressure);
-          system.nodal->apply_pressure_norm(g, x.pressure);
+          system.bulk->apply_pressure_norm(g, x.pressure);
           energy += g * x.pressure;
         }
       return energy;

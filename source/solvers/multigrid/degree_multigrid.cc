@@ -62,7 +62,7 @@ namespace mortise
       if (system.owned_multiplier.size() == 0)
         return {};
       return find_constraint_penalties(system.constraint,
-                                       system.nodal->node_diagonal(),
+                                       system.bulk->node_diagonal(),
                                        system.has_springs() ?
                                          system.spring_compliance.diagonal() :
                                          std::vector<double>(),
@@ -80,8 +80,8 @@ namespace mortise
       : system(system)
       , max_gathered(max_gathered)
     {
-      const auto &all       = system.nodal->levels();
-      Vector      stiffness = system.nodal->node_diagonal();
+      const auto &all       = system.bulk->levels();
+      Vector      stiffness = system.bulk->node_diagonal();
       for (const unsigned int index : all.front().constrained)
         stiffness.local_element(index) = 0.;
       root_of_stiffness = std::sqrt(stiffness.linfty_norm());
@@ -238,7 +238,7 @@ namespace mortise
   DegreeMultigrid::DegreeMultigrid(const BlockSystem &system,
                                    const std::size_t  max_gathered)
   {
-    const auto &levels = system.nodal->levels();
+    const auto &levels = system.bulk->levels();
     const auto &space  = *levels.front().space;
     if (levels.size() == 1 && coarsens_across_thickness(space.bodies()))
       {

@@ -104,11 +104,13 @@ namespace mortise
     Implementation(const BlockSystem                    &system,
                    const ThicknessCoarsening            &thickness,
                    const std::vector<ConstraintPenalty> &jumps)
-      : level(system.nodal->levels().front())
+      : level(system.bulk->levels().front())
       , across_thickness(true)
     {
-      VertexMatrix matrix = assemble_thickness_matrix(
-        level, system.nodal->elasticity(), thickness, jumps);
+      VertexMatrix matrix = assemble_thickness_matrix(level,
+                                                      system.bulk->elasticity(),
+                                                      thickness,
+                                                      jumps);
       to_first = std::make_unique<VertexTransfer<Number>>(thickness.functions,
                                                           matrix.blocks);
       set_up(std::move(matrix), {}, max_factorised_across);

@@ -24,11 +24,11 @@ namespace mortise
     : system(system)
     , product(product)
     , max_gathered(max_gathered)
-    , weights(system.nodal->node_diagonal())
+    , weights(system.bulk->node_diagonal())
   {
     for (unsigned int i = 0; i < weights.locally_owned_size(); ++i)
       weights.local_element(i) = 1. / weights.local_element(i);
-    for (const auto &independent : system.nodal->independent_displacements())
+    for (const auto &independent : system.bulk->independent_displacements())
       weights.local_element(independent.index) = 0.;
     schur = weighted_square(rows, weights);
     if (system.constraint.has_frames())

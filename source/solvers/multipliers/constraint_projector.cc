@@ -15,8 +15,8 @@ namespace mortise
     , jump(system.owned_multiplier, system.communicator)
     , multiplier(jump)
   {
-    system.nodal->initialize(force);
-    system.nodal->initialize(correction);
+    system.bulk->initialize(force);
+    system.bulk->initialize(correction);
     product.initialize(coupled_values);
     for (unsigned int i = 0; i < jump.locally_owned_size(); ++i)
       {

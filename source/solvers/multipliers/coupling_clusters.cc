@@ -39,8 +39,8 @@ namespace mortise
     LevelVector<float> is_independent(system.owned_displacement,
                                       coupled_displacements(system, rows),
                                       system.communicator);
-    if (system.nodal)
-      for (const auto &independent : system.nodal->independent_displacements())
+    if (system.bulk)
+      for (const auto &independent : system.bulk->independent_displacements())
         is_independent.local_element(independent.index) = 1.;
     is_independent.update_ghost_values();
     std::vector<bool> result(rows.n_nodes(), true);

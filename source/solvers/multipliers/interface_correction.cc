@@ -33,9 +33,8 @@ namespace mortise
       weights.push_back(
         static_cast<Number>(schur.inverse_diagonal().local_element(i)));
     any_independent =
-      Utilities::MPI::max(system.nodal->independent_displacements().empty() ?
-                            0 :
-                            1,
+      Utilities::MPI::max(system.bulk->independent_displacements().empty() ? 0 :
+                                                                             1,
                           system.communicator) == 1;
   }
 
@@ -44,7 +43,7 @@ namespace mortise
   InterfaceCorrection<Number>::add_dependent_stiffness(
     LevelVector<Number> &diagonal) const
   {
-    for (const auto &independent : system.nodal->independent_displacements())
+    for (const auto &independent : system.bulk->independent_displacements())
       diagonal.local_element(independent.index) += static_cast<Number>(
         fraction_of_dependent * independent.dependent_stiffness);
   }
