@@ -62,18 +62,16 @@ namespace
   {
     const unsigned int    n = 5;
     std::vector<Point<3>> points;
-    const auto            reference = cell->reference_cell();
+    std::vector<Point<3>> corners;
+    for (unsigned int k = 0; k < 3; ++k)
+      for (const unsigned int v : cell->vertex_indices())
+        if (cell->vertex_index(v) == cell->face(f)->vertex_index(k))
+          corners.push_back(cell->reference_cell().template vertex<3>(v));
     for (unsigned int i = 0; i <= n; ++i)
       for (unsigned int j = 0; i + j <= n; ++j)
-        {
-          const double   s = double(i) / n, t = double(j) / n;
-          const unsigned v[3] = {reference.face_to_cell_vertices(f, 0, 1),
-                                 reference.face_to_cell_vertices(f, 1, 1),
-                                 reference.face_to_cell_vertices(f, 2, 1)};
-          const Point<3> a    = reference.template vertex<3>(v[0]);
-          points.push_back(a + s * (reference.template vertex<3>(v[1]) - a) +
-                           t * (reference.template vertex<3>(v[2]) - a));
-        }
+        points.push_back(corners[0] +
+                         double(i) / n * (corners[1] - corners[0]) +
+                         double(j) / n * (corners[2] - corners[0]));
     return points;
   }
 
