@@ -143,7 +143,7 @@ namespace
             text);
     report.prepared = true;
     text            = not_converged(report, 1e-10, 1001, "");
-    verdict(has(text, "1001 sets") && !has(text, "Max iterations"),
+    verdict(has(text, "1001 active sets") && !has(text, "Max iterations"),
             "sets without end",
             text);
     verdict(has(not_converged(report, 1e-10, 0, ""),
