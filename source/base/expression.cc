@@ -2,6 +2,7 @@
 
 #include <boost/container/small_vector.hpp>
 
+#include <mortise/base/derivatives.h>
 #include <mortise/base/error.h>
 #include <mortise/base/expression.h>
 #include <mortise/base/quotes.h>
@@ -17,15 +18,36 @@ namespace mortise
   {
     using Operation = Expression::Operation;
     using Node      = Expression::Node;
-    using Jet       = Expression::Jet;
 
-    /// a^n; small integers by multiplication, which is faster than std::pow.
-    double
-    power(const double a, const double n)
+    bool
+    varies(const double)
     {
+      return false;
+    }
+
+    template <typename Number>
+    bool
+    varies(const Sacado::Fad::SFad<Number, 3> &a)
+    {
+      bool result = varies(a.val());
+      for (int i = 0; i < 3; ++i)
+        result = result || value_of(a.dx(i)) != 0. || varies(a.dx(i));
+      return result;
+    }
+
+    /// a^b; small integers by multiplication, which is faster than std::pow and
+    /// has derivatives at zero and of negative bases.
+    template <typename Number>
+    Number
+    power(const Number &a, const Number &b)
+    {
+      using std::pow;
+      const double n = value_of(b);
+      if (varies(b))
+        return pow(a, b);
       if (!(std::fabs(n) <= 16.) || n != std::floor(n))
-        return std::pow(a, n);
-      double result = 1., square = a;
+        return pow(a, Number(n));
+      Number result = 1., square = a;
       for (unsigned int k = static_cast<unsigned int>(std::fabs(n)); k > 0;
            k /= 2)
         {
@@ -33,181 +55,58 @@ namespace mortise
             result *= square;
           square *= square;
         }
-      return n < 0 ? 1. / result : result;
+      return n < 0 ? Number(1. / result) : result;
     }
 
-    /// First and second derivative of a function of one variable.
-    struct Derivatives
+    template <typename Number>
+    Number
+    apply_to(const Operation operation,
+             const Number   &a,
+             const Number   &b,
+             const Number   &c)
     {
-      double first, second;
-    };
-
-    /// Derivatives at @p u, where the function has the value @p f.
-    Derivatives
-    differentiate(const Operation operation, const double u, const double f)
-    {
+      using namespace std;
+      const double u = value_of(a), v = value_of(b);
       // clang-format off
       switch (operation)
         {
-          case Operation::minus:  return {-1., 0.};
-          case Operation::sin:    return {std::cos(u), -f};
-          case Operation::cos:    return {-std::sin(u), -f};
-          case Operation::tan:    return {1. + f * f, 2. * f * (1. + f * f)};
-          case Operation::asin:
-          case Operation::acos:
-            {
-              const double sign = operation == Operation::asin ? 1. : -1.;
-              const double g    = 1. / std::sqrt((1. - u) * (1. + u));
-              return {sign * g, sign * u * g * g * g};
-            }
-          case Operation::atan:
-            {
-              const double g = 1. / (1. + u * u);
-              return {g, -2. * u * g * g};
-            }
-          case Operation::sinh:   return {std::cosh(u), f};
-          case Operation::cosh:   return {std::sinh(u), f};
-          case Operation::tanh:
-            {
-              const double g = 1. / std::cosh(u);
-              return {g * g, -2. * f * g * g};
-            }
-          case Operation::exp:    return {f, f};
-          case Operation::log:    return {1. / u, -1. / (u * u)};
-          case Operation::sqrt:   return {0.5 / f, -0.25 / (u * f)};
-          case Operation::abs:    return {u < 0. ? -1. : 1., 0.};
-          case Operation::negate: return {0., 0.};
-          default:                break;
+          case Operation::minus:         return -a;
+          case Operation::negate:        return u == 0.;
+          case Operation::sin:           return sin(a);
+          case Operation::cos:           return cos(a);
+          case Operation::tan:           return tan(a);
+          case Operation::asin:          return asin(a);
+          case Operation::acos:          return acos(a);
+          case Operation::atan:          return atan(a);
+          case Operation::sinh:          return sinh(a);
+          case Operation::cosh:          return cosh(a);
+          case Operation::tanh:          return tanh(a);
+          case Operation::exp:           return exp(a);
+          case Operation::log:           return log(a);
+          case Operation::sqrt:          return sqrt(a);
+          case Operation::abs:           return u < 0. ? Number(-a) : a;
+          case Operation::add:           return a + b;
+          case Operation::subtract:      return a - b;
+          case Operation::multiply:      return a * b;
+          case Operation::divide:        return a / b;
+          case Operation::power:         return power(a, b);
+          case Operation::atan2:         return atan2(a, b);
+          case Operation::min:           return v < u ? b : a;
+          case Operation::max:           return u < v ? b : a;
+          case Operation::less:          return u < v;
+          case Operation::less_equal:    return u <= v;
+          case Operation::greater:       return u > v;
+          case Operation::greater_equal: return u >= v;
+          case Operation::equal:         return u == v;
+          case Operation::not_equal:     return u != v;
+          case Operation::both:          return u != 0. && v != 0.;
+          case Operation::either:        return u != 0. || v != 0.;
+          case Operation::select:        return u != 0. ? b : c;
+          default:                       break;
         }
       // clang-format on
       Assert(false, ExcInternalError());
-      return {};
-    }
-
-    /// Derivatives of a function f(a, b) at a point.
-    struct Partials
-    {
-      double a, b, aa, ab, bb;
-    };
-
-    /// The jet of f(a(x), b(x)) by the chain rule.
-    Jet
-    combine(const Jet &a, const Jet &b, const double f, const Partials &d)
-    {
-      Jet r;
-      r.value    = f;
-      r.gradient = d.a * a.gradient + d.b * b.gradient;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          r.hessian[i][j] = d.a * a.hessian[i][j] + d.b * b.hessian[i][j] +
-                            d.aa * a.gradient[i] * a.gradient[j] +
-                            d.ab * (a.gradient[i] * b.gradient[j] +
-                                    b.gradient[i] * a.gradient[j]) +
-                            d.bb * b.gradient[i] * b.gradient[j];
-      return r;
-    }
-
-    /// The jet of f(a(x)).
-    Jet
-    compose(const Jet &a, const double f, const Derivatives &d)
-    {
-      Jet r;
-      r.value    = f;
-      r.gradient = d.first * a.gradient;
-      r.hessian  = d.first * a.hessian;
-      if (d.second != 0.)
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = i; j < 3; ++j)
-            r.hessian[i][j] += d.second * a.gradient[i] * a.gradient[j];
-      return r;
-    }
-
-    Jet
-    combine_power(const Jet &a, const Jet &b, const double f)
-    {
-      const double n = b.value;
-      // An exponent that does not vary must not meet log(a), which a negative
-      // base does not have; coefficients 0 must not meet a negative power of 0.
-      const double first = n == 0. ? 0. : n * power(a.value, n - 1.);
-      const double second =
-        n == 0. || n == 1. ? 0. : n * (n - 1.) * power(a.value, n - 2.);
-      if (b.gradient.norm_square() == 0. && b.hessian.norm() == 0.)
-        return compose(a, f, {first, second});
-      const double l = std::log(a.value);
-      return combine(a,
-                     b,
-                     f,
-                     {first,
-                      f * l,
-                      second,
-                      power(a.value, n - 1.) * (1. + n * l),
-                      f * l * l});
-    }
-
-    Jet
-    apply(const Operation operation, const Jet &a, const Jet &b, const Jet &c)
-    {
-      const double f = Expression::apply(operation, a.value, b.value, c.value);
-      switch (operation)
-        {
-          case Operation::add:
-            return {f, a.gradient + b.gradient, a.hessian + b.hessian};
-          case Operation::subtract:
-            return {f, a.gradient - b.gradient, a.hessian - b.hessian};
-          case Operation::multiply:
-            return combine(a, b, f, {b.value, a.value, 0., 1., 0.});
-          case Operation::divide:
-            {
-              const double q = 1. / b.value;
-              return combine(a, b, f, {q, -f * q, 0., -q * q, 2. * f * q * q});
-            }
-          case Operation::power:
-            return combine_power(a, b, f);
-          case Operation::atan2:
-            {
-              const double s = 1. / (a.value * a.value + b.value * b.value);
-              const double u = a.value * s, v = b.value * s;
-              return combine(a,
-                             b,
-                             f,
-                             {v, -u, -2. * u * v, u * u - v * v, 2. * u * v});
-            }
-          case Operation::min:
-            return a.value <= b.value ? a : b;
-          case Operation::max:
-            return a.value >= b.value ? a : b;
-          case Operation::select:
-            return a.value != 0. ? b : c;
-          default:
-            if (Expression::n_operands(operation) == 2) // comparisons
-              return {f, {}, {}};
-            return compose(a, f, differentiate(operation, a.value, f));
-        }
-    }
-
-    double
-    apply(const Operation operation,
-          const double    a,
-          const double    b,
-          const double    c)
-    {
-      return Expression::apply(operation, a, b, c);
-    }
-
-    void
-    set(double &leaf, const double value, const int)
-    {
-      leaf = value;
-    }
-
-    /// A constant (@p direction < 0) or a coordinate.
-    void
-    set(Jet &leaf, const double value, const int direction)
-    {
-      leaf       = Jet();
-      leaf.value = value;
-      if (direction >= 0)
-        leaf.gradient[direction] = 1.;
+      return 0.;
     }
 
     /// Value of the last of @p nodes, by one walk over them in their order.
@@ -221,15 +120,15 @@ namespace mortise
         {
           const int direction =
             static_cast<int>(node.operation) - static_cast<int>(Operation::x);
-          if (direction < 3)
-            set(*result,
-                direction < 0 ? node.constant : p[direction],
-                direction);
+          if (direction < 0)
+            *result = node.constant;
+          else if (direction < 3)
+            set_coordinate(*result, p[direction], direction);
           else // operands that do not exist point to the first result
-            *result = apply(node.operation,
-                            results[node.operands[0]],
-                            results[node.operands[1]],
-                            results[node.operands[2]]);
+            *result = apply_to(node.operation,
+                               results[node.operands[0]],
+                               results[node.operands[1]],
+                               results[node.operands[2]]);
           ++result;
         }
       return results.back();
@@ -262,46 +161,7 @@ namespace mortise
                     const double    b,
                     const double    c)
   {
-    // clang-format off
-    switch (operation)
-      {
-        case Operation::minus:         return -a;
-        case Operation::negate:        return a == 0.;
-        case Operation::sin:           return std::sin(a);
-        case Operation::cos:           return std::cos(a);
-        case Operation::tan:           return std::tan(a);
-        case Operation::asin:          return std::asin(a);
-        case Operation::acos:          return std::acos(a);
-        case Operation::atan:          return std::atan(a);
-        case Operation::sinh:          return std::sinh(a);
-        case Operation::cosh:          return std::cosh(a);
-        case Operation::tanh:          return std::tanh(a);
-        case Operation::exp:           return std::exp(a);
-        case Operation::log:           return std::log(a);
-        case Operation::sqrt:          return std::sqrt(a);
-        case Operation::abs:           return std::fabs(a);
-        case Operation::add:           return a + b;
-        case Operation::subtract:      return a - b;
-        case Operation::multiply:      return a * b;
-        case Operation::divide:        return a / b;
-        case Operation::power:         return power(a, b);
-        case Operation::atan2:         return std::atan2(a, b);
-        case Operation::min:           return std::min(a, b);
-        case Operation::max:           return std::max(a, b);
-        case Operation::less:          return a < b;
-        case Operation::less_equal:    return a <= b;
-        case Operation::greater:       return a > b;
-        case Operation::greater_equal: return a >= b;
-        case Operation::equal:         return a == b;
-        case Operation::not_equal:     return a != b;
-        case Operation::both:          return a != 0. && b != 0.;
-        case Operation::either:        return a != 0. || b != 0.;
-        case Operation::select:        return a != 0. ? b : c;
-        default:                       break;
-      }
-    // clang-format on
-    Assert(false, ExcInternalError());
-    return 0.;
+    return apply_to(operation, a, b, c);
   }
 
   double
@@ -313,19 +173,13 @@ namespace mortise
   Tensor<1, 3>
   Expression::gradient(const Point<3> &p) const
   {
-    return jet(p).gradient;
+    return gradient_of(evaluate<WithGradient>(nodes, p));
   }
 
   SymmetricTensor<2, 3>
   Expression::hessian(const Point<3> &p) const
   {
-    return jet(p).hessian;
-  }
-
-  Expression::Jet
-  Expression::jet(const Point<3> &p) const
-  {
-    return evaluate<Jet>(nodes, p);
+    return symmetrize(hessian_of(evaluate<WithHessian>(nodes, p)));
   }
 
   VectorExpression::VectorExpression(const std::string &text,

@@ -60,16 +60,6 @@ namespace mortise
       return has_time;
     }
 
-    /// Value and both derivatives in one pass.
-    struct Jet
-    {
-      double                        value = 0.;
-      dealii::Tensor<1, 3>          gradient;
-      dealii::SymmetricTensor<2, 3> hessian;
-    };
-    Jet
-    jet(const dealii::Point<3> &p) const;
-
     /// Operation of a node, by number of operands: none, one, two, three.
     enum class Operation : unsigned char
     {

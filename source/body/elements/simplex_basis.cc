@@ -1,4 +1,4 @@
-#include <mortise/body/elements/jet.h>
+#include <mortise/base/derivatives.h>
 #include <mortise/body/elements/simplex_basis.h>
 
 #include <algorithm>
@@ -10,18 +10,16 @@ namespace mortise
 
   namespace
   {
-    std::array<Jet, 4>
-    barycentric_jets(const Point<3> &x)
+    /// Barycentric coordinates of @p x with derivatives.
+    template <typename Number>
+    std::array<Number, 4>
+    barycentric(const Point<3> &x)
     {
-      const auto         lambda = barycentric_coordinates(x);
-      std::array<Jet, 4> jets;
-      for (unsigned int v = 0; v < 4; ++v)
-        {
-          jets[v] = lambda[v];
-          for (unsigned int d = 0; d < 3; ++d)
-            jets[v].gradient[d] = v == 0 ? -1. : (v == d + 1 ? 1. : 0.);
-        }
-      return jets;
+      std::array<Number, 4> lambda;
+      for (unsigned int d = 0; d < 3; ++d)
+        set_coordinate(lambda[1 + d], x[d], d);
+      lambda[0] = 1. - lambda[1] - lambda[2] - lambda[3];
+      return lambda;
     }
 
     /// t^n P_n^(alpha,beta)(s/t) for n = 0..degree by the recurrence in three
@@ -59,7 +57,7 @@ namespace mortise
                   const Number      &b,
                   Number            *values)
     {
-      evaluate_jacobi(degree - 2, 1., 1., b - a, a + b, values);
+      evaluate_jacobi<Number>(degree - 2, 1., 1., b - a, a + b, values);
       for (unsigned int k = 2; k <= degree; ++k)
         values[k - 2] =
           (-std::sqrt(2. * k - 1.) / (k - 1.)) * ((a * b) * values[k - 2]);
@@ -133,11 +131,11 @@ namespace mortise
   {
     const unsigned int p = this->degree();
     Number             along[max_simplex_degree], across[max_simplex_degree];
-    evaluate_jacobi(p - 3, 2., 2., b - a, a + b, along);
+    evaluate_jacobi<Number>(p - 3, 2., 2., b - a, a + b, along);
     for (unsigned int i = 2; i < p; ++i)
       {
         const Number bubble = (a * b) * (c * along[i - 2]);
-        evaluate_jacobi(
+        evaluate_jacobi<Number>(
           p - 1 - i, 2. * i + 1., 2., c - a - b, a + b + c, across);
         for (unsigned int j = 0; i + j + 1 <= p; ++j)
           {
@@ -158,21 +156,21 @@ namespace mortise
     const unsigned int p = this->degree();
     Number             along[max_simplex_degree], across[max_simplex_degree],
       up[max_simplex_degree];
-    evaluate_jacobi(p - 4, 2., 2., b - a, a + b, along);
+    evaluate_jacobi<Number>(p - 4, 2., 2., b - a, a + b, along);
     for (unsigned int i = 2; i + 2 <= p; ++i)
       {
         const Number bubble = (a * b) * (c * d) * along[i - 2];
-        evaluate_jacobi(
+        evaluate_jacobi<Number>(
           p - 2 - i, 2. * i + 1., 2., c - a - b, a + b + c, across);
         for (unsigned int j = 0; i + j + 2 <= p; ++j)
           {
             const Number product = bubble * across[j];
-            evaluate_jacobi(p - 2 - i - j,
-                            2. * (i + j) + 4.,
-                            2.,
-                            d - a - b - c,
-                            a + b + c + d,
-                            up);
+            evaluate_jacobi<Number>(p - 2 - i - j,
+                                    2. * (i + j) + 4.,
+                                    2.,
+                                    d - a - b - c,
+                                    a + b + c + d,
+                                    up);
             for (unsigned int k = 0; i + j + k + 2 <= p; ++k)
               {
                 const unsigned int mode = interior_mode(i, j, k);
@@ -262,14 +260,24 @@ namespace mortise
           evaluate_all(barycentric_coordinates(point), values);
         return;
       }
-    std::vector<Jet> jets;
-    evaluate_all(barycentric_jets(point), jets);
+    if (hessians.empty())
+      {
+        std::vector<WithGradient> all;
+        evaluate_all(barycentric<WithGradient>(point), all);
+        for (unsigned int i = 0; i < values.size(); ++i)
+          values[i] = value_of(all[i]);
+        for (unsigned int i = 0; i < gradients.size(); ++i)
+          gradients[i] = gradient_of(all[i]);
+        return;
+      }
+    std::vector<WithHessian> all;
+    evaluate_all(barycentric<WithHessian>(point), all);
     for (unsigned int i = 0; i < values.size(); ++i)
-      values[i] = jets[i].value;
+      values[i] = value_of(all[i]);
     for (unsigned int i = 0; i < gradients.size(); ++i)
-      gradients[i] = jets[i].gradient;
+      gradients[i] = gradient_of(all[i].val());
     for (unsigned int i = 0; i < hessians.size(); ++i)
-      hessians[i] = jets[i].hessian;
+      hessians[i] = hessian_of(all[i]);
   }
 
   double
@@ -286,9 +294,9 @@ namespace mortise
     const unsigned int i,
     const Point<3>    &point) const
   {
-    std::vector<Jet> jets;
-    evaluate_all(barycentric_jets(point), jets);
-    return jets[i].gradient;
+    std::vector<WithGradient> all;
+    evaluate_all(barycentric<WithGradient>(point), all);
+    return gradient_of(all[i]);
   }
 
   Tensor<2, 3>
@@ -296,9 +304,9 @@ namespace mortise
     const unsigned int i,
     const Point<3>    &point) const
   {
-    std::vector<Jet> jets;
-    evaluate_all(barycentric_jets(point), jets);
-    return jets[i].hessian;
+    std::vector<WithHessian> all;
+    evaluate_all(barycentric<WithHessian>(point), all);
+    return hessian_of(all[i]);
   }
 
   std::vector<double>
