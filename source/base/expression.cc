@@ -35,6 +35,26 @@ namespace mortise
       return result;
     }
 
+    double
+    raise(const double, const double, const double *powers)
+    {
+      return powers[0];
+    }
+
+    /// a^n, where powers[k] = value_of(a)^(n - k).
+    template <typename Number>
+    Sacado::Fad::SFad<Number, 3>
+    raise(const Sacado::Fad::SFad<Number, 3> &a,
+          const double                        n,
+          const double                       *powers)
+    {
+      Sacado::Fad::SFad<Number, 3> result(raise(a.val(), n, powers));
+      const Number slope = n * raise(a.val(), n - 1., powers + 1);
+      for (int i = 0; i < 3; ++i)
+        result.fastAccessDx(i) = slope * a.dx(i);
+      return result;
+    }
+
     /// a^b; small integers by multiplication, which is faster than std::pow and
     /// has derivatives at zero and of negative bases.
     template <typename Number>
@@ -46,7 +66,16 @@ namespace mortise
       if (varies(b))
         return pow(a, b);
       if (!(std::fabs(n) <= 16.) || n != std::floor(n))
-        return pow(a, Number(n));
+        {
+          constexpr unsigned int order = std::is_same_v<Number, double> ? 0 :
+                                         std::is_same_v<Number, WithGradient> ?
+                                                                          1 :
+                                                                          2;
+          double                 powers[order + 1];
+          for (unsigned int k = 0; k <= order; ++k)
+            powers[k] = std::pow(value_of(a), n - k);
+          return raise(a, n, powers);
+        }
       Number result = 1., square = a;
       for (unsigned int k = static_cast<unsigned int>(std::fabs(n)); k > 0;
            k /= 2)
