@@ -2,6 +2,7 @@
 // and multipliers.
 #pragma once
 
+#include <mortise/operators/scene_solution.h>
 #include <mortise/output/summary.h>
 #include <mortise/problem/scene/scene_spaces.h>
 #include <mortise/problem/support/rigid_support.h>
