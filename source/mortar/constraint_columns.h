@@ -2,9 +2,9 @@
 // takes them.
 #pragma once
 
+#include <mortise/mortar/coupled_faces.h>
 #include <mortise/mortar/nodal_block.h>
 
-#include "coupled_faces.h"
 
 namespace mortise
 {

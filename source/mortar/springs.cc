@@ -1,11 +1,11 @@
 // Interfaces that give way, assemble_compliance().
+#include <mortise/mortar/coupled_faces.h>
 #include <mortise/mortar/coupling.h>
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/mortar/row_assembler.h>
 
 #include <cmath>
 
-#include "coupled_faces.h"
 #include "multiplier_sums.h"
 #include "projected_products.h"
 

@@ -12,6 +12,21 @@ namespace mortise
 
   namespace
   {
+    /// Let @p add add to @p dst what it makes of @p p with ghost entries.
+    template <typename Add>
+    void
+    apply_to_pressures(const NodalPressure &pressures,
+                       Vector              &dst,
+                       const Vector        &p,
+                       const Add           &add)
+    {
+      pressures.complete(p);
+      dst = 0.;
+      add();
+      pressures.release(p);
+      pressures.gather(dst);
+    }
+
     /// By element of the body.
     std::vector<CellOrder>
     cell_orders(const Body &body)
@@ -133,22 +148,18 @@ namespace mortise
   void
   BulkSystem::apply_pressure_norm(Vector &dst, const Vector &p) const
   {
-    pressures->complete(p);
-    dst = 0.;
-    stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
-    dirichlet_cell_pressures.add_product(p.begin(), dst.begin());
-    pressures->release(p);
-    pressures->gather(dst);
+    apply_to_pressures(*pressures, dst, p, [&] {
+      stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
+      dirichlet_cell_pressures.add_product(p.begin(), dst.begin());
+    });
   }
 
   void
   BulkSystem::apply_pressure_mass(Vector &dst, const Vector &p) const
   {
-    pressures->complete(p);
-    dst = 0.;
-    stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
-    pressures->release(p);
-    pressures->gather(dst);
+    apply_to_pressures(*pressures, dst, p, [&] {
+      stiffness->elasticity().add_pressure_norm(p.begin(), dst.begin());
+    });
   }
 
   void

@@ -1,6 +1,7 @@
 // See independent_displacements.h.
 #include <deal.II/base/mpi.h>
 
+#include <mortise/mortar/coupled_faces.h>
 #include <mortise/mortar/nodal_block.h>
 #include <mortise/operators/levels/independent_displacements.h>
 
@@ -35,17 +36,6 @@ namespace mortise
       if (face.begin[k + 1] == e + 1 && face.weight[e] == 1.)
         return face.nodes[face.column[e]];
       return {};
-    }
-
-    /// visit(coupling, s, trace) for all slave faces s that meet a master.
-    template <typename Visit>
-    void
-    for_each_slave(const std::vector<Coupling> &couplings, const Visit &visit)
-    {
-      for (const Coupling &coupling : couplings)
-        for (unsigned int s = 0; s < coupling.local.size(); ++s)
-          if (!coupling.local[s].partners.empty())
-            visit(coupling, s, coupling.interface->slave().traces[s]);
     }
 
     /// Values at the nodes of slave face @p s, which follow from those of each
@@ -104,11 +94,13 @@ namespace mortise
       {
         for (const Coupling &coupling : couplings)
           count(coupling);
-        for_each_slave(couplings,
-                       [&](const Coupling &, unsigned int, const FaceTrace &t) {
-                         for (const auto node : t.nodes[0].nodes)
-                           n_faces(dim * node) += 1.;
-                       });
+        for_each_face(couplings,
+                      [&](const Coupling &coupling, const unsigned int s) {
+                        const FaceTrace &slave =
+                          coupling.interface->slave().traces[s];
+                        for (const auto node : slave.nodes[0].nodes)
+                          n_faces(dim * node) += 1.;
+                      });
         n_faces.compress(VectorOperation::add);
         std::copy_n(diagonal.begin(),
                     diagonal.locally_owned_size(),
@@ -198,12 +190,11 @@ namespace mortise
                                  const std::vector<Coupling> &couplings)
   {
     bool any_independent = false;
-    for_each_slave(couplings,
-                   [&](const Coupling &coupling, unsigned int s, const auto &) {
-                     any_independent =
-                       any_independent ||
-                       has_independent_master(coupling.local[s]);
-                   });
+    for_each_face(couplings,
+                  [&](const Coupling &coupling, const unsigned int s) {
+                    any_independent = any_independent ||
+                                      has_independent_master(coupling.local[s]);
+                  });
     if (Utilities::MPI::max(any_independent ? 1 : 0,
                             level.layout->get_mpi_communicator()) == 0)
       return {};
@@ -211,14 +202,12 @@ namespace mortise
     const SlaveNodes slaves(level, layout, diagonal, couplings);
     // the first by displacement, the others by node, at its first component
     LevelVector<double> sums(layout), is_independent(sums), stays(sums);
-    for_each_slave(
-      couplings,
-      [&](const Coupling    &coupling,
-          const unsigned int s,
-          const FaceTrace   &slave) {
-        const auto &partners = coupling.local[s].partners;
-        const auto &masters  = coupling.interface->master_traces();
-        const bool  has_independent_master =
+    for_each_face(
+      couplings, [&](const Coupling &coupling, const unsigned int s) {
+        const FaceTrace &slave    = coupling.interface->slave().traces[s];
+        const auto      &partners = coupling.local[s].partners;
+        const auto      &masters  = coupling.interface->master_traces();
+        const bool       has_independent_master =
                      mortise::has_independent_master(coupling.local[s]),
                    has_free_displacement =
                      slaves.has_free_displacement(slave.nodes[0]);

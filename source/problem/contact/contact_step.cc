@@ -68,7 +68,7 @@ namespace mortise
 
     /// By owned multiplier: NormalMultiplier::complementarity, or zero.
     std::vector<double>
-    gap_stiffness(const Discretisation &discretisation)
+    complementarity_parameters(const Discretisation &discretisation)
     {
       std::vector<double> result;
       for (const Coupling &coupling : discretisation.interfaces().all())
@@ -91,7 +91,7 @@ namespace mortise
     , solver(solver)
     , preloads(preloads)
     , set(discretisation.one_sided(),
-          gap_stiffness(discretisation),
+          complementarity_parameters(discretisation),
           first_multiplier(discretisation.linear_system()),
           run.comm)
     , positions(multiplier_positions(discretisation))

@@ -13,8 +13,7 @@ namespace mortise
     return {trace.begin, trace.column, trace.weight, c * trace.n_functions()};
   }
 
-  /// Calls visit(slave trace, rows, local) for each slave face with a
-  /// partner.
+  /// Calls visit(coupling, s) for each slave face s with a partner.
   template <typename Visit>
   void
   for_each_face(const std::vector<Coupling> &couplings, const Visit &visit)
