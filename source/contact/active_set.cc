@@ -23,6 +23,16 @@ namespace mortise
     /// Less than that of the largest pressure is rounding.
     constexpr double rounding_of_pressures = 1e-13;
 
+    /// Of the numbers of all ranks, @p n of this one.
+    types::global_dof_index
+    first_of_rank(const unsigned int n, const MPI_Comm comm)
+    {
+      const std::uint64_t own   = n;
+      std::uint64_t       up_to = 0;
+      MPI_Scan(&own, &up_to, 1, MPI_UINT64_T, MPI_SUM, comm);
+      return up_to - n;
+    }
+
     std::uint64_t
     count(const std::vector<bool> &flags, const MPI_Comm comm)
     {
@@ -31,17 +41,13 @@ namespace mortise
     }
   } // namespace
 
-  ActiveSet::ActiveSet(std::vector<bool>             one_sided,
-                       std::vector<double>           complementarity,
-                       const types::global_dof_index first,
-                       const MPI_Comm                comm)
-    : one_sided(std::move(one_sided))
-    , complementarity(std::move(complementarity))
-    , first(first)
+  ActiveSet::ActiveSet(std::vector<double> complementarity, const MPI_Comm comm)
+    : complementarity(std::move(complementarity))
     , comm(comm)
-    , undecided_multipliers(this->one_sided.size(), false)
+    , first(first_of_rank(this->complementarity.size(), comm))
+    , undecided_nodes(this->complementarity.size(), false)
   {
-    start_from(std::vector<bool>(this->one_sided.size(), true));
+    start_from(std::vector<bool>(this->complementarity.size(), true));
   }
 
   void
@@ -56,8 +62,8 @@ namespace mortise
   }
 
   ActiveSet::Change
-  ActiveSet::advance(const double                                   *multiplier,
-                     const double                                   *gap,
+  ActiveSet::advance(const std::vector<double>                      &pressure,
+                     const std::vector<double>                      &gap,
                      const double                                    length,
                      const double                                    accuracy,
                      const std::function<void(std::vector<bool> &)> &extend)
@@ -65,28 +71,25 @@ namespace mortise
     seen.insert(fingerprint());
     double largest[2] = {0., 0.}; // of pressures, of gaps that overlap
     for (unsigned int i = 0; i < now.size(); ++i)
-      if (one_sided[i])
-        {
-          largest[0] = std::max(largest[0], std::fabs(multiplier[i]));
-          largest[1] = std::max(largest[1], -gap[i] * complementarity[i]);
-        }
+      {
+        largest[0] = std::max(largest[0], std::fabs(pressure[i]));
+        largest[1] = std::max(largest[1], -gap[i] * complementarity[i]);
+      }
     Utilities::MPI::max(ArrayView<const double>(largest),
                         comm,
                         ArrayView<double>(largest));
     const double least = accuracy * (largest[0] > 0. ? largest[0] : largest[1]);
     std::vector<bool> turns(now.size(), false);
     for (unsigned int i = 0; i < now.size(); ++i)
-      if (one_sided[i])
-        {
-          const double value    = now[i] ? multiplier[i] : gap[i],
-                       rounding = rounding_of_gaps * length,
-                       small =
-                         now[i] ?
-                           std::max(least, rounding * complementarity[i]) :
-                           std::max(least / complementarity[i], rounding);
-          turns[i]                 = value < -small;
-          undecided_multipliers[i] = !turns[i] && value <= small;
-        }
+      {
+        const double value    = now[i] ? pressure[i] : gap[i],
+                     rounding = rounding_of_gaps * length,
+                     small    = now[i] ?
+                                  std::max(least, rounding * complementarity[i]) :
+                                  std::max(least / complementarity[i], rounding);
+        turns[i]              = value < -small;
+        undecided_nodes[i]    = !turns[i] && value <= small;
+      }
     const std::vector<bool> before = now;
     const auto              turn   = [&](const std::vector<bool> &those) {
       for (unsigned int i = 0; i < now.size(); ++i)
@@ -112,7 +115,7 @@ namespace mortise
       }
     if (descending)
       {
-        descend(multiplier, before, rounding_of_pressures * largest[0], turns);
+        descend(pressure, before, rounding_of_pressures * largest[0], turns);
         turn(turns);
       }
     std::uint64_t counts[3] = {0, 0, 0}, sums[3];
@@ -120,17 +123,17 @@ namespace mortise
       {
         counts[0] += turns[i] && before[i] ? 1 : 0;
         counts[1] += turns[i] && !before[i] ? 1 : 0;
-        counts[2] += undecided_multipliers[i] ? 1 : 0;
+        counts[2] += undecided_nodes[i] ? 1 : 0;
       }
     MPI_Allreduce(counts, sums, 3, MPI_UINT64_T, MPI_SUM, comm);
     return {sums[0], sums[1], sums[2]};
   }
 
   void
-  ActiveSet::descend(const double            *multiplier,
-                     const std::vector<bool> &before,
-                     const double             rounding,
-                     std::vector<bool>       &turns)
+  ActiveSet::descend(const std::vector<double> &pressure,
+                     const std::vector<bool>   &before,
+                     const double               rounding,
+                     std::vector<bool>         &turns)
   {
     std::vector<bool> pulls(turns);
     for (unsigned int i = 0; i < pulls.size(); ++i)
@@ -146,13 +149,13 @@ namespace mortise
     else
       for (unsigned int i = 0; i < falling.size(); ++i)
         if (pulls[i])
-          length = std::min(length, falling[i] / (falling[i] - multiplier[i]));
+          length = std::min(length, falling[i] / (falling[i] - pressure[i]));
     length = Utilities::MPI::min(length, comm);
     for (unsigned int i = 0; i < falling.size(); ++i)
-      if (one_sided[i] && before[i])
+      if (before[i])
         {
           falling[i] =
-            std::max(0., falling[i] + length * (multiplier[i] - falling[i]));
+            std::max(0., falling[i] + length * (pressure[i] - falling[i]));
           if (!none_pulls)
             turns[i] = pulls[i] && falling[i] <= rounding;
         }
@@ -161,10 +164,7 @@ namespace mortise
   std::uint64_t
   ActiveSet::n_active() const
   {
-    std::uint64_t n = 0;
-    for (unsigned int i = 0; i < now.size(); ++i)
-      n += one_sided[i] && now[i] ? 1 : 0;
-    return Utilities::MPI::sum(n, comm);
+    return count(now, comm);
   }
 
   std::uint64_t

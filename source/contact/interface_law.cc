@@ -26,10 +26,8 @@ namespace mortise
   const std::vector<std::string> &
   interface_law_names()
   {
-    static const std::vector<std::string> names = {"tie",
-                                                   "slide",
-                                                   "contact",
-                                                   "spring"};
+    static const std::vector<std::string> names = {
+      "tie", "slide", "contact", "tresca", "spring"};
     return names;
   }
 
@@ -41,13 +39,43 @@ namespace mortise
            point.offset;
   }
 
+  namespace
+  {
+    /// lambda_t + c s
+    Tensor<1, 3>
+    trial_traction(const InterfacePoint &point, const double c)
+    {
+      const Tensor<1, 3> along = point.traction - c * point.jump;
+      return along - (point.normal * along) * point.normal;
+    }
+  } // namespace
+
+  bool
+  InterfaceLaw::sticks(const InterfacePoint &point, const double c) const
+  {
+    return !has_friction() ||
+           trial_traction(point, c).norm() <=
+             point.friction.of(point.normal * point.traction);
+  }
+
   double
   InterfaceLaw::violation(const InterfacePoint &point, const double c) const
   {
     const Tensor<1, 3> &n    = point.normal;
     const double        pull = n * point.traction;
     if (is_one_sided())
-      return complementarity_violation(gap(point), pull, c);
+      {
+        double result = complementarity_violation(gap(point), pull, c);
+        if (has_friction())
+          {
+            Tensor<1, 3> followed = trial_traction(point, c);
+            const double bound    = point.friction.of(pull);
+            if (const double size = followed.norm(); size > bound)
+              followed *= bound / size;
+            result += (point.traction - pull * n - followed).norm_square() / c;
+          }
+        return result;
+      }
     const InterfaceStiffness K =
       stiffness ? stiffness(point.position) : InterfaceStiffness();
     double square =
@@ -61,13 +89,12 @@ namespace mortise
   }
 
   InterfaceStiffness
-  InterfaceLaw::penalty(const double                           of_tie,
+  InterfaceLaw::penalty(const InterfaceStiffness              &of_tie,
                         const std::vector<InterfaceStiffness> &springs) const
   {
-    if (of_tie == 0.)
-      return {0., 0.};
-    InterfaceStiffness result{
-      of_tie, constrained == ConstrainedDirections::all ? of_tie : 0.};
+    InterfaceStiffness result = of_tie;
+    if (constrained == ConstrainedDirections::normal)
+      result.tangential = 0.;
     if (springs.empty())
       return result;
     InterfaceStiffness mean{0., 0.};
@@ -76,9 +103,10 @@ namespace mortise
         mean.normal += spring.normal / springs.size();
         mean.tangential += spring.tangential / springs.size();
       }
-    const auto in_series = [of_tie](const double spring) {
-      return spring > 0. ? 1. / (1. / of_tie + 1. / spring) : 0.;
+    const auto in_series = [](const double tie, const double spring) {
+      return tie > 0. && spring > 0. ? 1. / (1. / tie + 1. / spring) : 0.;
     };
-    return {in_series(mean.normal), in_series(mean.tangential)};
+    return {in_series(of_tie.normal, mean.normal),
+            in_series(of_tie.tangential, mean.tangential)};
   }
 } // namespace mortise

@@ -6,6 +6,7 @@
 #include <mortise/mortar/nodal_block.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -30,6 +31,10 @@ namespace mortise
           coupling.interface->master_traces()[partner.master].basis());
       return sum;
     }
+
+    /// Nodes that slip hold bodies across their directions: coarse levels of a
+    /// body that nothing else holds need something of that.
+    constexpr double share_of_slip = 0.1;
 
     /// Of int |psi_i|: the root of the area times that of int psi_i^2.
     double
@@ -89,19 +94,32 @@ namespace mortise
   }
 
   void
-  select_multipliers(const std::vector<bool> &active,
-                     const IndexSet          &owned_multiplier,
-                     const MPI_Comm           comm,
-                     Coupling                &coupling)
+  select_nodes(const std::vector<NodeStatus> &statuses,
+               const IndexSet                &owned_multiplier,
+               const MPI_Comm                 comm,
+               Coupling                      &coupling)
   {
     if (owned_multiplier.size() == 0)
       return;
-    auto  sums  = make_sums(1, coupling, owned_multiplier, comm);
-    auto &flags = sums[0];
-    for (unsigned int i = 0; i < active.size(); ++i)
-      flags.local_element(i) = active[i] ? 1. : 0.;
-    flags.update_ghost_values();
-    std::vector<double> shares(coupling.local.size()), sizes(shares);
+    // do they hold along the normal, and tangentially?
+    auto flags = make_sums(2, coupling, owned_multiplier, comm);
+    for (unsigned int i = 0; i < statuses.size(); ++i)
+      {
+        const ContactNode &node = coupling.contact_nodes[i];
+        for (unsigned int r = 0; r < node.n_multipliers; ++r)
+          {
+            flags[0].local_element(node.multipliers[r]) =
+              statuses[i] == NodeStatus::open ? 0. : 1.;
+            flags[1].local_element(node.multipliers[r]) =
+              statuses[i] == NodeStatus::stick ? 1. :
+              statuses[i] == NodeStatus::slip  ? share_of_slip :
+                                                 0.;
+          }
+      }
+    for (auto &flag : flags)
+      flag.update_ghost_values();
+    std::vector<std::array<double, 2>> shares(coupling.local.size());
+    std::vector<double>                sizes(shares.size());
     for_each_entry(coupling,
                    [&](const unsigned int s,
                        const unsigned int r,
@@ -112,11 +130,15 @@ namespace mortise
                      const double size =
                        w * w * multiplier_product(coupling.local[s], i, i);
                      sizes[s] += size;
-                     shares[s] += flags(index) * size;
+                     for (unsigned int k = 0; k < 2; ++k)
+                       shares[s][k] += flags[k](index) * size;
                    });
     for (unsigned int s = 0; s < shares.size(); ++s)
-      coupling.local[s].active_fraction =
-        sizes[s] > 0. ? shares[s] / sizes[s] : 1.;
+      if (LocalCoupling &local = coupling.local[s]; sizes[s] > 0.)
+        {
+          local.active_fraction   = shares[s][0] / sizes[s];
+          local.sticking_fraction = shares[s][1] / sizes[s];
+        }
   }
 
   TransferErrors

@@ -44,27 +44,32 @@ namespace mortise
     struct ActiveArea
     {
       std::uint64_t face = 0;
-      double        area = 0., all = 0.;
+      double        area = 0., sticking = 0., all = 0.;
 
       void
-      add(const double weight, const bool is_active)
+      add(const double weight, const bool is_active, const bool sticks)
       {
         all += weight;
         area += is_active ? weight : 0.;
+        sticking += is_active && sticks ? weight : 0.;
       }
 
+      /// Of the contact, or of its part that sticks.
       bool
       at_edge() const
       {
         constexpr double noticeable = 1e-3;
-        return area > noticeable * all && area < (1. - noticeable) * all;
+        const auto       is_part = [](const double part, const double whole) {
+          return part > noticeable * whole && part < (1. - noticeable) * whole;
+        };
+        return is_part(area, all) || is_part(sticking, area);
       }
 
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &face &area &all;
+        archive &face &area &sticking &all;
       }
     };
 
@@ -83,6 +88,7 @@ namespace mortise
         for (const ActiveArea &part : from.second)
           {
             sums[part.face].area += part.area;
+            sums[part.face].sticking += part.sticking;
             sums[part.face].all += part.all;
           }
       std::vector<bool> result;
@@ -141,6 +147,7 @@ namespace mortise
                      const TraceDisplacement                &displacement,
                      const std::vector<std::vector<double>> &tractions,
                      const Offset                           &offset,
+                     const BoundOfFriction                  &friction,
                      const MPI_Comm                          comm)
   {
     const InterfaceHandler &interface = *coupling.interface;
@@ -168,11 +175,15 @@ namespace mortise
           const Point<2> xi(points.slave_xi[0][q], points.slave_xi[1][q]);
           InterfacePoint point = point_at(m, points, q);
           point.traction       = traction_at(xi, slave, tractions[s]);
+          if (friction)
+            point.friction = friction(point.position);
           result.penetration =
             std::max(result.penetration, -coupling.law.gap(point));
           if (coupling.law.is_one_sided())
             for (ActiveArea *of : {&of_slaves[s], &of_masters[m]})
-              of->add(points.weight[q], coupling.law.is_active(point, c));
+              of->add(points.weight[q],
+                      coupling.law.is_active(point, c),
+                      coupling.law.sticks(point, c));
           result.energies[s] +=
             points.weight[q] * coupling.law.violation(point, c);
           const auto     &rows = coupling.multipliers->rows()[s];

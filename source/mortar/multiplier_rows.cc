@@ -50,31 +50,45 @@ namespace mortise
         flags = 0.;
       }
 
-      /// Where @p one_sided, values at the nodes of a face have the sign of
+      /// @p together: have all directions the same functions? Where
+      /// @p one_sided, values at the nodes of a face have the sign of
       /// the pressure only where multipliers are dual and none is missing
       /// inside.
       void
-      add(const TraceBasis &basis,
-          const Dofs       &dofs,
-          const bool        one_sided,
-          const bool        is_dual)
+      add(const TraceBasis        &basis,
+          const std::vector<Dofs> &by_direction,
+          const bool               together,
+          const bool               one_sided,
+          const bool               is_dual)
       {
         const auto entities      = edges_and_inside(basis);
-        const auto is_incomplete = [&](const auto &entity) {
+        const auto is_incomplete = [&](const auto &entity, const Dofs &dofs) {
           return std::any_of(entity.begin(), entity.end(), [&](const auto k) {
             return reduction.is_constrained(dofs[k]);
           });
         };
-        const bool all =
-          one_sided && (!is_dual || is_incomplete(entities.back()));
-        for (const auto &entity : entities)
-          if (all || is_incomplete(entity))
-            for (const unsigned int k : entity)
-              mark(dofs[k]);
-        for (unsigned int v = 0; v < basis.n_vertices(); ++v)
-          if (const auto dof = dofs[basis.vertex_function(v)];
-              reduction.is_constrained(dof))
-            mark(dof);
+        for (const Dofs &dofs : by_direction)
+          {
+            const auto lacks_some = [&](const auto &entity) {
+              return together ?
+                       std::any_of(by_direction.begin(),
+                                   by_direction.end(),
+                                   [&](const Dofs &other) {
+                                     return is_incomplete(entity, other);
+                                   }) :
+                       is_incomplete(entity, dofs);
+            };
+            const bool all =
+              one_sided && (!is_dual || lacks_some(entities.back()));
+            for (const auto &entity : entities)
+              if (all || lacks_some(entity))
+                for (const unsigned int k : entity)
+                  mark(dofs[k]);
+            for (unsigned int v = 0; v < basis.n_vertices(); ++v)
+              if (const auto dof = dofs[basis.vertex_function(v)];
+                  reduction.is_constrained(dof))
+                mark(dof);
+          }
       }
 
       /// Behind the last add(). Collective.
@@ -278,11 +292,11 @@ namespace mortise
     for (unsigned int s = 0; s < slave.faces.size(); ++s)
       {
         dofs.push_back(face_dofs(slave.cells[s], slave.face_numbers[s]));
-        for (unsigned int c = 0; c < n_directions; ++c)
-          hierarchical.add(slave.traces[s].basis(),
-                           dofs[s][c],
-                           one_sided,
-                           has_dual[s]);
+        hierarchical.add(slave.traces[s].basis(),
+                         {dofs[s].begin(), dofs[s].begin() + n_directions},
+                         together[s],
+                         one_sided,
+                         has_dual[s]);
       }
     hierarchical.exchange();
     const SignedMultipliers::Choice has_coefficients =
@@ -293,7 +307,9 @@ namespace mortise
     if (one_sided)
       {
         for (const auto &[cell, f] : slave.known)
-          with_signs.add_face(*CellFace(cell, f).basis, face_dofs(cell, f)[0]);
+          for (unsigned int c = 0; c < n_directions; ++c)
+            with_signs.add_face(*CellFace(cell, f).basis,
+                                face_dofs(cell, f)[c]);
         ones = 1.;
         ones.update_ghost_values();
       }

@@ -9,6 +9,7 @@
 #include <mortise/mortar/slave_frames.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -209,6 +210,19 @@ namespace mortise
           reduction.add_entry(dof, other, shares ? weight / sum : weight);
         }
     }
+
+    /// Has a normal several components?
+    bool
+    mixes_components(const std::vector<Frame> &frames)
+    {
+      constexpr double rounding = 1e-6;
+      for (const Frame &frame : frames)
+        for (unsigned int c = 0; c < dim; ++c)
+          if (const double n = std::fabs(frame[0][c]);
+              n > rounding && n < 1. - rounding)
+            return true;
+      return false;
+    }
   } // namespace
 
   MultiplierSpace::MultiplierSpace(const Body                      &body,
@@ -227,6 +241,9 @@ namespace mortise
         has_dual.push_back(partner.has_dual);
         along_normals.push_back(partner.along_normals);
       }
+    for (const auto &of_face : frames)
+      together.push_back(coupling.law.has_friction() &&
+                         mixes_components(of_face));
     if (n_directions == dim)
       for (auto &of_face : frames)
         std::fill(of_face.begin(),

@@ -45,7 +45,7 @@ namespace mortise
     if (has_springs())
       {
         Vector opening(x.multiplier);
-        spring_compliance.vmult(opening, x.multiplier);
+        compliance().vmult(opening, x.multiplier);
         clear_inactive(opening);
         result += opening * x.multiplier;
       }
@@ -65,7 +65,30 @@ namespace mortise
   void
   BlockSystem::add_multiplier_force(Vector &dst, const Vector &lambda) const
   {
-    forces().Tvmult_add(dst, lambda);
+    directed_forces().Tvmult_add(dst, lambda);
+  }
+
+  void
+  BlockSystem::to_directions(SystemVector &rhs, SystemVector &solution) const
+  {
+    if (!directions)
+      return;
+    Vector given = rhs.multiplier;
+    directions->turn.vmult(rhs.multiplier, given);
+    given = solution.multiplier;
+    directions->inverse.vmult(solution.multiplier, given);
+  }
+
+  void
+  BlockSystem::from_directions(SystemVector &solution) const
+  {
+    if (!directions)
+      return;
+    const Vector given  = solution.multiplier;
+    solution.multiplier = 0.;
+    (directions->turn_of_forces ? *directions->turn_of_forces :
+                                  directions->turn)
+      .Tvmult_add(solution.multiplier.begin(), given.begin());
   }
 
   void
@@ -87,7 +110,7 @@ namespace mortise
   void
   BlockSystem::apply_constraint(Vector &dst, const Vector &u) const
   {
-    constraint.vmult(dst, u);
+    directed_constraint().vmult(dst, u);
     clear_inactive(dst);
   }
 
@@ -97,7 +120,7 @@ namespace mortise
     if (!has_springs())
       return;
     Vector opening(dst);
-    spring_compliance.vmult(opening, lambda);
+    compliance().vmult(opening, lambda);
     clear_inactive(opening);
     dst -= opening;
   }

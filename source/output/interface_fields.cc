@@ -132,7 +132,9 @@ namespace mortise
       if (coupling.law.is_one_sided())
         fields.insert(fields.end(),
                       {{"pressure", 1, {}}, {"gap", 1, {}}, {"status", 1, {}}});
-      else
+      if (coupling.law.has_friction())
+        fields.push_back({"slip", dim, {}});
+      if (!coupling.law.is_one_sided())
         fields.push_back({"gap", dim, {}});
       if (!faces)
         return fields;
@@ -152,9 +154,12 @@ namespace mortise
           fields[1].coefficients = gap_coefficients(coupling, s);
           return fields;
         }
-      for (unsigned int f = 0; f < 3; ++f)
-        fields[f + 1].coefficients.assign(contact.begin() + f * n,
-                                          contact.begin() + (f + 1) * n);
+      auto next = contact.begin();
+      for (auto field = fields.begin() + 1; field != fields.end(); ++field)
+        {
+          field->coefficients.assign(next, next + field->n_components * n);
+          next += field->n_components * n;
+        }
       spread(fields[1]);
       return fields;
     }

@@ -56,9 +56,11 @@ namespace mortise
                     dofs, material, volume, mass, displacement_max,
                     von_mises_max)
     MORTISE_MEMBERS(DofSummary, displacement, pressure, multiplier, total)
+    MORTISE_MEMBERS(FrictionSummary, stick, slip, force, slip_max,
+                    dissipated_energy)
     MORTISE_MEMBERS(ContactSummary, area, force, moment, pressure_mean,
                     pressure_max, gap_min, penetration_max, motion_max, active,
-                    inactive, undecided)
+                    inactive, undecided, friction)
     MORTISE_MEMBERS(PreloadSummary, force, shortening)
     MORTISE_MEMBERS(EquilibriumSummary, applied, reactions, sum)
     MORTISE_MEMBERS(SolverSummary, method, preconditioner, iterations,

@@ -46,8 +46,12 @@ namespace mortise
     , run(run)
   {
     if (discretisation.interfaces().have_contact())
-      contact = std::make_unique<ContactStep>(
-        run, discretisation, *linear_solver, preloads, last.active_set);
+      contact = std::make_unique<ContactStep>(run,
+                                              discretisation,
+                                              *linear_solver,
+                                              preloads,
+                                              last.active_set,
+                                              last.friction);
     // a factorisation gives one of many answers and does not tell
     if (discretisation.choice().method == SolverMethod::direct)
       discretisation.check_multipliers();
@@ -76,7 +80,7 @@ namespace mortise
     SolveReport &report = result.report;
     preloads.begin(data, load);
     if (contact)
-      report = contact->solve(load, next.solution);
+      report = contact->solve(data, load, next.solution);
     else if (start.empty())
       report = preloads.solve(false, load, next.solution);
     else
@@ -110,7 +114,10 @@ namespace mortise
                             "sizes this different" :
                             ""));
     if (contact)
-      next.active_set = contact->active_positions();
+      {
+        next.active_set = contact->active_positions();
+        next.friction   = contact->friction_history();
+      }
     next.shortenings = preloads.shortenings_by_interface();
     return result;
   }

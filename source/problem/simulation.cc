@@ -33,7 +33,7 @@ namespace mortise
              std::any_of(parameters.interfaces.begin(),
                          parameters.interfaces.end(),
                          [](const InterfaceParameters &interface) {
-                           return interface.law == Law::contact;
+                           return is_one_sided(interface.law);
                          });
     }
 
@@ -170,7 +170,7 @@ namespace mortise
                                     {*data,
                                      *load,
                                      state.solution,
-                                     equations->undecided(),
+                                     equations->solved_contact(),
                                      state.shortenings});
     {
       const auto stage = context.log.stage(context.timers, "postprocess");
@@ -294,7 +294,7 @@ namespace mortise
       parameters.assignments,
       steps.longest(),
       steps.n_done(),
-      {steps.time(), {}, state.active_set, state.shortenings},
+      {steps.time(), {}, state.active_set, state.friction, state.shortenings},
       adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
         to_bytes(adaptivity->checkpoint()) :
         std::string(),

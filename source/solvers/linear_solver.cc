@@ -11,6 +11,12 @@ namespace mortise
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// SolverOptions::energy_fraction of what another solve improves.
+    constexpr double loose_energy = 3.;
+  } // namespace
+
   double
   largest_entry(const SystemVector &rhs)
   {
@@ -64,6 +70,14 @@ namespace mortise
   }
 
   void
+  LinearSolver::update_directions()
+  {
+    const bool known = valid && selects;
+    update_numbers(
+      [this, known] { return known ? set_up_directions() : set_up(); });
+  }
+
+  void
   LinearSolver::update_numbers(const std::function<bool()> &set_up_part)
   {
     selects = system.active.has_value();
@@ -76,11 +90,6 @@ namespace mortise
   void
   LinearSolver::update(const std::function<bool()> &set_up_part)
   {
-    if (needs_symmetry() && !system.is_symmetric())
-      throw InputError("Solver/Method = " + method +
-                       ": the multipliers of this scene act through other rows "
-                       "than those of the constraint, and the method needs a "
-                       "symmetric system; allowed: direct");
     announce_stage("solver_setup");
     const Timer timer;
     valid   = set_up_part();
@@ -120,12 +129,27 @@ namespace mortise
     const double factor = unit_scale(rhs);
     SystemVector scaled = rhs;
     scale(scaled, factor);
-    system.clear_inactive(scaled.multiplier);
     scale(x, factor);
+    system.to_directions(scaled, x);
+    for (SystemVector *given : {&scaled, &x})
+      system.clear_inactive(given->multiplier);
     // nothing is left of it, beside which any start is infinitely wrong
     const bool nothing = largest_entry(scaled) == 0.;
     if (nothing)
       x = system.zero_vector();
+    const double asked           = options.tolerance,
+                 energy_fraction = options.energy_fraction;
+    if (valid && options.reduction > 0. && !nothing)
+      {
+        SystemVector r = system.zero_vector();
+        residual->compute(scaled, x, r);
+        options.tolerance = std::max(asked,
+                                     options.reduction * residual->norm(r) /
+                                       residual->norm(scaled));
+        if (options.tolerance > asked)
+          options.energy_fraction = loose_energy;
+      }
+    report.tolerance = options.tolerance;
     if (valid)
       run(scaled, x, is_zero || nothing, report);
     else
@@ -133,7 +157,10 @@ namespace mortise
         report.prepared          = false;
         report.relative_residual = 1.;
       }
+    options.tolerance       = asked;
+    options.energy_fraction = energy_fraction;
     scale(x, 1. / factor);
+    system.from_directions(x);
     if (report.converged)
       remember(rhs, x);
 

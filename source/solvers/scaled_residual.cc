@@ -49,10 +49,10 @@ namespace mortise
     if (!interface_present)
       return;
     weight.multiplier =
-      system.constraint.diagonal_of_square(weight.displacement);
+      system.directed_constraint().diagonal_of_square(weight.displacement);
     if (system.has_springs())
       {
-        const auto opening = system.spring_compliance.diagonal();
+        const auto opening = system.compliance().diagonal();
         for (unsigned int i = 0; i < opening.size(); ++i)
           weight.multiplier.local_element(i) += opening[i];
       }
@@ -116,13 +116,13 @@ namespace mortise
         Vector u(x.displacement), lambda(x.multiplier);
         abs(u, x.displacement);
         abs(lambda, x.multiplier);
-        magnitudes(system.forces())
+        magnitudes(system.directed_forces())
           .Tvmult_add(sizes.displacement.begin(), lambda.begin());
-        magnitudes(system.constraint).vmult(sizes.multiplier, u);
+        magnitudes(system.directed_constraint()).vmult(sizes.multiplier, u);
         if (system.has_springs())
           {
             Vector opening(lambda); // entries of one sign are most of it
-            system.spring_compliance.vmult(opening, lambda);
+            system.compliance().vmult(opening, lambda);
             abs(opening, opening);
             sizes.multiplier += opening;
           }

@@ -1,8 +1,8 @@
 // Proves that active sets end at what solves lambda >= 0, gap = q + C lambda >=
 // 0, lambda gap = 0 for C that is symmetric and positive definite, those
 // included where sets come back and the energy decides; and that what
-// nearly presses is left alone. The multipliers are dealt out to the ranks; the
-// sets are the same on any number of these.
+// nearly presses is left alone. The nodes are dealt out to the ranks; the sets
+// are the same on any number of these.
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/vector.h>
 
@@ -96,10 +96,7 @@ main(int argc, char *argv[])
   for (unsigned int number = 0; number < 1000; ++number)
     {
       const Problem problem = draw(number);
-      ActiveSet     set(std::vector<bool>(end - first, true),
-                    std::vector<double>(end - first, 1.),
-                    first,
-                    MPI_COMM_WORLD);
+      ActiveSet     set(std::vector<double>(end - first, 1.), MPI_COMM_WORLD);
       if (number % 2 == 1)
         {
           std::vector<bool> start;
@@ -114,8 +111,10 @@ main(int argc, char *argv[])
         {
           ++n_sets;
           solve(problem, of_all_ranks(set), lambda, gap);
-          change =
-            set.advance(lambda.begin() + first, gap.begin() + first, 1., 1e-12);
+          change = set.advance({lambda.begin() + first, lambda.begin() + end},
+                               {gap.begin() + first, gap.begin() + end},
+                               1.,
+                               1e-12);
         }
       while (change.any() && n_sets < 1000);
       most_sets = std::max(most_sets, n_sets);
@@ -134,19 +133,21 @@ main(int argc, char *argv[])
   verdict("sets", most_sets, 200);
   verdict("some draws come back", n_cycles > 0 ? 0. : 1., 0.);
 
-  // active ones: pressing, just pulling, pulling; those that may pull always
-  // stay
-  const bool mine = me == 0;
-  ActiveSet  set(mine ? std::vector<bool>{true, true, true, false} :
-                       std::vector<bool>(),
-                std::vector<double>(mine ? 4 : 0, 1.),
-                mine ? 0 : 4,
-                MPI_COMM_WORLD);
-  const double pressures[] = {1., -1e-12, -1., -1.}, gaps[] = {0., 0., 0., 0.};
-  const auto   change = set.advance(pressures, gaps, 1., 1e-10);
+  // pressing, just pulling, pulling, a gap that is just open, one that overlaps
+  const bool                mine          = me == 0;
+  const unsigned int        size          = mine ? 5 : 0;
+  const std::vector<double> all_pressures = {1., -1e-12, -1., 0., 0.},
+                            all_gaps      = {0., 0., 0., 1e-12, -1.};
+  const std::vector<double> pressures(all_pressures.begin(),
+                                      all_pressures.begin() + size),
+    gaps(all_gaps.begin(), all_gaps.begin() + size);
+  ActiveSet set(std::vector<double>(size, 1.), MPI_COMM_WORLD);
+  verdict("all start active", std::fabs(double(set.n_active()) - 5.), 0.);
+  set.start_from(mine ? std::vector<bool>{true, true, true, false, false} :
+                        std::vector<bool>());
+  const auto change = set.advance(pressures, gaps, 1., 1e-10);
   verdict("one opens", std::fabs(double(change.opened) - 1.), 0.);
-  verdict("one is undecided", std::fabs(double(change.undecided) - 1.), 0.);
-  verdict("two of contact are left",
-          std::fabs(double(set.n_active()) - 2.),
-          0.);
+  verdict("one closes", std::fabs(double(change.closed) - 1.), 0.);
+  verdict("two are undecided", std::fabs(double(change.undecided) - 2.), 0.);
+  verdict("three are left", std::fabs(double(set.n_active()) - 3.), 0.);
 }

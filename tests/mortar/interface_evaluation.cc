@@ -61,7 +61,7 @@ namespace
                                                                  0.);
       }
     return evaluate_interface(
-      scene.coupling(), u, tractions, offset, scene.comm);
+      scene.coupling(), u, tractions, offset, {}, scene.comm);
   }
 
   double

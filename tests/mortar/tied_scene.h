@@ -115,13 +115,15 @@ namespace mortise::testing
   public:
     /// The slave, body 0, and the master, body 1. @p nodal: with B in values at
     /// nodes, as for solvers without a matrix. @p one_sided: multipliers along normals
-    /// that have the sign of the pressure.
+    /// that have the sign of the pressure. @p friction: and all components of
+    /// the traction with them.
     TiedScene(const TiedBody       &slave,
               const TiedBody       &master,
               const MPI_Comm        comm      = MPI_COMM_WORLD,
               const bool            nodal     = false,
               const MultiplierBasis basis     = MultiplierBasis::standard,
-              const bool            one_sided = false)
+              const bool            one_sided = false,
+              const bool            friction  = false)
       : comm(comm)
       , given{{slave, master}}
     {
@@ -135,7 +137,7 @@ namespace mortise::testing
       field.constraints = scene_constraints(field.numbering, constraints);
       if (nodal)
         spaces = make_nodal_spaces({bodies[0].get(), bodies[1].get()}, comm);
-      create_coupling(basis, one_sided);
+      create_coupling(basis, one_sided, friction);
     }
 
     dealii::types::boundary_id
@@ -243,7 +245,9 @@ namespace mortise::testing
     }
 
     void
-    create_coupling(const MultiplierBasis basis, const bool one_sided)
+    create_coupling(const MultiplierBasis basis,
+                    const bool            one_sided,
+                    const bool            friction)
     {
       const auto side = [&](const unsigned int b) {
         return extract_surface(*bodies[b],
@@ -258,8 +262,9 @@ namespace mortise::testing
         "glue", side(0), side(1), InterfaceOptions(), comm);
       if (one_sided)
         {
-          coupling.law.law         = Law::contact;
-          coupling.law.constrained = ConstrainedDirections::normal;
+          coupling.law.law = Law::contact;
+          if (!friction)
+            coupling.law.constrained = ConstrainedDirections::normal;
         }
       coupling.frames = slave_frames(*bodies[0], coupling.interface->slave());
       coupling.local  = integrate_coupling(*coupling.interface, true, basis);

@@ -68,6 +68,10 @@ namespace
     interface.force_residual  = std::numeric_limits<double>::infinity();
     interface.moment_residual = 1. / 3.;
     interface.linear_completeness_error = 0.;
+    ContactSummary contact;
+    contact.force     = {1., 2., 3.};
+    contact.friction  = FrictionSummary{3, 2, {0.5, 0., 0.}, 0.1, 0.2};
+    interface.contact = contact;
     step.interfaces.push_back(interface);
     step.solver      = SolverSummary{"direct", "none", 1, 1e-16, {}, {}};
     step.equilibrium = EquilibriumSummary{{1.}, {-1.}, {0.}};
@@ -114,7 +118,14 @@ namespace
       "name slave_faces master_faces candidate_pairs pairs integration_cells "
       "quadrature_points slave_area covered_area area force moment gap_mean distance_mean distance_max "
       "sagitta_mean worst_face_coverage_error "
-      "partition_of_unity_error force_residual moment_residual linear_completeness_error");
+      "partition_of_unity_error force_residual moment_residual linear_completeness_error contact");
+    check_keys("contact with friction",
+               step["interfaces"][0]["contact"],
+               "area force moment pressure_mean pressure_max gap_min "
+               "penetration_max motion_max active inactive undecided friction");
+    check_keys("friction",
+               step["interfaces"][0]["contact"]["friction"],
+               "stick slip force slip_max dissipated_energy");
     check_keys("solver",
                step["solver"],
                "method preconditioner iterations relative_residual");

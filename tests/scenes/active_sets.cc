@@ -7,7 +7,6 @@
 
 using namespace mortise;
 using namespace mortise::testing;
-using dealii::Point;
 
 namespace
 {
@@ -26,17 +25,20 @@ namespace
       , assembled(two_layers(true),
                   settings + Settings{"Solver/Method=direct"},
                   MPI_COMM_WORLD)
-      , x(positions(equations.discretisation, MPI_COMM_WORLD))
+      , nodes(equations.discretisation.interfaces().contact_nodes())
       , iterative(solver(equations.discretisation))
       , direct(solver(assembled.discretisation))
     {}
 
+    /// By multiplier, from the places of nodes.
     Active
     active(const PointSet &set) const
     {
-      Active result;
-      for (const auto &place : x)
-        result.push_back(set(place));
+      Active result(
+        equations.discretisation.linear_system().owned_multiplier.n_elements());
+      for (const ContactNode *node : nodes)
+        for (unsigned int r = 0; r < node->n_multipliers; ++r)
+          result[node->multipliers[r]] = set(node->position);
       return result;
     }
 
@@ -51,7 +53,11 @@ namespace
       equations.discretisation.select(chosen);
       if (anew)
         {
-          equations.discretisation.update_coarse_active_set();
+          std::vector<NodeStatus> statuses;
+          for (const ContactNode *node : nodes)
+            statuses.push_back(set(node->position) ? NodeStatus::stick :
+                                                     NodeStatus::open);
+          equations.discretisation.update_penalties(statuses);
           iterative->update();
         }
       else
@@ -103,18 +109,21 @@ namespace
       return make_linear_solver(discretisation.linear_system(), options);
     }
 
-    const std::string             name;
-    EquationsOfScene              equations, assembled;
-    std::vector<Point<dim>>       x;
-    std::unique_ptr<LinearSolver> iterative, direct;
-    Active                        chosen; ///< last
-    SystemVector                  solution;
+    const std::string                name;
+    EquationsOfScene                 equations, assembled;
+    std::vector<const ContactNode *> nodes;
+    std::unique_ptr<LinearSolver>    iterative, direct;
+    Active                           chosen; ///< last
+    SystemVector                     solution;
   };
 
   Settings
-  settings(const std::string &law, const unsigned int p, const std::string &nu)
+  settings(const bool has_friction, const unsigned int p, const std::string &nu)
   {
-    Settings result{"Interface glue/Law=" + law,
+    Settings result{"Interface glue/Law=contact",
+                    "Interface glue/Mesh gap=ignored",
+                    std::string("Interface glue/Friction coefficient=") +
+                      (has_friction ? "1" : ""),
                     "Exact solution/Displacement=",
                     "Body inner/Mesh/Subdivisions=3, 2",
                     "Body outer/Mesh/Subdivisions=4, 2"};
@@ -147,14 +156,15 @@ int
 main(int argc, char *argv[])
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-  for (const std::string law : {"tie", "slide"})
+  for (const bool has_friction : {true, false})
     for (const unsigned int p : {1, 3})
       {
-        Scene scene(law + ", p = " + std::to_string(p),
-                    settings(law, p, "0.3"),
+        Scene scene((has_friction ? "friction, p = " : "no friction, p = ") +
+                      std::to_string(p),
+                    settings(has_friction, p, "0.3"),
                     "condensed");
         check(scene, 12);
       }
-  Scene mixed("mixed form", settings("slide", 2, "0.5"), "saddle point");
+  Scene mixed("mixed form", settings(false, 2, "0.5"), "saddle point");
   check(mixed, 20);
 }

@@ -92,6 +92,17 @@ expect 2 'Normal stiffness: got nothing with Law = spring' "$scene" --set 'Inter
 expect 2 'allowed: a positive stiffness' "$scene" --set 'Interface glue/Law=spring' \
   --set 'Interface glue/Normal stiffness=-1' --set 'Interface glue/Tangential stiffness=1'
 expect 2 'only Law = spring has stiffnesses' "$scene" --set 'Interface glue/Tangential stiffness=1'
+expect 2 'Friction coefficient.*it belongs to Law = contact' "$scene" --set 'Interface glue/Friction coefficient=0.3'
+expect 2 'Friction coefficient.*a number that is not negative' "$scene" --set 'Interface glue/Law=contact' \
+  --set 'Interface glue/Friction coefficient=-0.3'
+expect 2 'Friction coefficient.*allowed: values that are not negative' "$scene" --set 'Interface glue/Law=contact' \
+  --set 'Interface glue/Friction coefficient=0.01*(x - 0.5)'
+expect 2 'a coefficient without a Friction coefficient' "$scene" --set 'Interface glue/Law=contact' \
+  --set 'Interface glue/Static friction coefficient=0.3'
+expect 2 'Friction bound.*nothing with Law = tresca' "$scene" --set 'Interface glue/Law=tresca'
+expect 2 'Friction bound.*it belongs to Law = tresca' "$scene" --set 'Interface glue/Law=contact' \
+  --set 'Interface glue/Friction bound=1'
+expect 2 'Solver/Friction.*did you mean "fixed point"' "$scene" --set 'Solver/Friction=fixed-point'
 expect 2 'Mesh gap.*did you mean "ignored"' "$scene" --set 'Interface glue/Law=contact' --set 'Interface glue/Mesh gap=ignore'
 expect 2 'Offset .*is inf at' "$scene" --set 'Interface glue/Offset=1/(x-x)'
 # bodies that slide across an edge that ends within a smooth surface

@@ -1,8 +1,8 @@
 // Proves that the matrix of the direct solver is the operator that residuals
 // are computed with, on every number of ranks: hexahedra and tetrahedra,
 // hanging nodes, several degrees, mixed form, ties, what slides, springs, and a
-// part of the multipliers, forces through other rows than the constraint's. It
-// solves the last, which the iterative methods refuse.
+// part of the multipliers, directions turned as by friction, and forces through
+// other rows than the constraint's. All methods solve the last.
 #include <mortise/solvers/factorisation/monolithic_matrix.h>
 #include <scenes/scene.h>
 
@@ -51,28 +51,71 @@ namespace
     half
   };
 
-  void
-  select_half(Discretisation &discretisation)
+  std::vector<bool>
+  active_ones(const Discretisation &discretisation, const Part part)
   {
     std::vector<bool> active;
     for (const auto i : discretisation.linear_system().owned_multiplier)
-      active.push_back(i % 2 == 0);
-    discretisation.select(active);
+      active.push_back(part == all || i % 2 == 0);
+    return active;
   }
 
-  /// Frames whose entries are the constraint's but for factors from 0.5 to 1.5.
+  /// Turn the nodes of contact to the normal, a tangent and what is across,
+  /// which has a compliance, and scale their multipliers. @p friction: of the pressure acts along the
+  /// tangent; without, the system stays symmetric.
   void
-  act_through_others(Discretisation &discretisation)
+  turn_nodes(Discretisation &discretisation,
+             const double    friction,
+             const Part      part)
   {
-    const SparseMatrix &frames =
-      discretisation.linear_system().constraint.frames();
-    SparseMatrix others = frames;
-    others.for_each_entry(
-      [&](const unsigned int row, const auto column, double &value) {
-        value *= 1. + 0.5 * std::sin(3. * frames.global_row(row) +
-                                     7. * frames.global_column(column));
-      });
-    discretisation.act_through(std::move(others));
+    const BlockSystem               &system = discretisation.linear_system();
+    const auto                      &owned  = system.owned_multiplier;
+    std::vector<SparseMatrix::Entry> turn, inverse, of_forces;
+    std::vector<double>              compliance(owned.n_elements(), 0.);
+    for (const ContactNode *node : discretisation.interfaces().contact_nodes())
+      {
+        const unsigned int m = node->n_multipliers;
+        // any tangent; the identity where components are prescribed
+        std::array<dealii::Tensor<1, dim>, dim> rows{
+          {dealii::Tensor<1, dim>({1., 0., 0.}),
+           dealii::Tensor<1, dim>({0., 1., 0.}),
+           dealii::Tensor<1, dim>({0., 0., 1.})}};
+        if (m == dim)
+          {
+            rows[0] = node->normal;
+            rows[1] = dealii::cross_product_3d(
+              node->normal, dealii::Tensor<1, dim>({0.3, -0.5, 0.2}));
+            rows[1] /= rows[1].norm();
+            rows[2] = dealii::cross_product_3d(rows[0], rows[1]);
+            compliance[node->multipliers[2]] = 0.1 * node->area;
+          }
+        for (unsigned int r = 0; r < m; ++r)
+          for (unsigned int c = 0; c < m; ++c)
+            {
+              const auto row    = owned.nth_index_in_set(node->multipliers[r]),
+                         column = owned.nth_index_in_set(node->multipliers[c]);
+              // as the areas of components differ
+              const double share = 1. + 0.2 * std::sin(3. * column);
+              turn.push_back({row, column, share * rows[r][c]});
+              inverse.push_back({row, column, rows[r][c] / share});
+              of_forces.push_back(
+                {row,
+                 column,
+                 share * (rows[r][c] +
+                          (m == dim && r == 0 ? friction * rows[1][c] : 0.))});
+            }
+      }
+    const auto matrix = [&](const auto &entries) {
+      return SparseMatrix(owned, owned, MPI_COMM_WORLD, entries);
+    };
+    std::optional<SparseMatrix> forces;
+    if (friction > 0.)
+      forces = matrix(of_forces);
+    discretisation.select(active_ones(discretisation, part),
+                          matrix(turn),
+                          matrix(inverse),
+                          std::move(forces),
+                          compliance);
   }
 
   void
@@ -117,44 +160,93 @@ namespace
   {
     EquationsOfScene scene = equations(text, settings);
     if (part == half)
-      select_half(scene.discretisation);
+      scene.discretisation.select(active_ones(scene.discretisation, part));
     check(name, scene.discretisation);
   }
 
-  /// Multipliers that act through rows which are not those of the constraint.
-  void
-  check_other_forces(const std::string &text, const Settings &settings)
+  /// The solution in directions, of which LinearSolver::solve() makes
+  /// multipliers; their inverse for a friction of the pressure along a tangent.
+  double
+  error_of_equations(const Discretisation &discretisation,
+                     const SystemVector   &load,
+                     const double          friction,
+                     SystemVector          x)
   {
-    EquationsOfScene   scene  = equations(text, settings);
-    const BlockSystem &system = scene.discretisation.linear_system();
-    act_through_others(scene.discretisation);
-    check("other forces", scene.discretisation);
-    SolverOptions options;
-    options.method           = SolverMethod::direct;
-    const auto        direct = make_linear_solver(system, options);
-    SystemVector      x;
-    const SolveReport report = direct->solve(scene.load.rhs, x);
-    verdict(report.converged && x.multiplier.l2_norm() > 0.,
-            "other forces: solved");
+    const BlockSystem &system = discretisation.linear_system();
+    SystemVector       rhs    = load;
+    system.to_directions(rhs, x);
+    system.clear_inactive(rhs.multiplier);
+    for (const ContactNode *node : discretisation.interfaces().contact_nodes())
+      if (node->n_multipliers == dim)
+        x.multiplier.begin()[node->multipliers[1]] -=
+          friction * x.multiplier.begin()[node->multipliers[0]];
     const ScaledResidual residual(system);
     SystemVector         r = system.zero_vector();
-    residual.compute(scene.load.rhs, x, r);
-    verdict("other forces: equations, 1e-11",
-            residual.norm(r) / residual.norm(scene.load.rhs),
-            1e-11);
-    for (const auto &[method, name] :
-         {std::pair{SolverMethod::condensed, "condensed"},
-          std::pair{SolverMethod::saddle_point, "saddle point"}})
+    residual.compute(rhs, x, r);
+    return residual.norm(r) / residual.norm(rhs);
+  }
+
+  /// Solve a scene of turned nodes; @p exact: the multipliers of the first one.
+  void
+  solve(const std::string &text,
+        const Settings    &settings,
+        const SolverMethod method,
+        const double       friction,
+        const Part         part,
+        mortise::Vector   &exact)
+  {
+    const std::string name = solver_method_names()[static_cast<int>(method)];
+    EquationsOfScene  scene(text,
+                           settings + Settings{"Solver/Method=" + name},
+                           MPI_COMM_WORLD);
+    turn_nodes(scene.discretisation, friction, part);
+    const BlockSystem &system = scene.discretisation.linear_system();
+    SolverOptions      options;
+    options.method           = method;
+    options.tolerance        = 1e-12;
+    const auto        solver = make_linear_solver(system, options);
+    SystemVector      x;
+    const SolveReport report = solver->solve(scene.load.rhs, x);
+    const std::string what =
+      std::string("other forces") + (part == half ? ", a half, " : ", ") + name;
+    verdict(report.converged && x.multiplier.l2_norm() > 0., what + ": solved");
+    verdict(
+      what + ": equations, 1e-11",
+      error_of_equations(scene.discretisation, scene.load.rhs, friction, x),
+      1e-11);
+    if (exact.size() == 0)
+      exact = x.multiplier;
+    x.multiplier -= exact;
+    verdict(what + ": the same multipliers, 1e-8",
+            x.multiplier.l2_norm() / exact.l2_norm(),
+            1e-8);
+  }
+
+  /// Multipliers in other directions, and such that act through rows which are
+  /// not those of the constraint.
+  void
+  check_directions(const std::string &text, const Settings &settings)
+  {
+    constexpr double friction = 0.3;
+    for (const Part part : {all, half})
       {
-        options.method    = method;
-        const auto solver = make_linear_solver(system, options);
-        check_message(std::string("other forces: refused by ") + name,
-                      [&, &solver = solver] { solver->update(); },
-                      {"Solver/Method = ",
-                       "symmetric system; allowed: direct"});
+        const std::string of = part == half ? ", a half" : "";
+        mortise::Vector   exact;
+        EquationsOfScene  symmetric = equations(text, settings);
+        turn_nodes(symmetric.discretisation, 0., part);
+        check("turned" + of, symmetric.discretisation);
+        EquationsOfScene   scene  = equations(text, settings);
+        const BlockSystem &system = scene.discretisation.linear_system();
+        turn_nodes(scene.discretisation, friction, part);
+        check("other forces" + of, scene.discretisation);
+        verdict(symmetric.discretisation.linear_system().is_symmetric() &&
+                  !system.is_symmetric(),
+                "other forces" + of + ": symmetry is told");
+        for (const SolverMethod method : {SolverMethod::direct,
+                                          SolverMethod::saddle_point,
+                                          SolverMethod::condensed})
+          solve(text, settings, method, friction, part, exact);
       }
-    select_half(scene.discretisation);
-    check("other forces, a half", scene.discretisation);
   }
 } // namespace
 
@@ -196,5 +288,9 @@ main(int argc, char *argv[])
         p_2 + Settings{"Interface glue/Law=spring",
                        "Interface glue/Normal stiffness=20",
                        "Interface glue/Tangential stiffness=5"});
-  check_other_forces(sphere, p_2 + Settings{"Interface glue/Law=slide"});
+  check_directions(
+    sphere,
+    p_2 + Settings{"Interface glue/Law=contact",
+                   "Interface glue/Friction coefficient=0.3",
+                   "Body outer/Boundary outside/Displacement=0, 0, 0"});
 }

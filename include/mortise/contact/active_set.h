@@ -16,31 +16,27 @@ namespace mortise
   class ActiveSet
   {
   public:
-    /// All multipliers start active. By owned multiplier: @p one_sided, whether
-    /// it belongs to contact (others stay active); @p complementarity, the
-    /// complementarity parameter c in lambda - c g, force per volume. @p first:
-    /// global index of the first owned multiplier. Collective.
-    ActiveSet(std::vector<bool>               one_sided,
-              std::vector<double>             complementarity,
-              dealii::types::global_dof_index first,
-              MPI_Comm                        comm);
+    /// All nodes of contact start active. @p complementarity: by owned node, the
+    /// complementarity parameter c in lambda - c g, force per volume.
+    /// Collective.
+    ActiveSet(std::vector<double> complementarity, MPI_Comm comm);
 
-    /// By owned multiplier.
+    /// By owned node.
     const std::vector<bool> &
     active() const
     {
       return now;
     }
 
-    /// Restart from this set, by owned multiplier, and forget earlier ones.
+    /// Restart from this set, by owned node, and forget earlier ones.
     void
     start_from(const std::vector<bool> &active);
 
     struct Change
     {
       std::uint64_t opened = 0, closed = 0;
-      /// Multipliers whose pressure and gap are zero to rounding; they keep
-      /// their state.
+      /// Nodes whose pressure and gap are zero to rounding; they keep their
+      /// state.
       std::uint64_t undecided = 0;
 
       bool
@@ -50,27 +46,27 @@ namespace mortise
       }
     };
 
-    /// Compute the next set from the solution with this one: active multipliers
-    /// with lambda < 0 open, inactive ones with g < 0 close. Once a set recurs,
-    /// or eight sets in a row do not reduce the number of violated conditions,
+    /// Compute the next set from the solution with this one: active nodes with
+    /// lambda < 0 open, inactive ones with g < 0 close. Once a set recurs, or
+    /// eight sets in a row do not reduce the number of violated conditions,
     /// descend() chooses the sets.
     ///
-    /// By owned multiplier: @p multiplier, a pressure, and @p gap, a length.
-    /// @p length: scale of the rounding of gaps. @p accuracy: of both, relative
-    /// to the largest pressure. @p extend: may add multipliers to those that
-    /// change; called only if some change. Collective.
+    /// By owned node: @p pressure, and @p gap, a length. @p length: scale of the
+    /// rounding of gaps. @p accuracy: of both, relative to the largest pressure.
+    /// @p extend: may add nodes to those that change; called only if some
+    /// change. Collective.
     Change
-    advance(const double                                        *multiplier,
-            const double                                        *gap,
+    advance(const std::vector<double>                           &pressure,
+            const std::vector<double>                           &gap,
             double                                               length,
             double                                               accuracy,
             const std::function<void(std::vector<bool> &turns)> &extend = {});
 
-    /// By owned multiplier: did the last advance() count it as undecided?
+    /// By owned node: did the last advance() count it as undecided?
     const std::vector<bool> &
     undecided() const
     {
-      return undecided_multipliers;
+      return undecided_nodes;
     }
 
     /// Has a set recurred since the start?
@@ -80,7 +76,7 @@ namespace mortise
       return descending;
     }
 
-    /// Number of active multipliers of contact on all ranks. Collective.
+    /// Number of active nodes on all ranks. Collective.
     std::uint64_t
     n_active() const;
 
@@ -92,20 +88,19 @@ namespace mortise
     /// negative pressure, its pressures are kept and all negative gaps close;
     /// otherwise the kept pressures move towards those of the set until the
     /// first is zero, and negative ones that are zero open. Source: Lawson and
-    /// Hanson (1974), with several multipliers at a time. @p before: the set
-    /// that @p multiplier solves; @p rounding: of pressures; @p turns: the
-    /// violated conditions, on return the multipliers that change. Collective.
+    /// Hanson (1974), with several nodes at a time. @p before: the set that
+    /// @p pressure solves; @p rounding: of pressures; @p turns: the violated
+    /// conditions, on return the nodes that change. Collective.
     void
-    descend(const double            *multiplier,
-            const std::vector<bool> &before,
-            double                   rounding,
-            std::vector<bool>       &turns);
+    descend(const std::vector<double> &pressure,
+            const std::vector<bool>   &before,
+            double                     rounding,
+            std::vector<bool>         &turns);
 
-    std::vector<bool>               one_sided;
     std::vector<double>             complementarity;
-    dealii::types::global_dof_index first;
     MPI_Comm                        comm;
-    std::vector<bool>               now, undecided_multipliers;
+    dealii::types::global_dof_index first; ///< number of the first owned node
+    std::vector<bool>               now, undecided_nodes;
     std::set<std::uint64_t>         seen; ///< fingerprints
     std::uint64_t       fewest;   ///< violated conditions since the start
     unsigned int        patience; ///< sets until there are fewer

@@ -5,6 +5,8 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <mortise/contact/friction.h>
+
 #include <functional>
 #include <limits>
 #include <string>
@@ -16,7 +18,8 @@ namespace mortise
   {
     tie,     ///< the jump of the displacement is zero
     slide,   ///< its component along the normal is zero
-    contact, ///< gap >= 0, pressure >= 0, pressure gap = 0
+    contact, ///< gap >= 0, pressure >= 0, pressure gap = 0; Coulomb friction
+    tresca,  ///< the same with a given bound of the tangential traction
     spring   ///< traction = K times the jump
   };
 
@@ -28,6 +31,13 @@ namespace mortise
   name_of(Law law)
   {
     return interface_law_names()[static_cast<unsigned int>(law)];
+  }
+
+  /// Is it contact, whose multipliers satisfy an inequality?
+  inline bool
+  is_one_sided(Law law)
+  {
+    return law == Law::contact || law == Law::tresca;
   }
 
   /// Components of the jump that have a multiplier.
@@ -54,6 +64,7 @@ namespace mortise
     dealii::Tensor<1, 3> mesh_gap;    ///< X_master - X_slave, a length
     double               offset = 0.; ///< gap in addition to the mesh gap
     dealii::Tensor<1, 3> traction;    ///< lambda, on the master: force per area
+    FrictionBound        friction;    ///< zero without
   };
 
   struct InterfaceLaw
@@ -70,7 +81,14 @@ namespace mortise
     bool
     is_one_sided() const
     {
-      return law == Law::contact;
+      return mortise::is_one_sided(law);
+    }
+
+    /// Have its tangential tractions multipliers of their own?
+    bool
+    has_friction() const
+    {
+      return is_one_sided() && constrained == ConstrainedDirections::all;
     }
 
     /// Has the constraint a compliance K^{-1}?
@@ -92,19 +110,25 @@ namespace mortise
       return point.traction * point.normal > c * gap(point);
     }
 
+    /// Does the point stick: is its trial traction (see friction.h) within the
+    /// bound, the jump being the slip? True without friction.
+    bool
+    sticks(const InterfacePoint &point, double c) const;
+
     /// Violation of the law at a point as twice the energy per area of a
     /// correction on half-spaces: c d^2 for an error d of the jump, t^2 / c for
     /// an error t of the traction. The compliance of a spring reduces it to c
     /// (d / (1 + c / K))^2. In contact the smaller one of the errors of gap and
-    /// pressure counts.
+    /// pressure counts, and with friction the error of the tangential traction
+    /// beside that which follows from the jump.
     double
     violation(const InterfacePoint &point, double c) const;
 
     /// Penalty factor of the law in preconditioners, force per volume:
-    /// @p of_tie for ties, reduced by the compliance of @p springs, the
-    /// stiffnesses K at the nodes of a face.
+    /// @p of_tie for ties, in the directions with multipliers, reduced by the
+    /// compliance of @p springs, the stiffnesses K at the nodes of a face.
     InterfaceStiffness
-    penalty(double                                 of_tie,
+    penalty(const InterfaceStiffness              &of_tie,
             const std::vector<InterfaceStiffness> &springs) const;
   };
 } // namespace mortise

@@ -1,4 +1,4 @@
-// Positions of the multipliers of contact, by which an active set passes from
+// Positions of the nodes of contact, by which an active set passes from
 // one discretisation to another.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace mortise
 {
-  /// By owned multiplier.
+  /// By owned node of contact.
   struct MultiplierPositions
   {
     std::vector<dealii::Point<3>> points;
-    /// Number of the surface of each, from 1 on; 0: not of contact.
+    /// Number of the surface of each, from 1 on.
     std::vector<unsigned int> surfaces;
   };
 
@@ -25,14 +25,13 @@ namespace mortise
     /// Without surfaces.
     ActivePositions() = default;
 
-    /// Both by owned multiplier. Collective.
+    /// Both by owned node. Collective.
     ActivePositions(const MultiplierPositions &positions,
                     const std::vector<bool>   &active,
                     MPI_Comm                   comm);
 
-    /// By owned multiplier of another discretisation: is the nearest multiplier
-    /// on its surface active? True for multipliers that are not of contact, and
-    /// on surfaces that are not known.
+    /// By owned node of another discretisation: is the nearest node on its
+    /// surface active? True on surfaces that are not known.
     std::vector<bool>
     nearest(const MultiplierPositions &positions) const;
 

@@ -5,10 +5,11 @@
 #include <deal.II/base/index_set.h>
 
 #include <mortise/base/types.h>
+#include <mortise/contact/friction.h>
+#include <mortise/mortar/contact_nodes.h>
 #include <mortise/mortar/coupling_matrix.h>
 #include <mortise/mortar/local_coupling.h>
 #include <mortise/mortar/multiplier_space.h>
-#include <mortise/mortar/normal_multipliers.h>
 
 #include <functional>
 #include <memory>
@@ -24,8 +25,8 @@ namespace mortise
     std::vector<std::vector<Frame>>   frames; ///< see slave_frames()
     std::vector<LocalCoupling>        local;  ///< by slave face
     std::unique_ptr<MultiplierSpace>  multipliers;
-    /// By owned multiplier of contact; else empty.
-    std::vector<NormalMultiplier> normal_multipliers;
+    /// Owned nodes of contact; else empty.
+    std::vector<ContactNode> contact_nodes;
   };
 
   /// By coupling and slave face; after the integration of all interfaces that
@@ -62,13 +63,13 @@ namespace mortise
   assemble_compliance(const std::vector<Coupling> &couplings,
                       const CouplingPartition     &partition);
 
-  /// Set LocalCoupling::active_fraction of slave faces for the penalties of
-  /// preconditioners. @p active: by owned multiplier. Collective.
+  /// Set the fractions of LocalCoupling for the penalties of preconditioners.
+  /// @p statuses: of the owned nodes of @p coupling. Collective.
   void
-  select_multipliers(const std::vector<bool> &active,
-                     const dealii::IndexSet  &owned_multiplier,
-                     MPI_Comm                 comm,
-                     Coupling                &coupling);
+  select_nodes(const std::vector<NodeStatus> &statuses,
+               const dealii::IndexSet        &owned_multiplier,
+               MPI_Comm                       comm,
+               Coupling                      &coupling);
 
   /// Moments of a multiplier with rigid motions: component c, divided by a
   /// bound of int |psi|.

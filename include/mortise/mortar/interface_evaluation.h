@@ -57,6 +57,7 @@ namespace mortise
                      const TraceDisplacement                &displacement,
                      const std::vector<std::vector<double>> &tractions,
                      const Offset                           &offset,
+                     const BoundOfFriction                  &friction,
                      MPI_Comm                                comm);
 
   /// Largest penetration at the quadrature points along the normals of the

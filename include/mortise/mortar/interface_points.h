@@ -20,6 +20,10 @@ namespace mortise
   /// null: zero.
   using Offset = std::function<double(const dealii::Point<dim> &position)>;
 
+  /// The bound of tangential tractions at points of the slave; null: none.
+  using BoundOfFriction =
+    std::function<FrictionBound(const dealii::Point<dim> &position)>;
+
   class InterfacePoints
   {
   public:

@@ -62,8 +62,9 @@ namespace mortise
     double penalty = 0.; ///< of jumps: about E / h of the softer side, or of
                          ///< the slave if a master is independent
 
-    /// Fraction of active multipliers, see select_multipliers().
-    double active_fraction = 1.;
+    /// Fractions of the multipliers that hold along the normal and
+    /// tangentially, see select_nodes().
+    double active_fraction = 1., sticking_fraction = 1.;
 
     bool
     is_dual() const

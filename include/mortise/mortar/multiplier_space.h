@@ -135,6 +135,16 @@ namespace mortise
       return owned_dofs;
     }
 
+    /// By owned multiplier, the dof of the first component at its node.
+    std::vector<Index>
+    nodes() const
+    {
+      std::vector<Index> result;
+      for (const auto &[node, component] : nodes_and_components)
+        result.push_back(node);
+      return result;
+    }
+
     /// Owned multipliers; valid after number().
     const MultiplierRange &
     range() const
@@ -196,7 +206,10 @@ namespace mortise
     std::vector<std::vector<Frame>> frames; ///< by face, see FaceMultipliers
     unsigned int      n_directions;         ///< dim, or 1: along the normals
     bool              one_sided;
-    std::vector<bool> has_dual;                                     ///< by face
+    std::vector<bool> has_dual; ///< by face
+    /// By face: have all components the same functions, since the pressure at a
+    /// node of friction is a sum of several?
+    std::vector<bool>                                together;
     std::vector<std::vector<dealii::Tensor<1, dim>>> along_normals; ///< by face
     std::vector<Index>                               owned_dofs;
     std::vector<bool> at_vertices; ///< by owned multiplier

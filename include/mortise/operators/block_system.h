@@ -42,6 +42,22 @@ namespace mortise
   void
   add_scaled(SystemVector &x, double factor, const SystemVector &y);
 
+  /// What solvers have in place of the multipliers where friction turns the
+  /// directions of nodes, so that one may slip along a direction and is held
+  /// across it: lambda = Q^T lambda', and the constraint is Q B.
+  struct MultiplierDirections
+  {
+    SparseMatrix   turn;    ///< Q, by node
+    SparseMatrix   inverse; ///< Q^{-T}
+    CouplingMatrix constraint;
+    /// With Coulomb's law lambda = Q'^T lambda', where the pressure brings its
+    /// tangential traction along, and forces are those of Q' B; absent: Q.
+    std::optional<SparseMatrix>   turn_of_forces;
+    std::optional<CouplingMatrix> forces;
+    /// S of the multipliers lambda', springs included.
+    SparseMatrix compliance;
+  };
+
   /// Indices are global, numbered rank by rank: the owned displacements,
   /// pressures and multipliers are contiguous ranges, which may be empty.
   struct BlockSystem
@@ -66,28 +82,50 @@ namespace mortise
     /// dofs are zero. Empty when the scene has no interface.
     CouplingMatrix constraint;
 
-    /// The rows through which multipliers act on bodies, in place of B^T above,
-    /// as with friction; absent where they are those of the constraint.
-    std::optional<CouplingMatrix> force_rows;
+    /// S, the compliance of springs: zero, or empty, where bodies are tied.
+    SparseMatrix spring_compliance;
+
+    /// Absent where they are those of the multipliers. What LinearSolver takes
+    /// and returns are the multipliers all the same.
+    std::optional<MultiplierDirections> directions;
+
+    /// The active set, by owned multiplier in these directions; others are
+    /// zero. Nothing, on all ranks: all are active.
+    std::optional<std::vector<bool>> active;
+
+    /// B, S, and the rows through which multipliers act, in these directions.
+    const CouplingMatrix &
+    directed_constraint() const
+    {
+      return directions ? directions->constraint : constraint;
+    }
 
     const CouplingMatrix &
-    forces() const
+    directed_forces() const
     {
-      return force_rows ? *force_rows : constraint;
+      return directions && directions->forces ? *directions->forces :
+                                                directed_constraint();
+    }
+
+    const SparseMatrix &
+    compliance() const
+    {
+      return directions ? directions->compliance : spring_compliance;
     }
 
     bool
     is_symmetric() const
     {
-      return !force_rows;
+      return !directions || !directions->forces;
     }
 
-    /// The active set, by owned multiplier; others are zero. Nothing, on all
-    /// ranks: all are active.
-    std::optional<std::vector<bool>> active;
+    /// From right hand sides, and from solutions, to directions().
+    void
+    to_directions(SystemVector &rhs, SystemVector &solution) const;
 
-    /// S, the compliance of springs: zero, or empty, where bodies are tied.
-    SparseMatrix spring_compliance;
+    /// From solutions in directions to multipliers.
+    void
+    from_directions(SystemVector &solution) const;
 
     /// Are there bodies in mixed form?
     bool
@@ -113,8 +151,8 @@ namespace mortise
     void
     apply_to_constrained(const Vector &u, SystemVector &rhs) const;
 
-    /// dst += B^T lambda, or what the force rows have; the forces of the
-    /// multipliers. Collective.
+    /// dst += B^T lambda, the forces of multipliers in directions(), as all
+    /// below. Collective.
     void
     add_multiplier_force(Vector &dst, const Vector &lambda) const;
 
@@ -133,7 +171,7 @@ namespace mortise
     bool
     has_springs() const
     {
-      return spring_compliance.m() > 0;
+      return compliance().m() > 0;
     }
 
     /// Zero; displacements and pressures on the layouts of the finest level.

@@ -66,6 +66,15 @@ namespace mortise
     std::uint64_t                total = 0;
   };
 
+  /// Friction of contact since the beginning of the run.
+  struct FrictionSummary
+  {
+    std::uint64_t       stick = 0, slip = 0; ///< nodes
+    std::vector<double> force; ///< tangential part of that of the contact
+    double              slip_max          = 0.; ///< a length
+    double              dissipated_energy = 0.;
+  };
+
   /// Results of contact at the nodes of the slave.
   struct ContactSummary
   {
@@ -78,6 +87,7 @@ namespace mortise
     double        motion_max = 0.; ///< of one side against the other, a length
     std::uint64_t active = 0, inactive = 0;
     std::uint64_t undecided = 0; ///< among these: neither pressure nor gap
+    std::optional<FrictionSummary> friction;
   };
 
   /// Results of a tie with a given force, in consistent units.

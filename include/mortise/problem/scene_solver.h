@@ -50,12 +50,11 @@ namespace mortise
               const SystemVector &solution,
               StepSummary        &summary) const;
 
-    /// By owned multiplier: are pressure and gap zero to rounding? Empty
-    /// without contact.
-    std::vector<bool>
-    undecided() const
+    /// Of the last solve().
+    SolvedContact
+    solved_contact() const
     {
-      return contact ? contact->undecided() : std::vector<bool>();
+      return contact ? contact->solved() : SolvedContact();
     }
 
     /// Number of active sets of contact if they did not converge, else zero.

@@ -31,6 +31,11 @@ namespace mortise
     void
     update_active();
 
+    /// To be called if BlockSystem::directions and active alone have changed.
+    /// Calls update() the first time. Collective.
+    void
+    update_directions();
+
     /// To be called if the interfaces alone have been paired again:
     /// preconditioners of the bulk are kept, with the penalties of the last
     /// update(). Collective.
@@ -41,11 +46,13 @@ namespace mortise
     void
     set_limits(const double       tolerance,
                const double       energy_fraction,
-               const unsigned int max_iterations)
+               const unsigned int max_iterations,
+               const double       reduction = 0.)
     {
       options.tolerance       = tolerance;
       options.energy_fraction = energy_fraction;
       options.max_iterations  = max_iterations;
+      options.reduction       = reduction;
     }
 
     /// Solve for @p rhs = (f, h, g), starting at zero. Without convergence the
@@ -72,14 +79,6 @@ namespace mortise
                  const SolverOptions &options,
                  const std::string   &method);
 
-    /// Does the method rely on BlockSystem::is_symmetric()? update() throws
-    /// InputError if it does not hold.
-    virtual bool
-    needs_symmetry() const
-    {
-      return true;
-    }
-
     /// False on all ranks if the method cannot solve the system; run() is not
     /// called then.
     virtual bool
@@ -95,6 +94,13 @@ namespace mortise
     /// As set_up(), for update_interfaces().
     virtual bool
     set_up_interfaces()
+    {
+      return set_up();
+    }
+
+    /// As set_up(), for update_directions().
+    virtual bool
+    set_up_directions()
     {
       return set_up();
     }

@@ -16,6 +16,7 @@ namespace mortise
     /// The residual that rounding allows with this system; 0 (not computed) if
     /// the tolerance was reached.
     double attainable = 0.;
+    double tolerance  = 0.; ///< what was asked of the residual
     bool   converged  = false;
     bool prepared = true; ///< was the set-up of the preconditioner successful?
     double setup_seconds = 0.; ///< since the last report

@@ -21,6 +21,9 @@ namespace mortise
     SolverMethod method = SolverMethod::automatic;
     double tolerance = 1e-10; ///< of the relative residual, see ScaledResidual
     unsigned int max_iterations = 1000;
+    /// The residual of the start may be reduced by this factor alone, if that
+    /// is more than the tolerance.
+    double reduction = 0.;
     /// Largest number of multipliers for which all ranks factorise C together,
     /// else by parts. Measured: 12,000 of 870,000 dofs on 64 ranks take 0.11 s
     /// of processor time for all solves, 0.28 s by parts; 83,000 of 10.7

@@ -35,7 +35,8 @@ namespace mortise
         // the square of the fraction, since what is tied at points alone hardly
         // holds coarse functions: doc/measurements/active_sets.md
         const InterfaceStiffness result =
-          coupling.law.penalty(of_tie * std::pow(local.active_fraction, 2),
+          coupling.law.penalty({of_tie * std::pow(local.active_fraction, 2),
+                                of_tie * std::pow(local.sticking_fraction, 2)},
                                local.springs);
         return along_normals ? result.normal - result.tangential :
                                result.tangential;
@@ -319,7 +320,7 @@ namespace mortise
         Couplings of_kind{along_normals, {}};
         for (const Coupling &coupling : couplings)
           if (along_normals ?
-                coupling.law.is_compliant() ||
+                coupling.law.is_compliant() || coupling.law.has_friction() ||
                   coupling.law.constrained == ConstrainedDirections::normal :
                 coupling.law.constrained == ConstrainedDirections::all)
             of_kind.all.push_back(&coupling);

@@ -29,7 +29,7 @@ namespace mortise
     {
       unsigned int n = 0;
       for (const InterfaceParameters &interface : run.parameters.interfaces)
-        if (interface.law == Law::contact)
+        if (is_one_sided(interface.law))
           {
             const unsigned int degree =
               run.parameters.bodies[interface.slave.body].degree;
@@ -99,7 +99,7 @@ namespace mortise
       SceneLoad    load = discretisation.load(data);
       SystemVector x;
       preloads.begin(data, load);
-      if (!step.solve(load, x).converged)
+      if (!step.solve(data, load, x).converged)
         return {};
       return {step.active_positions(), step.n_sets()};
     }

@@ -16,7 +16,7 @@ namespace mortise
 
   namespace
   {
-    constexpr unsigned int max_sets = 1000;
+    constexpr unsigned int max_sets = 1000, max_sets_of_friction = 60;
 
     /// Of solves on the way to the set: doc/measurements/contact.md.
     constexpr double loose = 1e-2;
@@ -35,74 +35,83 @@ namespace mortise
     /// Signs are not known any better.
     constexpr double least_accuracy = 1e-10;
 
+    /// Of residuals, by linear solves between which the sets of friction
+    /// change, and the most exact one of the others.
+    constexpr double coarse_reduction = 0.1, fine_reduction = 1e-4;
+
     /// Of it, from one to the next where signs are not known yet.
     constexpr double finer = 1e-2;
 
     /// More of them tell of a preconditioner that has seen too little.
     constexpr unsigned int few_iterations = 40;
 
-    types::global_dof_index
-    first_multiplier(const BlockSystem &system)
-    {
-      const auto &owned = system.owned_multiplier;
-      return owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
-    }
-
     MultiplierPositions
-    multiplier_positions(const Discretisation &discretisation)
+    node_positions(const Discretisation &discretisation)
     {
       MultiplierPositions positions;
       const auto         &all = discretisation.interfaces().all();
       for (unsigned int i = 0; i < all.size(); ++i)
-        {
-          for (const NormalMultiplier &multiplier : all[i].normal_multipliers)
-            {
-              positions.surfaces.push_back(1 + i);
-              positions.points.push_back(multiplier.position);
-            }
-          positions.surfaces.resize(all[i].multipliers->range().end(), 0);
-          positions.points.resize(positions.surfaces.size());
-        }
+        for (const ContactNode &node : all[i].contact_nodes)
+          {
+            positions.surfaces.push_back(1 + i);
+            positions.points.push_back(node.position);
+          }
       return positions;
     }
 
-    /// By owned multiplier: NormalMultiplier::complementarity, or zero.
     std::vector<double>
     complementarity_parameters(const Discretisation &discretisation)
     {
       std::vector<double> result;
-      for (const Coupling &coupling : discretisation.interfaces().all())
-        {
-          for (const NormalMultiplier &multiplier : coupling.normal_multipliers)
-            result.push_back(multiplier.complementarity);
-          result.resize(coupling.multipliers->range().end(), 0.);
-        }
+      for (const ContactNode *node :
+           discretisation.interfaces().contact_nodes())
+        result.push_back(node->complementarity);
+      return result;
+    }
+
+    double
+    largest(const std::vector<double> &values, const MPI_Comm comm)
+    {
+      double result = 0.;
+      for (const double value : values)
+        result = std::max(result, std::fabs(value));
+      return Utilities::MPI::max(result, comm);
+    }
+
+    std::vector<Friction>
+    laws_of(const std::vector<bool> &closed, const NodeStatus of_closed)
+    {
+      std::vector<Friction> result(closed.size());
+      for (unsigned int i = 0; i < closed.size(); ++i)
+        result[i].status = closed[i] ? of_closed : NodeStatus::open;
       return result;
     }
   } // namespace
 
-  ContactStep::ContactStep(const RunContext              &run,
-                           Discretisation                &discretisation,
-                           LinearSolver                  &solver,
-                           Preloads                      &preloads,
-                           std::optional<ActivePositions> start)
+  ContactStep::ContactStep(const RunContext                     &run,
+                           Discretisation                       &discretisation,
+                           LinearSolver                         &solver,
+                           Preloads                             &preloads,
+                           std::optional<ActivePositions>        start,
+                           const std::optional<FrictionHistory> &history)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
     , preloads(preloads)
-    , set(discretisation.one_sided(),
-          complementarity_parameters(discretisation),
-          first_multiplier(discretisation.linear_system()),
-          run.comm)
-    , positions(multiplier_positions(discretisation))
+    , set(complementarity_parameters(discretisation), run.comm)
+    , friction(run, discretisation)
+    , positions(node_positions(discretisation))
     , edge(positions, run.comm)
+    , n_contact(
+        Utilities::MPI::sum<std::uint64_t>(positions.points.size(), run.comm))
     , first(std::move(start))
     , increments(max_increments)
-    , undecided_multipliers(discretisation.one_sided().size(), false)
   {
-    const std::vector<bool> contact = discretisation.one_sided();
-    n_contact                       = Utilities::MPI::sum<std::uint64_t>(
-      std::count(contact.begin(), contact.end(), true), run.comm);
+    if (friction.empty())
+      return;
+    report_held();
+    if (history)
+      friction.restore(history->nearest(positions));
   }
 
   ActivePositions
@@ -111,13 +120,21 @@ namespace mortise
     return {positions, set.active(), run.comm};
   }
 
+  std::optional<FrictionHistory>
+  ContactStep::friction_history() const
+  {
+    if (friction.empty())
+      return {};
+    return FrictionHistory(positions, friction.records(set.active()), run.comm);
+  }
+
   std::string
-  ContactStep::free_motions(const std::vector<bool> &active) const
+  ContactStep::free_motions(const std::vector<Friction> &laws) const
   {
     try
       {
         discretisation.interfaces().check_no_free_motion(
-          active, preloads.have_forces());
+          laws, preloads.have_forces());
       }
     catch (const InputError &error)
       {
@@ -137,8 +154,8 @@ namespace mortise
     if (last)
       {
         const bool other_set =
-          Utilities::MPI::max(now.active == last->active ? 0 : 1, run.comm) ==
-          1;
+          Utilities::MPI::max(now.statuses == last->statuses ? 0 : 1,
+                              run.comm) == 1;
         // from one set to another an increment is half of each
         if (other_set || mixed_increment)
           increments = SuccessiveSolutions(max_increments);
@@ -153,15 +170,24 @@ namespace mortise
   void
   ContactStep::resume(const SceneLoad &load, const SystemVector &x)
   {
-    remember({load.rhs, x, first->nearest(positions)});
+    set.start_from(first->nearest(positions));
+    if (!friction.empty())
+      friction.set_origin(discretisation.weighted_gaps(load, x));
+    remember({load.rhs, x, statuses()});
+  }
+
+  std::vector<double>
+  ContactStep::pressures(const SystemVector &x) const
+  {
+    std::vector<double> result;
+    for (const ContactNode *node : discretisation.interfaces().contact_nodes())
+      result.push_back(node->pressure(x.multiplier.begin()));
+    return result;
   }
 
   std::vector<bool>
   ContactStep::predict(const SceneLoad &load, SystemVector &x)
   {
-    const std::vector<bool> contact = discretisation.one_sided();
-    const std::vector<bool> all(contact.size(), true);
-    std::vector<bool>       guess = all;
     if (last)
       {
         x                = last->x;
@@ -171,28 +197,47 @@ namespace mortise
           add_scaled(x, 1., increments.start(rhs, *scaled));
       }
     double area = 0.;
-    for (const Coupling &coupling : discretisation.interfaces().all())
-      for (const NormalMultiplier &multiplier : coupling.normal_multipliers)
-        area += multiplier.area;
+    for (const ContactNode *node : discretisation.interfaces().contact_nodes())
+      area += node->area;
     // what rounding leaves between meshes that touch is closed
     const double closed =
       1e-10 * std::sqrt(Utilities::MPI::sum(area, run.comm));
-    const Vector gaps = discretisation.gaps(
+    const Vector weighted = discretisation.weighted_gaps(
       load, last ? x : discretisation.linear_system().zero_vector());
+    const std::vector<double> gaps = friction.gaps(weighted);
+    std::vector<bool>         guess(gaps.size());
     if (!last && first)
       guess = first->nearest(positions);
+    else if (!last)
+      for (unsigned int i = 0; i < gaps.size(); ++i)
+        guess[i] = gaps[i] <= closed;
     else
-      for (unsigned int i = 0; i < contact.size(); ++i)
-        guess[i] =
-          !contact[i] || (last && last->active[i] ?
-                            x.multiplier.begin()[i] > 0. :
-                            gaps.begin()[i] <= (last ? -closed : closed));
+      {
+        const std::vector<double> pressure = pressures(x);
+        for (unsigned int i = 0; i < gaps.size(); ++i)
+          guess[i] = last->statuses[i] != NodeStatus::open ? pressure[i] > 0. :
+                                                             gaps[i] <= -closed;
+        if (!friction.empty())
+          friction.advance(guess, x.multiplier, weighted, least_accuracy);
+      }
     const auto holds = [this](const std::vector<bool> &active) {
-      return free_motions(active).empty();
+      return free_motions(friction.laws(active)).empty();
     };
-    return holds(guess)                ? guess :
-           last && holds(last->active) ? last->active :
-                                         all;
+    if (holds(guess))
+      return guess;
+    friction.stick();
+    if (last)
+      {
+        std::vector<bool> same;
+        for (const NodeStatus status : last->statuses)
+          same.push_back(status != NodeStatus::open);
+        for (const auto &tried : {guess, same})
+          if (holds(tried))
+            return tried;
+      }
+    else if (!friction.empty() && holds(guess))
+      return guess;
+    return std::vector<bool>(gaps.size(), true);
   }
 
   double
@@ -203,81 +248,203 @@ namespace mortise
         sets = 1; // the one that predict() chose
         return 1.;
       }
-    const double            asked   = run.parameters.solver.tolerance;
-    const bool              is_last = tolerance == asked;
-    const Vector            gaps    = discretisation.gaps(*load, x);
-    ActiveSet               next    = set;
-    const ActiveSet::Change change =
-      next.advance(x.multiplier.begin(),
-                   gaps.begin(),
-                   std::max(gaps.linfty_norm(), x.displacement.linfty_norm()),
-                   // what a linear solve leaves is no reason to turn
-                   std::max(least_accuracy, tolerance),
+    const double asked   = run.parameters.solver.tolerance;
+    const bool   is_last = tolerance == asked;
+    // what a linear solve leaves is no reason to turn
+    const double              accuracy = std::max(least_accuracy, tolerance);
+    const Vector              weighted = discretisation.weighted_gaps(*load, x);
+    const std::vector<double> gaps     = friction.gaps(weighted);
+    ActiveSet                 next     = set;
+    const ActiveSet::Change   change =
+      next.advance(pressures(x),
+                   gaps,
+                   std::max(largest(gaps, run.comm),
+                            x.displacement.linfty_norm()),
+                   accuracy,
                    [&](std::vector<bool> &turns) {
                      if (extends && !is_last)
                        edge.extend(set.active(), turns);
                    });
-    undecided_multipliers = next.undecided();
-    print(change);
+    const FrictionSet         before = friction;
+    const FrictionSet::Change of_friction =
+      friction.empty() ?
+        FrictionSet::Change() :
+        friction.advance(next.active(),
+                         x.multiplier,
+                         weighted,
+                         std::max(least_accuracy, loose * tolerance));
+    print(change, before, of_friction);
+    learn_extension(change, next.cycles());
+    const bool changes = change.any() || of_friction.any();
+    // a linear system of these laws that is solved already shows that they hold
+    const bool is_solved =
+      iterations == 0 && discretisation.choice().method != SolverMethod::direct;
+    if (is_last && !changes &&
+        (of_friction.error <= 10. * accuracy || is_solved))
+      {
+        set = std::move(next);
+        return 0.;
+      }
+    if (!friction.empty())
+      check_hold(next.active());
+    const auto free = [&] {
+      return !free_motions(friction.laws(next.active())).empty();
+    };
+    if (is_last)
+      {
+        if (!friction.empty())
+          hold_bodies(next.active(), before);
+        catch_bodies(x, next);
+      }
+    else if (!changes || next.cycles() || free())
+      {
+        // and ask again; what is open until the end costs more there
+        tolerance =
+          change.undecided > 0 ? std::max(asked, finer * tolerance) : asked;
+        reduction = changes ? 0. : fine_reduction;
+        if (changes)
+          friction.restore(before);
+        set.start_from(set.active());
+        return tolerance;
+      }
+    reduction = changes ? coarse_reduction :
+                          std::min(coarse_reduction,
+                                   std::max(fine_reduction, of_friction.error));
+    // other bounds make another problem, whose sets may recur
+    if (of_friction.any())
+      next.start_from(next.active());
+    set = std::move(next);
+    ++sets;
+    return double(change.opened + change.closed + of_friction.slip +
+                  of_friction.stick) /
+             n_contact +
+           of_friction.error;
+  }
+
+  void
+  ContactStep::learn_extension(const ActiveSet::Change &change,
+                               const bool               cycles)
+  {
     // sets that close again may have opened beyond the edge
     if (extends && extended && change.closed > 0)
       ++overshoots;
     extended = extended || change.opened > 0;
     extends  = cold && overshoots < max_overshoots &&
-              !(extended && change.closed > 0) && !next.cycles();
-    if (is_last && !change.any())
-      return 0.;
-    if (is_last)
-      catch_bodies(x, next);
-    else if (!change.any() || next.cycles() ||
-             !free_motions(next.active()).empty())
-      {
-        // and ask again; what is open until the end costs more there
-        tolerance =
-          change.undecided > 0 ? std::max(asked, finer * tolerance) : asked;
-        set.start_from(set.active());
-        return tolerance;
-      }
-    set = std::move(next);
-    ++sets;
-    return double(change.opened + change.closed) / n_contact;
+              !(extended && change.closed > 0) && !cycles;
   }
 
   void
-  ContactStep::catch_bodies(const SystemVector &x, ActiveSet &next) const
+  ContactStep::catch_bodies(const SystemVector &x, ActiveSet &next)
   {
-    if (free_motions(next.active()).empty())
+    if (free_motions(friction.laws(next.active())).empty())
       return;
-    next.start_from(
-      close_gaps_rigidly(discretisation, preloads, *load, x, next.active()));
-    if (const std::string free = free_motions(next.active()); !free.empty())
+    SystemVector            at     = x;
+    const std::vector<bool> caught = close_gaps_rigidly(
+      discretisation, preloads, *load, friction.laws(next.active()), at);
+    if (!friction.empty())
+      {
+        std::vector<bool> touches;
+        for (unsigned int i = 0; i < caught.size(); ++i)
+          touches.push_back(caught[i] && !next.active()[i]);
+        friction.set_origin(discretisation.weighted_gaps(*load, at), touches);
+      }
+    next.start_from(caught);
+    if (const std::string free = free_motions(friction.laws(next.active()));
+        !free.empty())
       throw InputError(
         "Contact is lost: the contact that remains active does not hold the bodies. " +
         free);
   }
 
   void
+  ContactStep::check_hold(const std::vector<bool> &next)
+  {
+    /// Of work, that rounding and linear solves leave.
+    constexpr double rounding = 1e-8;
+
+    // what moves if nodes that slip resist nothing
+    std::vector<Friction> laws = friction.laws(next);
+    for (Friction &law : laws)
+      law.bound = 0.;
+    const std::optional<double> before = std::exchange(used_strength, {});
+    lost.clear();
+    const std::string motions = free_motions(laws);
+    if (motions.empty())
+      return;
+    const SystemVector motion = driven_motion(
+      discretisation,
+      preloads,
+      *load,
+      discretisation.interfaces().free_motions(laws, preloads.have_forces()));
+    const double driving =
+      work_of_loads(discretisation, preloads, *load, motion);
+    if (!(driving > 0.))
+      return;
+    Vector moved(load->rhs.multiplier);
+    discretisation.linear_system().constraint.vmult(moved, motion.displacement);
+    used_strength = friction.resistance(moved) / driving;
+    lost          = *used_strength < 1. - rounding ?
+                      "Friction does not hold the bodies: they slip. " + motions :
+                      "";
+    // pressures that change still may raise the resistance
+    if (before && 1. - *used_strength >
+                    rounding + 2. * std::fabs(*used_strength - *before))
+      throw InputError(lost);
+  }
+
+  void
+  ContactStep::hold_bodies(const std::vector<bool> &next,
+                           const FrictionSet       &before)
+  {
+    const auto is_free = [&] {
+      return !free_motions(friction.laws(next)).empty();
+    };
+    // would the bodies be held if all that is closed stuck?
+    if (!is_free() || !free_motions(laws_of(next, NodeStatus::stick)).empty())
+      return;
+    while (is_free() && friction.keep_one(before))
+      {
+      }
+    if (is_free())
+      friction.restore(before);
+    if (is_free())
+      friction.stick();
+  }
+
+  void
+  ContactStep::report_held() const
+  {
+    const std::vector<bool> all(positions.points.size(), true);
+    const std::string       free = free_motions(laws_of(all, NodeStatus::slip));
+    if (!free.empty())
+      run.log.line("  friction alone prevents rigid motions. " + free);
+  }
+
+  void
   ContactStep::linearise(const SystemVector &)
   {
-    discretisation.select(set.active());
+    const bool turns    = friction.select(set.active(), iteration);
+    const auto statuses = this->statuses();
     // coarse levels go on with the ties that they saw, which costs next to no
     // iteration (doc/measurements/contact.md) as long as about as many hold
-    const std::uint64_t n_active = set.n_active();
+    const std::uint64_t n_held = n_holding(statuses);
     shows =
-      !n_shown || n_active > 2 * *n_shown ||
-      (tolerance == run.parameters.solver.tolerance && 2 * n_active < *n_shown);
+      !n_shown || n_held > 2 * *n_shown ||
+      (tolerance == run.parameters.solver.tolerance && 2 * n_held < *n_shown);
     if (shows)
       show();
+    else if (turns)
+      solver.update_directions();
     else
       solver.update_active();
+    if (turns)
+      preloads.system_changed();
   }
 
   SolveReport
   ContactStep::solve(SystemVector &x)
   {
-    const unsigned int most = run.parameters.solver.max_iterations;
-    if (x.displacement.size() > 0)
-      discretisation.linear_system().clear_inactive(x.multiplier);
+    const unsigned int most  = run.parameters.solver.max_iterations;
     const SystemVector start = shows ? SystemVector() : x;
     SolveReport        result =
       solve_set(shows ? most : std::min(most, few_iterations), x);
@@ -298,45 +465,97 @@ namespace mortise
   SolveReport
   ContactStep::solve_set(const unsigned int max_iterations, SystemVector &x)
   {
+    const double asked = run.parameters.solver.tolerance;
+    if (!friction.empty())
+      {
+        solver.set_limits(asked,
+                          SolverOptions().energy_fraction,
+                          max_iterations,
+                          reduction);
+        return solve_with_friction(x);
+      }
     solver.set_limits(tolerance,
-                      tolerance == run.parameters.solver.tolerance ?
-                        SolverOptions().energy_fraction :
-                      cold && sets > 1 ? loosest_energy :
-                                         loose_energy,
+                      tolerance == asked ? SolverOptions().energy_fraction :
+                      cold && sets > 1   ? loosest_energy :
+                                           loose_energy,
                       max_iterations);
     return preloads.solve(x.displacement.size() > 0, *load, x);
+  }
+
+  SolveReport
+  ContactStep::solve_with_friction(SystemVector &x)
+  {
+    SystemVector of_load = load->rhs;
+    friction.apply(load->rhs);
+    const Vector      applied = load->rhs.multiplier;
+    const SolveReport result =
+      preloads.solve(x.displacement.size() > 0, *load, x);
+    // shortenings of preloads become part of the load
+    load->rhs.multiplier -= applied;
+    of_load.multiplier += load->rhs.multiplier;
+    load->rhs = of_load;
+    friction.complete(x.multiplier);
+    tolerance = result.tolerance;
+    return result;
+  }
+
+  std::uint64_t
+  ContactStep::n_holding(const std::vector<NodeStatus> &statuses) const
+  {
+    std::uint64_t n = 0;
+    for (const NodeStatus status : statuses)
+      n += status == NodeStatus::stick ? 2 : status == NodeStatus::slip ? 1 : 0;
+    return Utilities::MPI::sum(n, run.comm);
   }
 
   void
   ContactStep::show()
   {
-    n_shown = set.n_active();
-    discretisation.update_coarse_active_set();
+    const std::vector<NodeStatus> statuses = this->statuses();
+    n_shown                                = n_holding(statuses);
+    discretisation.update_penalties(statuses);
     solver.update();
   }
 
   void
-  ContactStep::print(const ActiveSet::Change &change) const
+  ContactStep::print(const ActiveSet::Change   &change,
+                     const FrictionSet         &before,
+                     const FrictionSet::Change &of_friction) const
   {
+    std::uint64_t n_slip = 0;
+    for (const Friction &law : before.laws(set.active()))
+      n_slip += law.status == NodeStatus::slip ? 1 : 0;
+    n_slip = Utilities::MPI::sum(n_slip, run.comm);
     run.log.line(
       "  active set " + std::to_string(sets) + ": " +
       std::to_string(set.n_active()) + " active, " +
+      (friction.empty() ? "" : std::to_string(n_slip) + " slip, ") +
       std::to_string(change.opened) + " open, " +
       std::to_string(change.closed) + " close, " +
       std::to_string(change.undecided) + " undecided, " +
+      (friction.empty() ?
+         "" :
+         std::to_string(of_friction.slip) + " begin to slip, " +
+           std::to_string(of_friction.stick) + " to stick, violation " +
+           RunLog::number(of_friction.error) + ", ") +
       std::to_string(iterations) + " iterations" +
       (set.cycles() ? ", chosen by the energy, since sets recurred" : ""));
   }
 
   SolveReport
-  ContactStep::solve(SceneLoad &of_step, SystemVector &x)
+  ContactStep::solve(const SceneData &data, SceneLoad &of_step, SystemVector &x)
   {
     const double asked = run.parameters.solver.tolerance;
     load               = &of_step;
+    iteration          = run.parameters.solver.friction == "newton" ?
+                           FrictionIteration::newton :
+                           FrictionIteration::fixed_point;
+    friction.begin(data);
     // a factorisation gives all digits at once
     tolerance = discretisation.choice().method == SolverMethod::direct ?
                   asked :
                   std::max(loose, asked);
+    used_strength.reset();
     // from lower degrees and from step to step the edge is near already
     cold       = !first && !last;
     extends    = cold;
@@ -344,13 +563,26 @@ namespace mortise
     overshoots = 0;
     sets       = 0;
     set.start_from(predict(of_step, x));
+    // where nothing is predicted to turn one system is all
+    const bool turns =
+      !last ||
+      Utilities::MPI::max(statuses() == last->statuses ? 0 : 1, run.comm) == 1;
+    reduction = tolerance == asked || !turns ? 0. : loose;
     NewtonOptions options;
     options.tolerance      = 0.;
-    options.max_iterations = max_sets;
+    options.max_iterations = friction.empty() ? max_sets : max_sets_of_friction;
     options.max_halvings   = 0;
     report                 = solve_newton(*this, options, x);
     if (report.converged)
-      remember({of_step.rhs, x, set.active()});
+      {
+        if (!friction.empty())
+          friction.accept(set.active(),
+                          x.multiplier,
+                          discretisation.weighted_gaps(of_step, x));
+        remember({of_step.rhs, x, statuses()});
+      }
+    else if (!lost.empty())
+      throw InputError(lost);
     SolveReport result = report.linear;
     result.converged   = report.converged;
     return result;

@@ -152,14 +152,13 @@ namespace mortise
   {
     const auto &now = discretisation.linear_system().active;
     const bool  known =
-      have_units && Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0;
+      have_units && (active || !now) &&
+      Utilities::MPI::max(now == active ? 0 : 1, run.comm) == 0;
     if (known)
       return;
     for (unsigned int j = 0; j < indices.size(); ++j)
       {
-        Unit &unit = units[j];
-        if (have_units)
-          discretisation.linear_system().clear_inactive(unit.x.multiplier);
+        Unit             &unit    = units[j];
         const SolveReport of_unit = have_units ?
                                       solver.solve_from(unit.rhs, unit.x) :
                                       solver.solve(unit.rhs, unit.x);

@@ -4,6 +4,7 @@
 #include <mortise/problem/contact/rigid_closing.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -16,86 +17,115 @@ namespace mortise
     /// Of loads, of gaps: what cancels to less is rounding.
     constexpr double rounding = 1e-10;
 
-    /// The free motion that the loads drive, each motion by the force along it;
-    /// zero where they drive none. Collective.
-    SystemVector
-    driven_motion(const Discretisation &discretisation,
-                  const Preloads       &preloads,
-                  const SceneLoad      &load,
-                  const FreeMotions    &free)
+    /// Work of the loads on a rigid motion, and the sum of its parts' sizes.
+    /// Collective.
+    std::array<double, 2>
+    work_on(const Discretisation &discretisation,
+            const Preloads       &preloads,
+            const SceneLoad      &load,
+            const SystemVector   &motion)
     {
-      const BlockSystem &system = discretisation.linear_system();
-      SystemVector       result = system.zero_vector();
-      for (unsigned int k = 0; k < free.motions.size(); ++k)
+      const BlockSystem    &system = discretisation.linear_system();
+      std::array<double, 2> sums{};
+      for (unsigned int i = 0; i < motion.displacement.locally_owned_size();
+           ++i)
         {
-          const SystemVector motion = discretisation.rigid_motion(free, k);
-          double sums[2] = {0., 0.}; // of work, and of its parts' sizes
-          for (unsigned int i = 0; i < motion.displacement.locally_owned_size();
-               ++i)
-            {
-              const double work = load.rhs.displacement.begin()[i] *
-                                  motion.displacement.begin()[i];
-              sums[0] += work;
-              sums[1] += std::fabs(work);
-            }
-          Utilities::MPI::sum(ArrayView<const double>(sums),
-                              system.communicator,
-                              ArrayView<double>(sums));
-          Vector opening = load.rhs.multiplier;
-          system.apply_constraint(opening, motion.displacement);
-          const double of_preloads = preloads.work(opening);
-          sums[0] += of_preloads;
-          sums[1] += std::fabs(of_preloads);
-          if (std::fabs(sums[0]) > rounding * sums[1])
-            add_scaled(result, sums[0], motion);
+          const double work =
+            load.rhs.displacement.begin()[i] * motion.displacement.begin()[i];
+          sums[0] += work;
+          sums[1] += std::fabs(work);
         }
-      return result;
+      Utilities::MPI::sum(ArrayView<const double>(sums),
+                          system.communicator,
+                          ArrayView<double>(sums));
+      Vector opening = load.rhs.multiplier;
+      system.constraint.vmult(opening, motion.displacement);
+      const double of_preloads = preloads.work(opening);
+      return {{sums[0] + of_preloads, sums[1] + std::fabs(of_preloads)}};
     }
   } // namespace
+
+  double
+  work_of_loads(const Discretisation &discretisation,
+                const Preloads       &preloads,
+                const SceneLoad      &load,
+                const SystemVector   &motion)
+  {
+    return work_on(discretisation, preloads, load, motion)[0];
+  }
+
+  SystemVector
+  driven_motion(const Discretisation &discretisation,
+                const Preloads       &preloads,
+                const SceneLoad      &load,
+                const FreeMotions    &free)
+  {
+    SystemVector result = discretisation.linear_system().zero_vector();
+    for (unsigned int k = 0; k < free.motions.size(); ++k)
+      {
+        const SystemVector motion = discretisation.rigid_motion(free, k);
+        const auto [work, size] =
+          work_on(discretisation, preloads, load, motion);
+        if (std::fabs(work) > rounding * size)
+          add_scaled(result, work, motion);
+      }
+    return result;
+  }
 
   std::vector<bool>
   close_gaps_rigidly(const Discretisation &discretisation,
                      const Preloads       &preloads,
                      const SceneLoad      &load,
-                     const SystemVector   &x,
-                     std::vector<bool>     active)
+                     std::vector<Friction> laws,
+                     SystemVector         &at)
   {
-    const MPI_Comm    comm      = discretisation.linear_system().communicator;
-    std::vector<bool> may_close = discretisation.one_sided();
-    SystemVector      at        = x;
+    const MPI_Comm comm    = discretisation.linear_system().communicator;
+    const auto     gaps_of = [&](const SystemVector &x) {
+      return discretisation.gaps(discretisation.weighted_gaps(load, x));
+    };
+    const auto largest = [&](const std::vector<double> &values) {
+      double result = 0.;
+      for (const double value : values)
+        result = std::max(result, std::fabs(value));
+      return Utilities::MPI::max(result, comm);
+    };
+    const auto active = [&] {
+      std::vector<bool> result;
+      for (const Friction &law : laws)
+        result.push_back(law.status != NodeStatus::open);
+      return result;
+    };
     while (true)
       {
         const FreeMotions free =
-          discretisation.interfaces().free_motions(active,
+          discretisation.interfaces().free_motions(laws,
                                                    preloads.have_forces());
         const SystemVector motion =
           driven_motion(discretisation, preloads, load, free);
         if (motion.displacement.linfty_norm() == 0.)
-          return active;
-        const Vector gaps = discretisation.gaps(load, at);
-        SystemVector unit = at;
+          return active();
+        const std::vector<double> gaps = gaps_of(at);
+        SystemVector              unit = at;
         add_scaled(unit, 1., motion);
-        Vector closing = gaps;
-        closing -= discretisation.gaps(load, unit);
-        const double negligible = rounding * closing.linfty_norm();
+        std::vector<double> closing = gaps_of(unit);
+        for (unsigned int i = 0; i < closing.size(); ++i)
+          closing[i] = gaps[i] - closing[i];
+        const double negligible = rounding * largest(closing);
         const auto   closes     = [&](const unsigned int i) {
-          return may_close[i] && !active[i] && closing.begin()[i] > negligible;
+          return laws[i].status == NodeStatus::open && closing[i] > negligible;
         };
         double length = std::numeric_limits<double>::max();
-        for (unsigned int i = 0; i < active.size(); ++i)
+        for (unsigned int i = 0; i < gaps.size(); ++i)
           if (closes(i))
-            length =
-              std::min(length,
-                       std::max(0., gaps.begin()[i]) / closing.begin()[i]);
+            length = std::min(length, std::max(0., gaps[i]) / closing[i]);
         length = Utilities::MPI::min(length, comm);
         if (length == std::numeric_limits<double>::max())
-          return active;
+          return active();
         const double closed =
-          rounding * (gaps.linfty_norm() + length * closing.linfty_norm());
-        for (unsigned int i = 0; i < active.size(); ++i)
-          if (closes(i) &&
-              gaps.begin()[i] - length * closing.begin()[i] <= closed)
-            active[i] = true;
+          rounding * (largest(gaps) + length * largest(closing));
+        for (unsigned int i = 0; i < gaps.size(); ++i)
+          if (closes(i) && gaps[i] - length * closing[i] <= closed)
+            laws[i] = Friction();
         add_scaled(at, length, motion);
       }
   }

@@ -32,16 +32,34 @@ namespace mortise
     }
   } // namespace
 
+  bool
+  has_friction(const InterfaceParameters &interface)
+  {
+    if (interface.law == Law::tresca)
+      return true;
+    if (!interface.friction_coefficient)
+      return false;
+    const auto is_zero = [](const std::optional<std::string> &text) {
+      if (!text)
+        return true;
+      const Expression coefficient(*text);
+      return coefficient.is_constant() && !coefficient.depends_on_time() &&
+             coefficient.value(Point<3>()) == 0.;
+    };
+    return !is_zero(interface.friction_coefficient) ||
+           !is_zero(interface.static_friction_coefficient);
+  }
+
   InterfaceLaw
   interface_law(const Parameters          &parameters,
                 const InterfaceParameters &interface)
   {
     InterfaceLaw law;
     law.law = interface.law;
-    if (interface.law == Law::slide || interface.law == Law::contact)
+    if (interface.law == Law::slide ||
+        (is_one_sided(interface.law) && !has_friction(interface)))
       law.constrained = ConstrainedDirections::normal;
-    law.has_mesh_gap =
-      interface.law == Law::contact && !interface.ignores_mesh_gap;
+    law.has_mesh_gap = law.is_one_sided() && !interface.ignores_mesh_gap;
     if (interface.law != Law::spring)
       return law;
     const auto where = [&](const std::string &name) {

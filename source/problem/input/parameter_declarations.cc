@@ -82,9 +82,27 @@ namespace mortise
         interface.law,
         "Law of the interface. tie: no jump of the displacement. slide: no jump along the normal, free tangential "
         "motion; smooth patches of the slave between edges are interfaces of their own. contact: gap >= 0 and "
-        "pressure >= 0 without friction; displacements are small, partners those within Search distance at the start. "
-        "spring: a thin layer or glue with the stiffnesses below.",
+        "pressure >= 0, with friction if a coefficient is given; displacements are small, partners those within Search "
+        "distance at the start. tresca: the same with a given bound of the tangential traction. spring: a thin layer "
+        "or glue with the stiffnesses below.",
         Allowed::one_of(interface_law_names()));
+      section.add(
+        "Friction coefficient",
+        interface.friction_coefficient,
+        "Law = contact: Coulomb's coefficient [-], the tangential traction divided by the pressure where bodies slip. "
+        "Empty: no friction.",
+        {"an expression in x, y, z, t, not negative"});
+      section.add(
+        "Static friction coefficient",
+        interface.static_friction_coefficient,
+        "The coefficient [-] where bodies did not slip at the end of the last step; once they slip it is the Friction "
+        "coefficient. Empty: the same.",
+        {"an expression in x, y, z, t, at least the Friction coefficient"});
+      section.add(
+        "Friction bound",
+        interface.friction_bound,
+        "Law = tresca: the tangential traction at which bodies slip [force per area].",
+        {"an expression in x, y, z, t, not negative"});
       section.add(
         "Normal stiffness",
         interface.normal_stiffness,

@@ -4,6 +4,7 @@
 #include <mortise/base/expression.h>
 #include <mortise/base/quotes.h>
 #include <mortise/problem/input/formulation.h>
+#include <mortise/problem/input/interface_law.h>
 #include <mortise/problem/input/parameter_file.h>
 #include <mortise/problem/input/quantity.h>
 #include <unistd.h>
@@ -88,6 +89,56 @@ namespace mortise
       check_number(parameters, path, *interface.preload);
     }
 
+    /// Friction belongs to contact, a given bound to Law = tresca.
+    void
+    check_friction(const Parameters          &parameters,
+                   const InterfaceParameters &interface,
+                   const std::string         &section)
+    {
+      const auto check = [&](const std::string                &name,
+                             const std::optional<std::string> &given,
+                             const Law                         law) {
+        const std::string path = section + "/" + name;
+        if (!given)
+          return;
+        if (interface.law != law)
+          parameters.fail(path,
+                          in_quotes(*given) +
+                            " with Law = " + name_of(interface.law),
+                          "nothing: it belongs to Law = " + name_of(law));
+        const double time = parameters.steps.first_time();
+        check_expression(parameters.where(path), *given, time);
+        const Expression expression(*given, parameters.where(path), time);
+        if (expression.is_constant() &&
+            !(expression.value(dealii::Point<3>()) >= 0.))
+          parameters.fail(path,
+                          in_quotes(*given),
+                          "a number that is not negative");
+      };
+      check("Friction coefficient",
+            interface.friction_coefficient,
+            Law::contact);
+      check("Static friction coefficient",
+            interface.static_friction_coefficient,
+            Law::contact);
+      check("Friction bound", interface.friction_bound, Law::tresca);
+      if (interface.law == Law::tresca && !interface.friction_bound)
+        parameters.fail(section + "/Friction bound",
+                        "nothing with Law = tresca",
+                        "an expression in x, y, z, t");
+      if (interface.static_friction_coefficient &&
+          !interface.friction_coefficient)
+        parameters.fail(section + "/Static friction coefficient",
+                        "a coefficient without a Friction coefficient",
+                        "none");
+      if (has_friction(interface) && parameters.adaptivity.target_error &&
+          parameters.steps.given())
+        parameters.fail("Steps",
+                        "load steps with Adaptivity and friction",
+                        "one of these two: slip is known on the mesh of a step "
+                        "alone");
+    }
+
     void
     check_interface(const Parameters          &parameters,
                     const InterfaceParameters &interface)
@@ -102,6 +153,7 @@ namespace mortise
                        interface.offset,
                        parameters.steps.first_time());
       check_preload(parameters, interface, section);
+      check_friction(parameters, interface, section);
       check_stiffness(parameters,
                       interface,
                       section + "/Normal stiffness",

@@ -29,6 +29,12 @@ namespace mortise
       "Largest number of multipliers for which all ranks factorise the Schur complement together; beyond it each "
       "rank factorises the part of its own multipliers and their neighbours.",
       Allowed::integer(0));
+    section.add(
+      "Friction",
+      solver.friction,
+      "How the bound of Coulomb's law follows the pressure. newton: within a linear system, which is not symmetric; "
+      "fixed point: from one symmetric linear system to the next.",
+      Allowed::one_of({"newton", "fixed point"}));
     section.add("Print iterations",
                 solver.print_iterations,
                 "Print a line for each iteration.",

@@ -151,7 +151,7 @@ namespace mortise
     if (solved.solution.multiplier.size() > 0)
       {
         borne += dirichlet.multiplier_forces(solved.solution.multiplier);
-        discretisation.linear_system().forces().Tvmult_add_free(
+        discretisation.linear_system().constraint.Tvmult_add_free(
           reactions, solved.solution.multiplier);
       }
     if (dirichlet.any_shared())
@@ -339,7 +339,7 @@ namespace mortise
                            [&](const unsigned int         i,
                                const LevelVector<double> &shares) {
                              Vector seen(result.rhs.multiplier);
-                             system.forces().vmult_free(seen, shares);
+                             system.constraint.vmult_free(seen, shares);
                              result.rhs.multiplier -=
                                part_of(discretisation, seen, i);
                            });

@@ -35,35 +35,135 @@ namespace mortise
       return where.centre.norm() + where.size;
     }
 
-    ContactSummary
-    contact_summary(const StepEvaluation &step, const Coupling &coupling)
+    /// Number of the first owned node of interface @p i.
+    unsigned int
+    first_node(const Pairing &interfaces, const unsigned int i)
     {
-      const MPI_Comm           comm  = step.run.comm;
-      const auto              &about = step.run.parameters.output.moments_about;
-      const Vector            &pressures = step.solved.solution.multiplier;
-      const std::vector<bool> &active_ones =
-        *step.discretisation.linear_system().active;
-      const Vector      &gaps  = step.gaps(); // collective
-      const unsigned int first = coupling.multipliers->range().first;
-      ContactSummary     result;
-      Tensor<1, dim>     force, moment;
-      double             work = 0., least = std::numeric_limits<double>::max();
-      for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
+      unsigned int first = 0;
+      for (unsigned int j = 0; j < i; ++j)
+        first += interfaces.all()[j].contact_nodes.size();
+      return first;
+    }
+
+    FrictionSummary
+    friction_summary(const StepEvaluation &step, const unsigned int i)
+    {
+      const MPI_Comm       comm     = step.run.comm;
+      const Coupling      &coupling = step.discretisation.interfaces().all()[i];
+      const SolvedContact &contact  = step.solved.contact;
+      const Vector        &lambda   = step.solved.solution.multiplier;
+      FrictionSummary      result;
+      Tensor<1, dim>       force;
+      unsigned int         k = first_node(step.discretisation.interfaces(), i);
+      for (const ContactNode &node : coupling.contact_nodes)
         {
-          const NormalMultiplier &of       = coupling.normal_multipliers[k];
-          const bool              active   = active_ones[first + k];
-          const double            pressure = pressures.begin()[first + k];
-          least = std::min(least, gaps.begin()[first + k]);
-          result.undecided += step.solved.undecided[first + k] ? 1 : 0;
+          result.stick += contact.statuses[k] == NodeStatus::stick ? 1 : 0;
+          result.slip += contact.statuses[k] == NodeStatus::slip ? 1 : 0;
+          result.slip_max = std::max(result.slip_max, contact.slips[k].norm());
+          result.dissipated_energy += contact.dissipated[k];
+          const Tensor<1, dim> traction = node.traction(lambda.begin());
+          const double         normal   = node.normal * traction;
+          for (unsigned int r = 0; r < node.n_multipliers; ++r)
+            force -= (traction[r] - normal * node.normal[r]) * node.area /
+                     node.areas[r] * node.forces[r];
+          ++k;
+        }
+      result.stick    = Utilities::MPI::sum(result.stick, comm);
+      result.slip     = Utilities::MPI::sum(result.slip, comm);
+      result.slip_max = Utilities::MPI::max(result.slip_max, comm);
+      result.dissipated_energy =
+        Utilities::MPI::sum(result.dissipated_energy, comm);
+      result.force = components(Utilities::MPI::sum(force, comm));
+      return result;
+    }
+
+    /// By owned multiplier: @p value(node, its number, its multiplier's) at the
+    /// nodes of interface @p i.
+    template <typename Value>
+    Vector
+    by_multiplier(const StepEvaluation &step,
+                  const unsigned int    i,
+                  const Value          &value)
+    {
+      const Pairing &interfaces = step.discretisation.interfaces();
+      Vector         result(step.solved.solution.multiplier);
+      unsigned int   k = first_node(interfaces, i);
+      for (const ContactNode &node : interfaces.all()[i].contact_nodes)
+        {
+          for (unsigned int r = 0; r < node.n_multipliers; ++r)
+            result.begin()[node.multipliers[r]] = value(node, k, r);
+          ++k;
+        }
+      return result;
+    }
+
+    double
+    pressure_at(const StepEvaluation &step, const ContactNode &node)
+    {
+      return node.pressure(step.solved.solution.multiplier.begin());
+    }
+
+    /// By slave face: the values at the nodes of a scalar that is the same for
+    /// all multipliers of a node.
+    std::vector<std::vector<double>>
+    scalar_at_nodes(const StepEvaluation &step,
+                    const unsigned int    i,
+                    const Vector         &field)
+    {
+      const Coupling &coupling = step.discretisation.interfaces().all()[i];
+      auto            values   = values_by_row(coupling, field, step.run.comm);
+      for (unsigned int s = 0; s < values.size(); ++s)
+        {
+          // of the component that most of the normal is in, since others may be
+          // prescribed at a rim
+          const unsigned int n      = coupling.multipliers->rows()[s].n_nodes();
+          const auto        &normal = coupling.frames[s][0][0];
+          unsigned int       most   = 0;
+          for (unsigned int c = 1; c < dim && values[s].size() > n; ++c)
+            if (std::fabs(normal[c]) > std::fabs(normal[most]))
+              most = c;
+          values[s] = {values[s].begin() + most * n,
+                       values[s].begin() + (most + 1) * n};
+        }
+      return values;
+    }
+
+    ContactSummary
+    contact_summary(const StepEvaluation &step, const unsigned int i)
+    {
+      const MPI_Comm       comm     = step.run.comm;
+      const Coupling      &coupling = step.discretisation.interfaces().all()[i];
+      const auto          &about    = step.run.parameters.output.moments_about;
+      const SolvedContact &contact  = step.solved.contact;
+      const Vector        &lambda   = step.solved.solution.multiplier;
+      const std::vector<double> &gaps = step.gaps(); // collective
+      ContactSummary             result;
+      Tensor<1, dim>             force, moment;
+      double       work = 0., least = std::numeric_limits<double>::max();
+      unsigned int k = first_node(step.discretisation.interfaces(), i);
+      for (const ContactNode &node : coupling.contact_nodes)
+        {
+          const bool active = contact.statuses[k] != NodeStatus::open;
+          least             = std::min(least, gaps[k]);
+          result.undecided += contact.undecided[k] ? 1 : 0;
           ++(active ? result.active : result.inactive);
+          ++k;
           if (!active)
             continue;
-          result.area += of.area;
-          work += pressure * of.area;
-          force -= pressure * of.normal;
-          moment -= pressure * of.moment;
+          result.area += node.area;
+          work += pressure_at(step, node) * node.area;
+          for (unsigned int r = 0; r < node.n_multipliers; ++r)
+            {
+              const double traction = lambda.begin()[node.multipliers[r]];
+              force -= traction * node.forces[r];
+              moment -= traction * node.moments[r];
+            }
         }
-      for (const auto &of_face : values_by_row(coupling, pressures, comm))
+      const Vector pressures =
+        by_multiplier(step, i, [&](const ContactNode &node, auto, auto) {
+          return pressure_at(step, node);
+        });
+      for (const auto &of_face : scalar_at_nodes(step, i, pressures))
         for (const double pressure : of_face)
           result.pressure_max = std::max(result.pressure_max, pressure);
       result.area          = Utilities::MPI::sum(result.area, comm);
@@ -78,6 +178,8 @@ namespace mortise
       for (std::uint64_t *count :
            {&result.active, &result.inactive, &result.undecided})
         *count = Utilities::MPI::sum(*count, comm);
+      if (coupling.law.has_friction())
+        result.friction = friction_summary(step, i);
       return result;
     }
 
@@ -175,10 +277,10 @@ namespace mortise
           {
             const double moved = relative_motion(step, i);
             check_partners(step, i, moved);
-            ContactSummary contact = contact_summary(step, interfaces.all()[i]);
-            const InterfaceParameters &given = interfaces.sides()[i];
-            contact.motion_max               = moved;
-            contact.penetration_max          = step.penetration(i);
+            ContactSummary             contact = contact_summary(step, i);
+            const InterfaceParameters &given   = interfaces.sides()[i];
+            contact.motion_max                 = moved;
+            contact.penetration_max            = step.penetration(i);
             if (contact.undecided > 0)
               log.warning(
                 "interface " + given.name + ": at " +
@@ -206,29 +308,54 @@ namespace mortise
     const Coupling &coupling = step.discretisation.interfaces().all()[i];
     if (!coupling.law.is_one_sided())
       return {};
-    Vector                   status = step.solved.solution.multiplier;
-    const std::vector<bool> &active =
-      *step.discretisation.linear_system().active;
-    std::transform(active.begin(),
-                   active.end(),
-                   status.begin(),
-                   [](const bool is) { return is ? 1. : 0.; });
+    const SolvedContact &contact      = step.solved.contact;
+    const bool           has_friction = coupling.law.has_friction();
+    const auto           status       = [&](const unsigned int k) {
+      return contact.statuses[k] == NodeStatus::open ? 0. :
+                             has_friction && contact.statuses[k] == NodeStatus::stick ? 2. :
+                                                                                        1.;
+    };
     const auto &traces = coupling.interface->slave().traces;
     std::vector<std::vector<double>> by_face(traces.size());
-    for (const Vector *field : {&step.solved.solution.multiplier,
-                                &step.gaps(),
-                                &std::as_const(status)})
-      {
-        const auto values = values_by_row(coupling, *field, step.run.comm);
-        for (unsigned int s = 0; s < traces.size(); ++s)
-          {
-            const auto &functions =
-              face_nodal_basis(traces[s].shape, traces[s].degree).functions;
+    // coefficients from values at nodes, n at a time
+    const auto add = [&](const std::vector<std::vector<double>> &values) {
+      for (unsigned int s = 0; s < traces.size(); ++s)
+        {
+          const auto &functions =
+            face_nodal_basis(traces[s].shape, traces[s].degree).functions;
+          for (auto from = values[s].begin(); from != values[s].end();
+               from += functions.n())
             for (unsigned int k = 0; k < functions.m(); ++k)
               by_face[s].push_back(std::inner_product(
-                values[s].begin(), values[s].end(), &functions(k, 0), 0.));
-          }
-      }
+                from, from + functions.n(), &functions(k, 0), 0.));
+        }
+    };
+    using Node = ContactNode;
+    for (const Vector &field :
+         {by_multiplier(step,
+                        i,
+                        [&](const Node &node, auto, auto) {
+                          return pressure_at(step, node);
+                        }),
+          by_multiplier(step,
+                        i,
+                        [&](const Node &, const unsigned int k, auto) {
+                          return step.gaps()[k];
+                        }),
+          by_multiplier(step, i, [&](const Node &, const unsigned int k, auto) {
+            return status(k);
+          })})
+      add(scalar_at_nodes(step, i, field));
+    if (has_friction)
+      add(values_by_row(coupling,
+                        by_multiplier(step,
+                                      i,
+                                      [&](const Node &,
+                                          const unsigned int k,
+                                          const unsigned int r) {
+                                        return contact.slips[k][r];
+                                      }),
+                        step.run.comm));
     return by_face;
   }
 } // namespace mortise

@@ -93,7 +93,7 @@ namespace mortise
                                  const Vector      &lambda) const
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
-    discretisation.linear_system().forces().Tvmult_add_free(
+    discretisation.linear_system().constraint.Tvmult_add_free(
       result, part_of(discretisation, lambda, i));
     return result;
   }
@@ -102,7 +102,7 @@ namespace mortise
   DirichletBoundaries::multiplier_forces(const Vector &lambda) const
   {
     LevelVector<double> result = zero_at_nodes(discretisation);
-    discretisation.linear_system().forces().Tvmult_add_free(result, lambda);
+    discretisation.linear_system().constraint.Tvmult_add_free(result, lambda);
     for_each_side(discretisation, [&](const unsigned int i, const auto &side) {
       if (const auto at_side = prescribed_by_side(side))
         {
@@ -118,7 +118,7 @@ namespace mortise
   DirichletBoundaries::constraint(const LevelVector<double> &u,
                                   Vector                    &multiplier) const
   {
-    const CouplingMatrix &B = discretisation.linear_system().forces();
+    const CouplingMatrix &B = discretisation.linear_system().constraint;
     B.vmult_free(multiplier, u);
     for_each_side(discretisation, [&](const unsigned int i, const auto &side) {
       if (auto at_side = prescribed_by_side(side))

@@ -51,11 +51,12 @@ namespace mortise
                 [&] { return on_all_faces(*this, multiplier_on_faces); });
   }
 
-  const Vector &
+  const std::vector<double> &
   StepEvaluation::gaps() const
   {
     return once(all_gaps, [&] {
-      return discretisation.gaps(solved.load, solved.solution);
+      return discretisation.gaps(
+        discretisation.weighted_gaps(solved.load, solved.solution));
     });
   }
 
@@ -93,10 +94,14 @@ namespace mortise
   StepEvaluation::evaluation_of(const unsigned int i) const
   {
     return once(of_points[i], [&] {
-      return evaluate_interface(discretisation.interfaces().all()[i],
+      const Pairing &interfaces = discretisation.interfaces();
+      return evaluate_interface(interfaces.all()[i],
                                 traces(),
                                 tractions()[i],
                                 offset(i),
+                                interfaces.all()[i].law.has_friction() ?
+                                  solved.data.friction(interfaces.sides()[i]) :
+                                  BoundOfFriction(),
                                 run.comm);
     });
   }

@@ -63,7 +63,7 @@ namespace mortise
       return;
     const auto scope = run.timers.scope("coupling");
     system.active.reset();
-    system.force_rows.reset();
+    system.directions.reset();
     interface_summaries.clear();
     if (system.owned_multiplier.size() > 0)
       {
@@ -176,10 +176,10 @@ namespace mortise
         add_offset(pairing->all()[i], offset, load.rhs.multiplier);
     for (const Coupling &coupling : pairing->all())
       if (coupling.law.has_mesh_gap)
-        for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
-          load.rhs.multiplier
-            .begin()[coupling.multipliers->range().first + k] +=
-            coupling.normal_multipliers[k].gap;
+        for (const ContactNode &node : coupling.contact_nodes)
+          for (unsigned int r = 0; r < node.n_multipliers; ++r)
+            load.rhs.multiplier.begin()[node.multipliers[r]] +=
+              node.areas[r] * node.gap * node.normal[r];
     for (const FreePressure &free : free_pressures)
       {
         if (const double flux = free.enclosure.flux(load.rhs); flux > 0.01)

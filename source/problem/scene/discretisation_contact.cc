@@ -1,35 +1,115 @@
 // Contact of a Discretisation.
 #include <mortise/problem/scene/discretisation.h>
 
+#include <map>
 #include <numeric>
+#include <utility>
 
 namespace mortise
 {
   using namespace dealii;
 
-  std::vector<bool>
-  Discretisation::one_sided() const
+  namespace
   {
-    std::vector<bool> result;
-    for (const Coupling &coupling : pairing->all())
-      result.resize(coupling.multipliers->range().end(),
-                    coupling.law.is_one_sided());
-    return result;
+    /// Q R by owned row, where R has the rows of this rank.
+    SparseMatrix
+    product(const SparseMatrix &Q, const SparseMatrix &R)
+    {
+      SparseMatrix::CompressedRows rows;
+      for (unsigned int i = 0; i < Q.n_rows(); ++i)
+        {
+          std::map<SparseMatrix::Index, double> sums;
+          const auto                            turned = Q.row(i);
+          for (unsigned int k = 0; k < turned.length; ++k)
+            {
+              const auto row = R.row(
+                R.rows().index_within_set(Q.global_column(turned.columns[k])));
+              for (unsigned int l = 0; l < row.length; ++l)
+                sums[R.global_column(row.columns[l])] +=
+                  turned.values[k] * row.values[l];
+            }
+          for (const auto &[column, value] : sums)
+            {
+              rows.columns.push_back(column);
+              rows.values.push_back(value);
+            }
+          rows.begin.push_back(rows.columns.size());
+        }
+      return SparseMatrix(Q.rows(), R.owned_unknowns(), Q.communicator(), rows);
+    }
+  } // namespace
+
+  void
+  Discretisation::select(const std::vector<bool>    &active,
+                         SparseMatrix              &&turn,
+                         SparseMatrix              &&inverse,
+                         std::optional<SparseMatrix> turn_of_forces,
+                         const std::vector<double>  &compliance)
+  {
+    const auto turned = [&](const SparseMatrix &Q) {
+      const CouplingMatrix &B = system.constraint;
+      return B.with_frames(B.has_frames() ? product(Q, B.frames()) :
+                                            SparseMatrix(Q));
+    };
+    MultiplierDirections directions;
+    directions.constraint = turned(turn);
+    if (turn_of_forces)
+      directions.forces = turned(*turn_of_forces);
+    directions.turn           = std::move(turn);
+    directions.inverse        = std::move(inverse);
+    directions.turn_of_forces = std::move(turn_of_forces);
+
+    const SparseMatrix              &springs = system.spring_compliance;
+    std::vector<SparseMatrix::Entry> entries;
+    for (unsigned int i = 0; i < springs.n_rows() && springs.m() > 0; ++i)
+      {
+        const auto row = springs.row(i);
+        for (unsigned int k = 0; k < row.length; ++k)
+          entries.push_back({springs.global_row(i),
+                             springs.global_column(row.columns[k]),
+                             row.values[k]});
+      }
+    for (unsigned int i = 0; i < compliance.size(); ++i)
+      if (compliance[i] > 0.)
+        {
+          const auto index = system.owned_multiplier.nth_index_in_set(i);
+          entries.push_back({index, index, compliance[i]});
+        }
+    if (Utilities::MPI::max(entries.empty() ? 0 : 1, run.comm) == 1)
+      directions.compliance = SparseMatrix(system.owned_multiplier,
+                                           system.owned_multiplier,
+                                           run.comm,
+                                           entries);
+    system.directions = std::move(directions);
+    system.active     = active;
+  }
+
+  void
+  Discretisation::update_penalties(const std::vector<NodeStatus> &statuses)
+  {
+    pairing->select(statuses);
+    system.bulk->update_penalties(pairing->all());
   }
 
   Vector
-  Discretisation::gaps(const SceneLoad &load, const SystemVector &x) const
+  Discretisation::weighted_gaps(const SceneLoad    &load,
+                                const SystemVector &x) const
   {
     if (system.owned_multiplier.size() == 0)
       return {}; // every displacement of both sides is prescribed
     Vector result(system.owned_multiplier, run.comm), moved(result);
-    system.constraint.vmult(moved, x.displacement); // of inactive ones, too
+    system.constraint.vmult(moved, x.displacement);
     result = load.rhs.multiplier;
     result -= moved;
-    for (const Coupling &coupling : pairing->all())
-      for (unsigned int k = 0; k < coupling.normal_multipliers.size(); ++k)
-        result.begin()[coupling.multipliers->range().first + k] /=
-          coupling.normal_multipliers[k].area;
+    return result;
+  }
+
+  std::vector<double>
+  Discretisation::gaps(const Vector &weighted) const
+  {
+    std::vector<double> result;
+    for (const ContactNode *node : pairing->contact_nodes())
+      result.push_back(node->normal * node->mean(weighted.begin()));
     return result;
   }
 
@@ -45,12 +125,5 @@ namespace mortise
         return std::inner_product(row.begin(), row.end(), motion.begin(), 0.);
       });
     return mortise::system_vector(spaces.fields, system, {}, moved);
-  }
-
-  void
-  Discretisation::update_coarse_active_set()
-  {
-    pairing->select(*system.active);
-    system.bulk->update_penalties(pairing->all());
   }
 } // namespace mortise

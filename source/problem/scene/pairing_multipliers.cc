@@ -2,6 +2,7 @@
 
 #include <mortise/base/error.h>
 #include <mortise/mortar/interface_order.h>
+#include <mortise/mortar/kinematic_normals.h>
 #include <mortise/mortar/slave_frames.h>
 #include <mortise/problem/scene/pairing.h>
 #include <mortise/problem/support/rigid_motions.h>
@@ -238,21 +239,21 @@ namespace mortise
     if (have_contact())
       {
         supports = std::move(ties);
-        set_normal_multipliers();
+        set_contact_nodes();
       }
   }
 
   void
-  Pairing::set_normal_multipliers()
+  Pairing::set_contact_nodes()
   {
     std::string nowhere;
     for (Coupling &coupling : couplings)
       if (coupling.law.is_one_sided())
         {
-          coupling.normal_multipliers =
-            normal_multipliers(coupling, owned, run.comm);
-          for (const NormalMultiplier &multiplier : coupling.normal_multipliers)
-            if (!(multiplier.area > 0.))
+          coupling.contact_nodes =
+            mortise::contact_nodes(coupling, owned, run.comm);
+          for (const ContactNode &node : coupling.contact_nodes)
+            if (!(node.area > 0.))
               nowhere = coupling.interface->name();
         }
     throw_if_any(
@@ -264,48 +265,118 @@ namespace mortise
       run.comm);
   }
 
-  std::vector<TieSupport>
-  Pairing::supports_of(const std::vector<bool> &active,
-                       const std::vector<bool> &is_preloaded) const
+  std::vector<const ContactNode *>
+  Pairing::contact_nodes() const
   {
-    auto ties = supports;
+    std::vector<const ContactNode *> result;
+    for (const Coupling &coupling : couplings)
+      for (const ContactNode &node : coupling.contact_nodes)
+        result.push_back(&node);
+    return result;
+  }
+
+  namespace
+  {
+    /// What the multipliers @p all of a coupling, the first of which is
+    /// @p first, hold at @p node. One that slips is held along @p normal and,
+    /// by the force that slips along with it, across its direction.
+    void
+    add_moments(const ContactNode                   &node,
+                const Tensor<1, dim>                &normal,
+                const Friction                      &law,
+                const std::vector<MultiplierMoment> &all,
+                const unsigned int                   first,
+                std::vector<MultiplierMoment>       &moments)
+    {
+      if (law.status == NodeStatus::open)
+        return;
+      const auto along = [&](const Tensor<1, dim> &direction) {
+        MultiplierMoment sum;
+        for (unsigned int r = 0; r < node.n_multipliers; ++r)
+          {
+            const MultiplierMoment &own = all[node.multipliers[r] - first];
+            sum.weight += direction[r] * own.weight;
+            sum.moment += direction[r] * own.moment;
+          }
+        return sum;
+      };
+      if (law.status == NodeStatus::stick)
+        for (unsigned int r = 0; r < node.n_multipliers; ++r)
+          moments.push_back(all[node.multipliers[r] - first]);
+      else
+        moments.push_back(along(normal));
+      if (law.status == NodeStatus::slip && node.n_multipliers == dim &&
+          law.bound > 0.)
+        moments.push_back(along(cross_product_3d(normal, law.direction)));
+    }
+  } // namespace
+
+  std::vector<TieSupport>
+  Pairing::supports_of(const std::vector<Friction> &laws,
+                       const std::vector<bool>     &is_preloaded) const
+  {
+    auto         ties   = supports;
+    unsigned int number = 0;
     for (unsigned int i = 0; i < ties.size(); ++i)
       {
         TieSupport &tie = ties[i];
         if (!is_preloaded[i])
           tie.released.reset();
-        std::vector<MultiplierMoment> active_multipliers;
-        for (unsigned int k = 0; k < tie.multipliers.size(); ++k)
-          if (active[couplings[i].multipliers->range().first + k])
-            active_multipliers.push_back(tie.multipliers[k]);
-        tie.multipliers = std::move(active_multipliers);
+        if (!couplings[i].law.is_one_sided())
+          continue;
+        std::vector<MultiplierMoment>   moments;
+        bool                            sticks = false;
+        const std::vector<ContactNode> &nodes  = couplings[i].contact_nodes;
+        std::vector<Tensor<1, dim>>     normals;
+        if (couplings[i].law.has_friction())
+          normals = kinematic_normals(couplings[i], owned, run.comm);
+        for (unsigned int k = 0; k < nodes.size(); ++k)
+          {
+            const Friction &law = laws[number++];
+            sticks              = sticks || law.status == NodeStatus::stick;
+            add_moments(nodes[k],
+                        normals.empty() ? nodes[k].normal : normals[k],
+                        law,
+                        tie.multipliers,
+                        couplings[i].multipliers->range().first,
+                        moments);
+          }
+        tie.multipliers = std::move(moments);
+        if (Utilities::MPI::max(sticks ? 1 : 0, run.comm) == 0)
+          tie.constrained = ConstrainedDirections::normal;
       }
     return ties;
   }
 
   void
-  Pairing::check_no_free_motion(const std::vector<bool> &active,
-                                const std::vector<bool> &is_preloaded) const
+  Pairing::check_no_free_motion(const std::vector<Friction> &laws,
+                                const std::vector<bool>     &is_preloaded) const
   {
     check_rigid_motions(spaces.bodies,
                         spaces.dirichlet,
-                        supports_of(active, is_preloaded));
+                        supports_of(laws, is_preloaded));
   }
 
   FreeMotions
-  Pairing::free_motions(const std::vector<bool> &active,
-                        const std::vector<bool> &is_preloaded) const
+  Pairing::free_motions(const std::vector<Friction> &laws,
+                        const std::vector<bool>     &is_preloaded) const
   {
     return find_free_motions(spaces.bodies,
                              spaces.dirichlet,
-                             supports_of(active, is_preloaded));
+                             supports_of(laws, is_preloaded));
   }
 
   void
-  Pairing::select(const std::vector<bool> &active)
+  Pairing::select(const std::vector<NodeStatus> &statuses)
   {
+    auto next = statuses.begin();
     for (Coupling &coupling : couplings)
-      select_multipliers(active, owned, run.comm, coupling);
+      if (coupling.law.is_one_sided())
+        {
+          const auto end = next + coupling.contact_nodes.size();
+          select_nodes({next, end}, owned, run.comm, coupling);
+          next = end;
+        }
   }
 
   std::string

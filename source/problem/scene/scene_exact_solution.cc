@@ -95,7 +95,7 @@ namespace mortise
           LameSolution::Layer &outer = a.inner_radius < b.inner_radius ? b : a;
           outer.offset_inside        = constant_along(
             parameters, time, interface, "Offset", interface.offset);
-          outer.contact_inside = interface.law == Law::contact;
+          outer.contact_inside = is_one_sided(interface.law);
           if (interface.normal_stiffness)
             outer.compliance_inside =
               1. / constant_along(parameters,

@@ -242,12 +242,8 @@ namespace mortise
           visit_row(k, B, local, Numbering::displacement, 1., false);
           visit_row(k, forces, local, Numbering::displacement, 1., true);
           if (system.has_springs())
-            visit_row(k,
-                      system.spring_compliance,
-                      local,
-                      Numbering::multiplier,
-                      -1.,
-                      false);
+            visit_row(
+              k, system.compliance(), local, Numbering::multiplier, -1., false);
         }
     }
   } // namespace
@@ -259,9 +255,11 @@ namespace mortise
   {
     const BulkSystem  &bulk = *system.bulk;
     const bool         tied = system.owned_multiplier.size() > 0;
-    const SparseMatrix B = tied ? system.constraint.expanded() : SparseMatrix();
-    const SparseMatrix other_forces =
-      system.is_symmetric() ? SparseMatrix() : system.forces().expanded();
+    const SparseMatrix B =
+      tied ? system.directed_constraint().expanded() : SparseMatrix();
+    const SparseMatrix              other_forces = system.is_symmetric() ?
+                                                     SparseMatrix() :
+                                                     system.directed_forces().expanded();
     CellIndices                     cells(bulk, numbering);
     const AffineConstraints<double> constraints =
       monolithic_constraints(bulk, numbering, relevant_rows(cells, numbering));

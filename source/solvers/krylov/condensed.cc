@@ -1,5 +1,6 @@
 // See condensed.h.
 #include <mortise/solvers/krylov/condensed.h>
+#include <mortise/solvers/krylov/saddle_point.h>
 
 #include <algorithm>
 #include <cmath>
@@ -190,12 +191,21 @@ namespace mortise
     return preconditioner->update_interfaces();
   }
 
+  bool
+  CondensedSolver::set_up_directions()
+  {
+    return preconditioner->update_directions();
+  }
+
   void
   CondensedSolver::run(const SystemVector &rhs,
                        SystemVector       &x,
                        const bool          is_zero,
                        SolveReport        &report)
   {
+    if (!system.is_symmetric())
+      return solve_saddle_point(
+        system, *residual, *preconditioner, nullptr, options, rhs, x, report);
     ProjectedConjugateGradients solver(
       system, *residual, *preconditioner, rhs, options);
     if (!is_zero)

@@ -106,22 +106,16 @@ namespace mortise
     class BlockPreconditioner
     {
     public:
-      BlockPreconditioner(const BlockSystem    &system,
-                          const ScaledOperator &scaling,
-                          const SolverOptions  &options)
+      BlockPreconditioner(const BlockSystem            &system,
+                          const ScaledOperator         &scaling,
+                          const DegreeMultigrid        &bulk,
+                          const PressurePreconditioner *pressure)
         : system(system)
         , scaling(scaling)
-        , bulk(system, options.max_gathered)
-        , valid(bulk.is_valid())
-      {
-        if (valid)
-          projector = bulk.projector();
-        if (valid && system.mixed())
-          {
-            pressure = std::make_unique<PressurePreconditioner>(system);
-            valid    = pressure->is_valid();
-          }
-      }
+        , bulk(bulk)
+        , projector(bulk.projector())
+        , pressure(pressure)
+      {}
 
       void
       vmult(BlockVector &z, const BlockVector &r) const
@@ -173,35 +167,6 @@ namespace mortise
         return energy;
       }
 
-      bool
-      update_active()
-      {
-        return valid = bulk.update_active();
-      }
-
-      bool
-      update_interfaces()
-      {
-        scratch   = BlockVector(); // of as many multipliers as before
-        valid     = bulk.update_interfaces();
-        projector = valid ? bulk.projector() : nullptr;
-        return valid;
-      }
-
-      std::string
-      description() const
-      {
-        return "block factorisation: " + bulk.description() +
-               (pressure ? "; " + pressure->description() : "") +
-               (projector ? "; interface Schur complement factorised" : "");
-      }
-
-      bool
-      is_valid() const
-      {
-        return valid;
-      }
-
     private:
       /// S lambda
       Vector
@@ -214,13 +179,12 @@ namespace mortise
         return result;
       }
 
-      const BlockSystem                      &system;
-      const ScaledOperator                   &scaling;
-      DegreeMultigrid                         bulk;
-      const ConstraintProjector              *projector = nullptr;
-      std::unique_ptr<PressurePreconditioner> pressure;
-      bool                                    valid;
-      mutable BlockVector                     scratch;
+      const BlockSystem            &system;
+      const ScaledOperator         &scaling;
+      const DegreeMultigrid        &bulk;
+      const ConstraintProjector    *projector; ///< null without multipliers
+      const PressurePreconditioner *pressure;  ///< likewise pressures
+      mutable BlockVector           scratch;
     };
 
     /// That of bodies and springs and p . P p, what error_energy() is to be
@@ -237,66 +201,103 @@ namespace mortise
         }
       return energy;
     }
-  } // namespace
-
-  struct SaddlePointSolver::Parts
-  {
-    Parts(const BlockSystem    &system,
-          const ScaledResidual &residual,
-          const SolverOptions  &options)
-      : matrix(std::in_place, system, residual)
-      , preconditioner(system, *matrix, options)
-    {}
 
     /// One call of GMRES for the scaled residual @p r, until it is @p goal; adds
     /// the iterations to @p report.
     BlockVector
-    iterate(const BlockVector   &r,
-            const double         goal,
-            const double         rhs_norm,
-            const SolverOptions &options,
-            SolveReport         &report) const;
+    iterate(const ScaledOperator      &matrix,
+            const BlockPreconditioner &preconditioner,
+            const BlockVector         &r,
+            const double               goal,
+            const double               rhs_norm,
+            const SolverOptions       &options,
+            SolveReport               &report)
+    {
+      constexpr unsigned int max_basis = 60;
+      BlockVector            x(r);
+      x = 0.;
+      SolverControl control(options.max_iterations - report.iterations,
+                            goal,
+                            false,
+                            false);
+      const auto    note = [&](const unsigned int iteration,
+                            const double       value,
+                            const BlockVector &) {
+        if (iteration > 0 && options.monitor)
+          options.monitor(report.iterations + iteration, value / rhs_norm);
+        return SolverControl::success;
+      };
+      const auto run = [&](auto &&solver) {
+        solver.connect(note);
+        try
+          {
+            solver.solve(matrix, x, r, preconditioner);
+          }
+        catch (const SolverControl::NoConvergence &)
+          {}
+      };
+      // multigrid in single precision is linear to seven digits only
+      using FGMRES = SolverFGMRES<BlockVector>;
+      run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
+      report.iterations += control.last_step();
+      x.scale(matrix.weight);
+      return x;
+    }
+  } // namespace
 
-    std::optional<ScaledOperator> matrix;
-    BlockPreconditioner           preconditioner; ///< refers to the matrix
-  };
-
-  BlockVector
-  SaddlePointSolver::Parts::iterate(const BlockVector   &r,
-                                    const double         goal,
-                                    const double         rhs_norm,
-                                    const SolverOptions &options,
-                                    SolveReport         &report) const
+  void
+  solve_saddle_point(const BlockSystem            &system,
+                     const ScaledResidual         &residual,
+                     const DegreeMultigrid        &bulk,
+                     const PressurePreconditioner *pressure,
+                     const SolverOptions          &options,
+                     const SystemVector           &rhs,
+                     SystemVector                 &solution,
+                     SolveReport                  &report)
   {
-    constexpr unsigned int max_basis = 60;
-    BlockVector            x(r);
-    x = 0.;
-    SolverControl control(options.max_iterations - report.iterations,
-                          goal,
-                          false,
-                          false);
-    const auto    note = [&](const unsigned int iteration,
-                          const double       value,
-                          const BlockVector &) {
-      if (iteration > 0 && options.monitor)
-        options.monitor(report.iterations + iteration, value / rhs_norm);
-      return SolverControl::success;
+    const ScaledOperator      matrix(system, residual);
+    const BlockPreconditioner preconditioner(system, matrix, bulk, pressure);
+    const double              rhs_norm = residual.norm(rhs);
+    const double              target   = options.tolerance * rhs_norm;
+    SystemVector              all_r    = system.zero_vector();
+    residual.compute(rhs, solution, all_r);
+    double     reached = residual.norm(all_r), goal = 0.9 * target;
+    const auto accurate = [&] {
+      // beside pressures the residual does not say less than the energy
+      const double energy_tolerance =
+        system.mixed() ? options.tolerance : options.energy_tolerance();
+      return reached <= target &&
+             (!system.is_symmetric() ||
+              preconditioner.error_energy(all_r) <=
+                energy_tolerance * energy_tolerance *
+                  std::max(energy_of(solution, system),
+                           residual.least_energy(rhs_norm)));
     };
-    const auto run = [&](auto &&solver) {
-      solver.connect(note);
-      try
-        {
-          solver.solve(*matrix, x, r, preconditioner);
-        }
-      catch (const SolverControl::NoConvergence &)
-        {}
-    };
-    // multigrid in single precision is linear to seven digits only
-    using FGMRES = SolverFGMRES<BlockVector>;
-    run(FGMRES(control, FGMRES::AdditionalData(max_basis)));
-    report.iterations += control.last_step();
-    x.scale(matrix->weight);
-    return x;
+    // Again from what was reached: rounding makes the recursive residual drift
+    // from the true one, and the energy of the error is only looked at here.
+    // What is no number stays none.
+    for (unsigned int start = 0;
+         start < 5 && std::isfinite(reached) && !accurate() &&
+         report.iterations < options.max_iterations;
+         ++start)
+      {
+        BlockVector r = as_blocks(all_r);
+        r.scale(matrix.weight);
+        add(
+          solution,
+          iterate(matrix, preconditioner, r, goal, rhs_norm, options, report));
+        residual.compute(rhs, solution, all_r);
+        reached = residual.norm(all_r);
+        goal    = std::min(goal, 0.1 * reached);
+      }
+    residual.assess(
+      {rhs, solution, all_r},
+      options.tolerance,
+      [&] {
+        return std::sqrt(preconditioner.error_energy(all_r) /
+                         energy_of(solution, system));
+      },
+      report);
   }
 
   SaddlePointSolver::SaddlePointSolver(const BlockSystem   &system,
@@ -309,24 +310,41 @@ namespace mortise
   bool
   SaddlePointSolver::set_up()
   {
-    parts       = std::make_unique<Parts>(system, *residual, options);
-    description = parts->preconditioner.description();
-    return parts->preconditioner.is_valid();
+    bulk = std::make_unique<DegreeMultigrid>(system, options.max_gathered);
+    if (system.mixed())
+      pressure = std::make_unique<PressurePreconditioner>(system);
+    describe();
+    return bulk->is_valid() && (!pressure || pressure->is_valid());
   }
 
   bool
   SaddlePointSolver::set_up_active()
   {
-    return parts->preconditioner.update_active();
+    return bulk->update_active();
   }
 
   bool
   SaddlePointSolver::set_up_interfaces()
   {
-    parts->matrix.emplace(system, *residual);
-    const bool result = parts->preconditioner.update_interfaces();
-    description       = parts->preconditioner.description();
+    const bool result = bulk->update_interfaces();
+    describe();
     return result;
+  }
+
+  bool
+  SaddlePointSolver::set_up_directions()
+  {
+    return bulk->update_directions();
+  }
+
+  void
+  SaddlePointSolver::describe()
+  {
+    description = "block factorisation: " + bulk->description() +
+                  (pressure ? "; " + pressure->description() : "") +
+                  (bulk->projector() != nullptr ?
+                     "; interface Schur complement factorised" :
+                     "");
   }
 
   void
@@ -335,44 +353,7 @@ namespace mortise
                          bool /*is_zero*/,
                          SolveReport &report)
   {
-    const BlockPreconditioner &preconditioner = parts->preconditioner;
-    const double               rhs_norm       = residual->norm(rhs);
-    const double               target         = options.tolerance * rhs_norm;
-    SystemVector               all_r          = system.zero_vector();
-    residual->compute(rhs, solution, all_r);
-    double     reached = residual->norm(all_r), goal = 0.9 * target;
-    const auto accurate = [&] {
-      // beside pressures the residual does not say less than the energy
-      const double energy_tolerance =
-        system.mixed() ? options.tolerance : options.energy_tolerance();
-      return reached <= target &&
-             preconditioner.error_energy(all_r) <=
-               energy_tolerance * energy_tolerance *
-                 std::max(energy_of(solution, system),
-                          residual->least_energy(rhs_norm));
-    };
-    // Again from what was reached: rounding makes the recursive residual drift
-    // from the true one, and the energy of the error is only looked at here.
-    // What is no number stays none.
-    for (unsigned int start = 0;
-         start < 5 && std::isfinite(reached) && !accurate() &&
-         report.iterations < options.max_iterations;
-         ++start)
-      {
-        BlockVector r = as_blocks(all_r);
-        r.scale(parts->matrix->weight);
-        add(solution, parts->iterate(r, goal, rhs_norm, options, report));
-        residual->compute(rhs, solution, all_r);
-        reached = residual->norm(all_r);
-        goal    = std::min(goal, 0.1 * reached);
-      }
-    residual->assess(
-      {rhs, solution, all_r},
-      options.tolerance,
-      [&] {
-        return std::sqrt(preconditioner.error_energy(all_r) /
-                         energy_of(solution, system));
-      },
-      report);
+    solve_saddle_point(
+      system, *residual, *bulk, pressure.get(), options, rhs, solution, report);
   }
 } // namespace mortise

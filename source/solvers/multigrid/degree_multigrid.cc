@@ -28,6 +28,9 @@ namespace mortise
     virtual bool
     update_interfaces() = 0;
 
+    virtual bool
+    update_directions() = 0;
+
     std::unique_ptr<CouplingProduct<float>>     product;
     std::unique_ptr<ApproximateSchurComplement> schur;
     std::unique_ptr<ConstraintProjector>        projector;
@@ -61,10 +64,10 @@ namespace mortise
     {
       if (system.owned_multiplier.size() == 0)
         return {};
-      return find_constraint_penalties(system.constraint,
+      return find_constraint_penalties(system.directed_constraint(),
                                        system.bulk->node_diagonal(),
                                        system.has_springs() ?
-                                         system.spring_compliance.diagonal() :
+                                         system.compliance().diagonal() :
                                          std::vector<double>(),
                                        system.active);
     }
@@ -120,7 +123,7 @@ namespace mortise
     {
       if (system.owned_multiplier.size() == 0)
         return;
-      const RowsByEntity rows(system.constraint);
+      const RowsByEntity rows(system.directed_constraint());
       product = std::make_unique<CouplingProduct<float>>(system, rows);
       schur   = std::make_unique<ApproximateSchurComplement>(system,
                                                            rows,
@@ -216,6 +219,21 @@ namespace mortise
       return valid = Utilities::MPI::min(valid ? 1 : 0, system.communicator);
     }
 
+    bool
+    update_directions() override
+    {
+      if (!schur)
+        return valid;
+      product->take_frames(system);
+      if (own_product)
+        own_product->take_frames(system);
+      projector->update_directions();
+      carried      = system.has_springs() ?
+                       Vector(system.owned_multiplier, system.communicator) :
+                       Vector();
+      return valid = schur->update_directions();
+    }
+
     std::string
     vertices_description() const override
     {
@@ -278,6 +296,12 @@ namespace mortise
   DegreeMultigrid::update_interfaces()
   {
     return implementation->update_interfaces();
+  }
+
+  bool
+  DegreeMultigrid::update_directions()
+  {
+    return implementation->update_directions();
   }
 
   void

@@ -30,15 +30,28 @@ namespace mortise
       weights.local_element(i) = 1. / weights.local_element(i);
     for (const auto &independent : system.bulk->independent_displacements())
       weights.local_element(independent.index) = 0.;
-    schur = weighted_square(rows, weights);
-    if (system.constraint.has_frames())
-      schur = in_frames(schur, system.constraint.frames());
-    if (system.has_springs())
-      add(schur, system.spring_compliance);
-    if (!system.active)
-      factorise(std::move(schur));
+    by_component = weighted_square(rows, weights);
+    if (system.active)
+      update_directions();
     else
-      update_active();
+      factorise(in_directions(std::move(by_component)));
+  }
+
+  RowsByNode
+  ApproximateSchurComplement::in_directions(RowsByNode C) const
+  {
+    if (const CouplingMatrix &B = system.directed_constraint(); B.has_frames())
+      C = in_frames(C, B.frames());
+    if (system.has_springs())
+      add(C, system.compliance());
+    return C;
+  }
+
+  bool
+  ApproximateSchurComplement::update_directions()
+  {
+    schur = in_directions(by_component);
+    return update_active();
   }
 
   bool
@@ -62,7 +75,7 @@ namespace mortise
       if (system.has_springs())
         {
           Vector opening(to);
-          system.spring_compliance.vmult(opening, from);
+          system.compliance().vmult(opening, from);
           to += opening;
         }
       system.clear_inactive(to);

@@ -18,12 +18,27 @@ namespace mortise
     system.bulk->initialize(force);
     system.bulk->initialize(correction);
     product.initialize(coupled_values);
+    find_springs();
+  }
+
+  void
+  ConstraintProjector::find_springs()
+  {
+    ties.clear();
+    springs.clear();
     for (unsigned int i = 0; i < jump.locally_owned_size(); ++i)
       {
         const bool is_spring =
-          system.has_springs() && system.spring_compliance.row(i).length > 0;
+          system.has_springs() && system.compliance().row(i).length > 0;
         (is_spring ? springs : ties).push_back(i);
       }
+  }
+
+  void
+  ConstraintProjector::update_directions()
+  {
+    product.take_frames(system);
+    find_springs();
   }
 
   void

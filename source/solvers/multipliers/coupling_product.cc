@@ -34,13 +34,18 @@ namespace mortise
   CouplingProduct<Number>::CouplingProduct(const BlockSystem  &system,
                                            const RowsByEntity &rows)
   {
-    if (rows.matrix.has_frames())
-      {
-        frames = &rows.matrix.frames();
-        by_component.resize(rows.matrix.scalar().n_rows());
-      }
+    take_frames(system);
     make_layout(system, rows);
     make_blocks(rows, independent_nodes(system, rows));
+  }
+
+  template <typename Number>
+  void
+  CouplingProduct<Number>::take_frames(const BlockSystem &system)
+  {
+    const CouplingMatrix &B = system.directed_constraint();
+    frames                  = B.has_frames() ? &B.frames() : nullptr;
+    by_component.resize(frames ? B.scalar().n_rows() : 0);
   }
 
   template <typename Number>

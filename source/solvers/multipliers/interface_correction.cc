@@ -58,7 +58,7 @@ namespace mortise
     product.multiply(jump, coupled_values, CoupledNodes::all);
     if (has_springs())
       {
-        system.spring_compliance.vmult(multiplier, carried);
+        system.compliance().vmult(multiplier, carried);
         jump -= multiplier;
       }
     schur.apply_inverse(multiplier, jump);

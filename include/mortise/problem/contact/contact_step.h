@@ -1,10 +1,13 @@
 // One load step of a scene with contact, as Newton's method sees it: an
-// evaluation chooses the active set, a linearisation is the system of that set.
+// evaluation chooses the active set and which of its nodes slip, a
+// linearisation is the system of that set.
 #pragma once
 
 #include <mortise/contact/active_set.h>
 #include <mortise/contact/contact_edge.h>
+#include <mortise/problem/contact/friction_set.h>
 #include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/contact/solved_contact.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/solvers/linear_solver.h>
@@ -22,23 +25,25 @@ namespace mortise
   {
   public:
     /// References must live on. @p start: the first active set, or that of the
-    /// last step, if known. Collective.
-    ContactStep(const RunContext              &run,
-                Discretisation                &discretisation,
-                LinearSolver                  &solver,
-                Preloads                      &preloads,
-                std::optional<ActivePositions> start);
+    /// last step, if known; @p history: of the steps before. Collective.
+    ContactStep(const RunContext                     &run,
+                Discretisation                       &discretisation,
+                LinearSolver                         &solver,
+                Preloads                             &preloads,
+                std::optional<ActivePositions>        start,
+                const std::optional<FrictionHistory> &history = {});
 
-    /// Solve for @p load, of which shortenings of preloads become a part. The
-    /// first set is extrapolated from the last steps; in the first step it is
-    /// that of the constructor, or the closed gaps of the undeformed meshes;
-    /// all multipliers if it leaves a rigid motion free. Before the last set
-    /// linear solves are as loose as the choice of the next set allows. The
-    /// report is that of the last one, its seconds those of all; not converged
-    /// after 1000 sets. Throws InputError with body and motion if contact is
-    /// lost. Collective.
+    /// Solve for @p load, that of @p data, of which shortenings of preloads
+    /// become a part. The first set is extrapolated from the last steps; in the
+    /// first step it is that of the constructor, or the closed gaps of the
+    /// undeformed meshes; all nodes if it leaves a rigid motion free. Before
+    /// the last set linear solves are as loose as the choice of the next set
+    /// allows. The report is that of the last one, its seconds those of all;
+    /// not converged after 1000 sets. Throws InputError with body and motion if
+    /// contact is lost, or friction does not hold a body that nothing else
+    /// does. Collective.
     SolveReport
-    solve(SceneLoad &load, SystemVector &x);
+    solve(const SceneData &data, SceneLoad &load, SystemVector &x);
 
     /// Continue from @p x, an earlier solution for @p load, with the active set
     /// of the constructor. Collective.
@@ -63,12 +68,18 @@ namespace mortise
       return report.converged || !report.linear.converged;
     }
 
-    /// Of the last solve(), by owned multiplier: are pressure and gap zero to
-    /// rounding?
-    const std::vector<bool> &
-    undecided() const
+    /// Nothing without friction. Collective.
+    std::optional<FrictionHistory>
+    friction_history() const;
+
+    /// Of the last solve().
+    SolvedContact
+    solved() const
     {
-      return undecided_multipliers;
+      return {set.undecided(),
+              statuses(),
+              friction.slips(),
+              friction.dissipated()};
     }
 
     /// Of the last solve(), of all sets.
@@ -82,12 +93,12 @@ namespace mortise
     /// The last solved step.
     struct Solved
     {
-      SystemVector      rhs, x;
-      std::vector<bool> active;
+      SystemVector            rhs, x;
+      std::vector<NodeStatus> statuses;
     };
 
     /// Extrapolate @p x to @p load from the last steps; returns the first set
-    /// of the step.
+    /// of the step, and chooses the nodes that slip.
     std::vector<bool>
     predict(const SceneLoad &load, SystemVector &x);
     /// Choose the set that follows from @p x, and how exactly it is to be
@@ -100,19 +111,50 @@ namespace mortise
     solve(SystemVector &x) override;
     SolveReport
     solve_set(unsigned int max_iterations, SystemVector &x);
+    SolveReport
+    solve_with_friction(SystemVector &x);
+    /// Is the next set that opens to be extended?
+    void
+    learn_extension(const ActiveSet::Change &change, bool cycles);
     /// If @p next, which follows from @p x, leaves rigid motions free, move the
     /// bodies along their loads until gaps close. Throws InputError if none
     /// does.
     void
-    catch_bodies(const SystemVector &x, ActiveSet &next) const;
+    catch_bodies(const SystemVector &x, ActiveSet &next);
+    /// Throws InputError if all nodes of @p next that would hold the bodies slip,
+    /// and the loads do more work on their motion than friction can.
+    void
+    check_hold(const std::vector<bool> &next);
+    /// If the nodes of @p next do not hold the bodies, let some of those that
+    /// stuck @p before stick for once more.
+    void
+    hold_bodies(const std::vector<bool> &next, const FrictionSet &before);
+    /// Say once what friction alone holds.
+    void
+    report_held() const;
     /// Keep the solution for the prediction of the next step.
     void
     remember(Solved now);
+    std::vector<NodeStatus>
+    statuses() const
+    {
+      std::vector<NodeStatus> result;
+      for (const Friction &law : friction.laws(set.active()))
+        result.push_back(law.status);
+      return result;
+    }
     /// The free rigid motions in words; empty without.
     std::string
-    free_motions(const std::vector<bool> &active) const;
+    free_motions(const std::vector<Friction> &laws) const;
+    std::vector<double>
+    pressures(const SystemVector &x) const;
     void
-    print(const ActiveSet::Change &change) const;
+    print(const ActiveSet::Change   &change,
+          const FrictionSet         &before,
+          const FrictionSet::Change &of_friction) const;
+    /// Directions in which nodes hold, along the normal and tangentially.
+    std::uint64_t
+    n_holding(const std::vector<NodeStatus> &statuses) const;
     /// Update the penalties of preconditioners to the set.
     void
     show();
@@ -122,9 +164,10 @@ namespace mortise
     LinearSolver       &solver;
     Preloads           &preloads;
     ActiveSet           set;
+    FrictionSet         friction;
     MultiplierPositions positions;
     ContactEdge         edge;
-    std::uint64_t       n_contact; ///< multipliers of contact
+    std::uint64_t       n_contact; ///< nodes of contact
 
     std::optional<ActivePositions> first; ///< active set of the first step
     std::optional<Solved>          last;  ///< with steps
@@ -134,13 +177,18 @@ namespace mortise
       false; ///< did the last two steps have different sets?
     std::unique_ptr<ScaledResidual> scaled; ///< for the product of increments
 
-    SceneLoad        *load = nullptr; ///< of solve()
-    NewtonReport      report;
-    double            tolerance  = 0.; ///< of the next linear solve
-    unsigned int      sets       = 0;
-    unsigned int      iterations = 0; ///< of the last set
-    std::vector<bool> undecided_multipliers;
-    /// Active multipliers of the set in the penalties of coarse levels.
+    SceneLoad   *load = nullptr; ///< of solve()
+    NewtonReport report;
+    double       tolerance = 0.; ///< of the next linear solve, or the last
+    double       reduction =
+      0.; ///< of the residual, with friction; 0: to the tolerance
+    /// Work of friction at most beside that of the loads, see check_hold().
+    std::optional<double> used_strength;
+    std::string           lost; ///< what that says against the present set
+    unsigned int          sets       = 0;
+    unsigned int          iterations = 0; ///< of the last set
+    FrictionIteration     iteration  = FrictionIteration::newton;
+    /// Nodes that hold in the penalties of coarse levels.
     std::optional<std::uint64_t> n_shown;
     bool shows = false; ///< is the next one to be in these?
     bool cold  = true;  ///< is the first set of the step a poor guess?

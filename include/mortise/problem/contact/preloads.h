@@ -61,6 +61,13 @@ namespace mortise
     double
     force(unsigned int j, const SystemVector &x) const;
 
+    /// The system of the solver is another one, whatever its active set.
+    void
+    system_changed()
+    {
+      active.reset();
+    }
+
     /// Take the forces of the time of @p data, and the shortenings of the last solution into
     /// @p load.
     void
@@ -114,7 +121,8 @@ namespace mortise
     std::vector<double>                values;
     std::vector<std::optional<double>> forces; ///< absent: kept shortening
     std::vector<Unit>                  units;
-    std::optional<std::vector<bool>>   active; ///< of the units
-    bool                               have_units = false;
+    /// Of the units; nothing, too, if the system has changed since then.
+    std::optional<std::vector<bool>> active;
+    bool                             have_units = false;
   };
 } // namespace mortise

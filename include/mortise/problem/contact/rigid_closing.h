@@ -9,15 +9,32 @@
 
 namespace mortise
 {
-  /// Move bodies with free rigid motions with the @p active multipliers, by
-  /// owned one, from @p x along their loads and @p preloads until gaps close;
-  /// the multipliers there become active, and the motion continues along free
-  /// directions. Motions without work of the loads or without a gap in their
-  /// way remain free. Collective.
+  /// The free motion that the loads drive, each motion by the force along it;
+  /// zero where they drive none. Collective.
+  SystemVector
+  driven_motion(const Discretisation &discretisation,
+                const Preloads       &preloads,
+                const SceneLoad      &load,
+                const FreeMotions    &free);
+
+  /// Work of the loads, with that of given forces of preloads, on a rigid
+  /// @p motion. Collective.
+  double
+  work_of_loads(const Discretisation &discretisation,
+                const Preloads       &preloads,
+                const SceneLoad      &load,
+                const SystemVector   &motion);
+
+  /// Move bodies with free rigid motions with these @p laws of the nodes of
+  /// contact from @p at along their loads and @p preloads until gaps close; the
+  /// nodes there stick, and the motion continues along free directions. Motions
+  /// without work of the loads or without a gap in their way remain free. On
+  /// return @p at is where bodies are then; returns the closed nodes.
+  /// Collective.
   std::vector<bool>
   close_gaps_rigidly(const Discretisation &discretisation,
                      const Preloads       &preloads,
                      const SceneLoad      &load,
-                     const SystemVector   &x,
-                     std::vector<bool>     active);
+                     std::vector<Friction> laws,
+                     SystemVector         &at);
 } // namespace mortise

@@ -6,6 +6,10 @@
 
 namespace mortise
 {
+  /// May its tangential traction differ from zero?
+  bool
+  has_friction(const InterfaceParameters &interface);
+
   /// InterfaceLaw::stiffness throws InputError where it is not positive.
   InterfaceLaw
   interface_law(const Parameters          &parameters,

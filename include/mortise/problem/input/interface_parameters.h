@@ -31,6 +31,9 @@ namespace mortise
     /// Of a tie: its normal force, and the time until which that is given.
     std::optional<std::string> preload;
     std::optional<double>      preload_until;
+    /// Of contact: coefficients of friction, and the bound of Law = tresca.
+    std::optional<std::string> friction_coefficient,
+      static_friction_coefficient, friction_bound;
     /// Of springs.
     std::optional<std::string> normal_stiffness, tangential_stiffness;
     /// Adaptivity sets its lower bound from the relative motion of the sides.

@@ -96,6 +96,7 @@ namespace mortise
     unsigned int max_iterations   = 1000;
     unsigned int max_gathered     = 30000; ///< "Multipliers on all ranks"
     bool         print_iterations = false;
+    std::string  friction         = "newton"; ///< or "fixed point"
   };
 
   /// Adaptivity with a target error.

@@ -3,6 +3,7 @@
 
 #include <mortise/operators/block_system.h>
 #include <mortise/operators/scene_load.h>
+#include <mortise/problem/contact/solved_contact.h>
 #include <mortise/problem/scene/scene_data.h>
 
 #include <vector>
@@ -14,9 +15,7 @@ namespace mortise
     const SceneData    &data;
     const SceneLoad    &load;
     const SystemVector &solution;
-    /// By owned multiplier: are pressure and gap zero to rounding? Empty
-    /// without contact.
-    const std::vector<bool> undecided;
+    const SolvedContact contact;
     /// By interface, the shortening of its preload, a length.
     const std::vector<double> shortenings;
   };

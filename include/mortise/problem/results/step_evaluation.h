@@ -45,8 +45,8 @@ namespace mortise
     const OnFaces &
     tractions() const;
 
-    /// See Discretisation::gaps().
-    const Vector &
+    /// By owned node of contact, a length, see Discretisation::gaps().
+    const std::vector<double> &
     gaps() const;
 
     const BoundaryForces &
@@ -69,7 +69,7 @@ namespace mortise
 
     mutable std::optional<std::vector<BodySolution>> by_body;
     mutable std::optional<OnFaces>                   coefficients, on_faces;
-    mutable std::optional<Vector>                    all_gaps;
+    mutable std::optional<std::vector<double>>       all_gaps;
     mutable std::optional<TraceDisplacement>         on_traces;
     mutable std::optional<BoundaryForces>            at_boundaries;
     mutable std::vector<std::optional<InterfaceEvaluation>> of_points;

@@ -35,36 +35,39 @@ namespace mortise
     load(const Body &body, const CellFunctionals &functionals) const;
 
     /// Set the @p active multipliers, by owned one; others are zero.
-    /// LinearSolver::update_active() must follow. Collective.
+    /// LinearSolver::update_active() must follow, or update_directions() if
+    /// there were other directions. Collective.
     void
     select(const std::vector<bool> &active)
     {
       system.active = active;
+      system.directions.reset();
     }
 
-    /// Let multipliers act on bodies through R' B_c, where the constraint is R
-    /// B_c, as friction
-    /// does: @p frames is R', see CouplingMatrix. LinearSolver::update() must follow.
-    /// Collective.
+    /// Set the @p active ones of the multipliers in other directions, see
+    /// MultiplierDirections. @p turn: Q; @p inverse: Q^{-T}; @p turn_of_forces:
+    /// Q', or absent; @p compliance: diagonal of S by owned multiplier, added to that of
+    /// springs. LinearSolver::update_directions() must follow. Collective.
     void
-    act_through(SparseMatrix &&frames)
-    {
-      system.force_rows = system.constraint.with_frames(std::move(frames));
-    }
+    select(const std::vector<bool>    &active,
+           SparseMatrix              &&turn,
+           SparseMatrix              &&inverse,
+           std::optional<SparseMatrix> turn_of_forces,
+           const std::vector<double>  &compliance);
 
-    /// Update the penalties of coarse levels to the active set.
-    /// LinearSolver::update() must follow. Collective.
+    /// Update the penalties of coarse levels to the @p statuses of the nodes of
+    /// contact. LinearSolver::update() must follow. Collective.
     void
-    update_coarse_active_set();
+    update_penalties(const std::vector<NodeStatus> &statuses);
 
-    /// By owned multiplier: does it belong to contact?
-    std::vector<bool>
-    one_sided() const;
-
-    /// By owned multiplier of contact: the weighted gap of @p x, a length.
-    /// @p load: of the same time. Collective.
+    /// By owned multiplier: the weighted gap of @p x, a volume; tangential
+    /// components are negative slips. @p load: of the same time. Collective.
     Vector
-    gaps(const SceneLoad &load, const SystemVector &x) const;
+    weighted_gaps(const SceneLoad &load, const SystemVector &x) const;
+
+    /// By owned node of contact, a length, from weighted_gaps().
+    std::vector<double>
+    gaps(const Vector &weighted) const;
 
     /// Motion @p k of @p free as unknowns, exact at vertices and linear between
     /// them. Collective.

@@ -45,23 +45,26 @@ namespace mortise
       return couplings;
     }
 
-    /// Set the @p active multipliers, by owned one, for penalties. Collective.
-    void
-    select(const std::vector<bool> &active);
+    /// By owned node of contact, interface by interface.
+    std::vector<const ContactNode *>
+    contact_nodes() const;
 
-    /// Throws InputError with the bodies that have free rigid motions with the
-    /// @p active multipliers, by owned one. @p is_preloaded, by interface: is
-    /// its normal force given, so that its sides may approach each other?
-    /// Collective.
+    /// Set the @p statuses of contact_nodes() for penalties. Collective.
     void
-    check_no_free_motion(const std::vector<bool> &active,
-                         const std::vector<bool> &is_preloaded) const;
+    select(const std::vector<NodeStatus> &statuses);
 
-    /// Free rigid motions with the @p active multipliers; arguments of
-    /// check_no_free_motion(). Collective.
+    /// Throws InputError with the bodies that have free rigid motions with
+    /// these
+    /// @p laws of contact_nodes(). @p is_preloaded, by interface: is its normal
+    /// force given, so that its sides may approach each other? Collective.
+    void
+    check_no_free_motion(const std::vector<Friction> &laws,
+                         const std::vector<bool>     &is_preloaded) const;
+
+    /// Free rigid motions; arguments of check_no_free_motion(). Collective.
     FreeMotions
-    free_motions(const std::vector<bool> &active,
-                 const std::vector<bool> &is_preloaded) const;
+    free_motions(const std::vector<Friction> &laws,
+                 const std::vector<bool>     &is_preloaded) const;
 
     /// Does an interface have multipliers along normals alone?
     bool
@@ -82,6 +85,16 @@ namespace mortise
                          couplings.end(),
                          [](const Coupling &coupling) {
                            return coupling.law.is_one_sided();
+                         });
+    }
+
+    bool
+    have_friction() const
+    {
+      return std::any_of(couplings.begin(),
+                         couplings.end(),
+                         [](const Coupling &coupling) {
+                           return coupling.law.has_friction();
                          });
     }
 
@@ -156,13 +169,13 @@ namespace mortise
     number_multipliers();
     /// Throws InputError if one has no area. Collective.
     void
-    set_normal_multipliers();
+    set_contact_nodes();
     std::vector<TieSupport>
     tie_supports() const;
-    /// The ties of active multipliers, in scenes with contact.
+    /// The ties of nodes with these @p laws, in scenes with contact.
     std::vector<TieSupport>
-    supports_of(const std::vector<bool> &active,
-                const std::vector<bool> &is_preloaded) const;
+    supports_of(const std::vector<Friction> &laws,
+                const std::vector<bool>     &is_preloaded) const;
     /// Throws InputError if constant tractions are not exact on interface @p i,
     /// although displacements there are free. @p states: of its slave faces.
     void

@@ -4,6 +4,7 @@
 
 #include <mortise/base/field_checks.h>
 #include <mortise/body/boundary_conditions.h>
+#include <mortise/contact/friction.h>
 #include <mortise/material/exact_solution.h>
 #include <mortise/operators/scene_system.h>
 #include <mortise/problem/input/parameters.h>
@@ -60,6 +61,11 @@ namespace mortise
     /// kept.
     std::optional<double>
     preload(const InterfaceParameters &interface) const;
+
+    /// The bound of tangential tractions of @p interface, which has friction.
+    /// Throws InputError where a coefficient is negative.
+    std::function<FrictionBound(const dealii::Point<dim> &)>
+    friction(const InterfaceParameters &interface) const;
 
     /// Prescribed displacements of @p body; a condition without a value is zero at all times.
     std::vector<DirichletCondition>

@@ -16,12 +16,6 @@ namespace mortise
 
   private:
     bool
-    needs_symmetry() const override
-    {
-      return false;
-    }
-
-    bool
     set_up() override;
 
     void

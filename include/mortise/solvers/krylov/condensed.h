@@ -10,7 +10,7 @@ namespace mortise
 {
   /// Preconditioned conjugate gradients on the positive definite system that is
   /// left when the constraint B u = g has been eliminated; lambda is recovered
-  /// at the end.
+  /// at the end. GMRES where the system is not symmetric.
   class CondensedSolver : public LinearSolver
   {
   public:
@@ -24,6 +24,9 @@ namespace mortise
     set_up_active() override;
     bool
     set_up_interfaces() override;
+
+    bool
+    set_up_directions() override;
 
     void
     run(const SystemVector &rhs,

@@ -31,6 +31,11 @@ namespace mortise
     bool
     update_active();
 
+    /// After LinearSolver::update_directions(); false as is_valid().
+    /// Collective.
+    bool
+    update_directions();
+
     /// After LinearSolver::update_interfaces(); false as is_valid().
     /// Collective.
     bool

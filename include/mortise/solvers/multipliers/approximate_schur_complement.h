@@ -34,6 +34,11 @@ namespace mortise
     bool
     update_active();
 
+    /// After LinearSolver::update_directions(), with an active set; false as
+    /// is_valid(). Collective.
+    bool
+    update_directions();
+
     /// False if the multipliers are linearly dependent.
     bool
     is_valid() const
@@ -63,6 +68,10 @@ namespace mortise
     apply_inverse(Vector &y, const Vector &jump) const;
 
   private:
+    /// C from that of the rows by component. Collective.
+    RowsByNode
+    in_directions(RowsByNode C) const;
+
     /// Factorise the @p active rows and columns of C, in single precision if
     /// that is accurate enough. Collective.
     void
@@ -79,7 +88,9 @@ namespace mortise
     const CouplingProduct<float> &product;
     const std::size_t             max_gathered;
     LevelVector<double>           weights;
-    RowsByNode schur; ///< kept once not all multipliers are active
+    /// B_c T B_c^T, of the rows by component, and C in the directions of the
+    /// active set; kept once not all multipliers are active.
+    RowsByNode by_component, schur;
 
     /// (Entry, inverse of the diagonal) of multipliers without off-diagonal
     /// entries in C, unless Schwarz treats all.

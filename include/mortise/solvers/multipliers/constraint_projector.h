@@ -14,10 +14,14 @@ namespace mortise
   class ConstraintProjector
   {
   public:
-    /// @p schur must stay alive. @p rows: of system.constraint. Collective.
+    /// @p schur must stay alive. @p rows: of system.directed_constraint(). Collective.
     ConstraintProjector(const BlockSystem                &system,
                         const RowsByEntity               &rows,
                         const ApproximateSchurComplement &schur);
+
+    /// After LinearSolver::update_directions().
+    void
+    update_directions();
 
     /// Move from @p r to @p lambda the forces that multipliers of ties can
     /// balance: r := P^T r = r - B^T y, lambda += y, y = C^{-1} B T r; y = 0
@@ -43,6 +47,8 @@ namespace mortise
     project(Vector &u, const Vector *g = nullptr) const;
 
   private:
+    void
+    find_springs();
     /// jump = B u.
     void
     apply(const Vector &u) const
@@ -59,7 +65,7 @@ namespace mortise
     const BlockSystem                &system;
     std::vector<unsigned int>         ties, springs; ///< owned multipliers
     const ApproximateSchurComplement &schur;
-    const CouplingProduct<double>     product;
+    CouplingProduct<double>           product;
     mutable LevelVector<double>       coupled_values;
     mutable Vector                    jump, multiplier, force, correction;
   };

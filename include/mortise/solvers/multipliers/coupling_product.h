@@ -25,8 +25,12 @@ namespace mortise
   class CouplingProduct
   {
   public:
-    /// @p rows: of system.constraint. Collective.
+    /// @p rows: of system.directed_constraint(). Collective.
     CouplingProduct(const BlockSystem &system, const RowsByEntity &rows);
+
+    /// Take the frames of the constraint, which alone have changed.
+    void
+    take_frames(const BlockSystem &system);
 
     /// The owned displacements with a column in B of any rank.
     const std::vector<unsigned int> &

@@ -1,0 +1,83 @@
+// The nodes of contact: integrals of their multipliers, for the active set,
+// friction and results.
+#pragma once
+
+#include <deal.II/base/index_set.h>
+#include <deal.II/base/point.h>
+#include <deal.II/base/tensor.h>
+
+#include <mortise/base/types.h>
+#include <mpi.h>
+
+#include <array>
+#include <vector>
+
+namespace mortise
+{
+  struct Coupling;
+
+  /// A node of the slave, or a Bernstein coefficient of its traction. Its
+  /// multipliers are the pressure, or with friction the components of the
+  /// traction that have one; vectors below have an entry for each of them.
+  struct ContactNode
+  {
+    unsigned int n_multipliers = 0; ///< at most dim
+    /// Among the owned ones of the scene.
+    std::array<unsigned int, dim> multipliers{};
+    /// Of unit length; zero where the normal displacement is prescribed. What
+    /// is across it is tangential.
+    dealii::Tensor<1, dim> normal;
+    /// With friction traction() is this times the traction in the frame of the
+    /// node: the mean of the rotations from its normal to those around it.
+    dealii::Tensor<2, dim> mean_rotation;
+    double                 length_of_mean = 1.; ///< of the mean of the normals
+    /// int psi, of the normal; and by multiplier: at a rim a component that is
+    /// prescribed there has the share of the rim in addition.
+    double                  area = 0.;
+    std::array<double, dim> areas{};
+    dealii::Point<dim>      position; ///< int psi x / area
+    /// By multiplier, of its direction d: int psi d, and int psi x cross d
+    /// about the origin.
+    std::array<dealii::Tensor<1, dim>, dim> forces, moments;
+    /// Mean of the mesh gap n . (x_master - x_slave), a length; negative on
+    /// penetration.
+    double gap = 0.;
+    /// Complementarity parameter c, about E / h of the softer side, force per
+    /// volume.
+    double complementarity = 0.;
+
+    /// Of the coefficients @p lambda, by owned multiplier of the scene: the force
+    /// of the node per area.
+    dealii::Tensor<1, dim>
+    traction(const double *lambda) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int r = 0; r < n_multipliers; ++r)
+        result[r] = areas[r] / area * lambda[multipliers[r]];
+      return result;
+    }
+
+    double
+    pressure(const double *lambda) const
+    {
+      return normal * traction(lambda) / length_of_mean;
+    }
+
+    /// The mean of @p weighted, integrals with psi by owned multiplier.
+    dealii::Tensor<1, dim>
+    mean(const double *weighted) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int r = 0; r < n_multipliers; ++r)
+        result[r] = weighted[multipliers[r]] / areas[r];
+      return result;
+    }
+  };
+
+  /// Owned nodes of @p coupling, which is one-sided, in the order of their
+  /// multipliers. Collective.
+  std::vector<ContactNode>
+  contact_nodes(const Coupling         &coupling,
+                const dealii::IndexSet &owned_multiplier,
+                MPI_Comm                comm);
+} // namespace mortise

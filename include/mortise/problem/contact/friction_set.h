@@ -1,0 +1,184 @@
+// Which nodes of contact stick and which slip, and how the linear system of an
+// iterate follows from that.
+#pragma once
+
+#include <mortise/contact/friction_history.h>
+#include <mortise/problem/contact/preloads.h>
+#include <mortise/problem/scene/discretisation.h>
+#include <mortise/problem/scene/scene_data.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace mortise
+{
+  /// How the bound of Coulomb's law follows the pressure.
+  enum class FrictionIteration : unsigned char
+  {
+    newton,     ///< within a linear system, which is not symmetric
+    fixed_point ///< from one symmetric system to the next
+  };
+
+  /// Vectors are by owned node of contact, see Pairing::contact_nodes(); those
+  /// without friction stick once they are closed.
+  class FrictionSet
+  {
+  public:
+    /// References must live on. Collective.
+    FrictionSet(const RunContext &run, Discretisation &discretisation);
+
+    /// Does no interface have friction? Then nothing below does anything.
+    bool
+    empty() const
+    {
+      return !discretisation.interfaces().have_friction();
+    }
+
+    /// Take the bounds of the time of @p data, and begin with the laws of the
+    /// last step.
+    void
+    begin(const SceneData &data);
+
+    /// All closed nodes stick.
+    void
+    stick();
+
+    /// Take the laws of @p other.
+    void
+    restore(const FrictionSet &other)
+    {
+      nodes = other.nodes;
+    }
+
+    struct Change
+    {
+      std::uint64_t slip = 0, stick = 0;
+      /// The largest violation of the law at nodes that slip, beside the
+      /// largest pressure.
+      double error = 0.;
+
+      bool
+      any() const
+      {
+        return slip + stick > 0;
+      }
+    };
+
+    /// The laws that follow from the iterate with the multipliers @p lambda and
+    /// these Discretisation::weighted_gaps(). @p closed: the next active set.
+    /// @p accuracy: beside the largest pressure. Collective.
+    Change
+    advance(const std::vector<bool> &closed,
+            const Vector            &lambda,
+            const Vector            &weighted_gaps,
+            double                   accuracy);
+
+    /// Of those that slip now, but stuck with the laws of @p before, let the one
+    /// that exceeds its bound least stick for once more. False if there is
+    /// none. Collective.
+    bool
+    keep_one(const FrictionSet &before);
+
+    /// Work of friction, at most, on a motion with the constraint residual
+    /// @p motion. Collective.
+    double
+    resistance(const Vector &motion) const;
+
+    /// Along the kinematic normals, lengths, from weighted gaps.
+    std::vector<double>
+    gaps(const Vector &weighted) const
+    {
+      std::vector<double> result;
+      for (const Node &node : nodes)
+        result.push_back(node.kinematic_normal *
+                         node.contact->mean(weighted.begin()));
+      return result;
+    }
+
+    /// With the status of those that are not @p closed.
+    std::vector<Friction>
+    laws(const std::vector<bool> &closed) const;
+
+    /// Set the linear system; returns whether its directions changed, so that
+    /// LinearSolver::update_directions() must follow. Collective.
+    bool
+    select(const std::vector<bool> &closed, FrictionIteration iteration);
+
+    /// Change @p rhs of a load to that of the selected system.
+    void
+    apply(SystemVector &rhs) const;
+
+    /// Add to @p lambda, a solution of that, the tractions that it contains.
+    void
+    complete(Vector &lambda) const;
+
+    /// Slip counts from the state with these weighted gaps on; of the nodes
+    /// @p which, or of all if it is empty, except those that were open then.
+    void
+    set_origin(const Vector            &weighted_gaps,
+               const std::vector<bool> &which = {});
+
+    /// The step has converged.
+    void
+    accept(const std::vector<bool> &closed,
+           const Vector            &lambda,
+           const Vector            &weighted_gaps);
+
+    /// What the next step needs to know.
+    std::vector<FrictionRecord>
+    records(const std::vector<bool> &closed) const;
+
+    /// The inverse of records(); set_origin() must follow.
+    void
+    restore(const std::vector<FrictionRecord> &records);
+
+    /// Sum of the slips of all steps, in the space of the multipliers.
+    const std::vector<dealii::Tensor<1, dim>> &
+    slips() const
+    {
+      return total_slip;
+    }
+
+    /// Energy that all steps have dissipated.
+    const std::vector<double> &
+    dissipated() const
+    {
+      return dissipation;
+    }
+
+  private:
+    struct Node
+    {
+      const ContactNode     *contact;
+      dealii::Tensor<1, dim> kinematic_normal; ///< see kinematic_normals()
+      bool                   has_friction;
+      FrictionBound          bound;
+      Friction               law;
+      dealii::Tensor<1, dim> origin; ///< where slip counts from, a length
+      /// Has the node been closed since then? If not, it has no friction.
+      bool   touched = true;
+      double excess  = 0.; ///< of the last traction over the bound
+    };
+
+    /// Slip since the last step.
+    dealii::Tensor<1, dim>
+    slip(const Node &node, const Vector &weighted_gaps) const;
+    /// Anderson's acceleration of the bounds, which followed from a system with
+    /// the bounds @p before. Source: Walker, Ni (2011). Collective.
+    void
+    accelerate(std::vector<double> before);
+
+    const RunContext                   &run;
+    Discretisation                     &discretisation;
+    std::vector<Node>                   nodes;
+    std::vector<dealii::Tensor<1, dim>> total_slip;
+    std::vector<double>                 dissipation;
+    /// Of the selected system: tractions of nodes that slip, by multiplier.
+    Vector given;
+    /// Bounds of linear systems with the same nodes that slip, and those that
+    /// followed from them; the newest last.
+    std::vector<std::array<std::vector<double>, 2>> bounds;
+    bool turned = false; ///< does the selected system have directions?
+  };
+} // namespace mortise

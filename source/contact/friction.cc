@@ -1,0 +1,43 @@
+// See friction.h.
+#include <mortise/contact/friction.h>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Of a trial traction over the bound: with less a node is held across its
+    /// direction, since linear solvers cannot tell such stiff springs from
+    /// ties.
+    constexpr double least_excess = 1e-6;
+  } // namespace
+
+  Friction
+  next_friction(const Friction      &now,
+                const FrictionBound &bound,
+                const FrictionPoint &at,
+                const double         rounding)
+  {
+    const Tensor<1, 3> trial  = at.traction + at.c * at.slip;
+    const double       size   = trial.norm();
+    const bool         sticks = now.status == NodeStatus::stick;
+    Friction           next;
+    if (sticks ? size <= bound.at_rest(at.pressure) + rounding :
+                 at.c * (at.slip * now.direction) < -rounding)
+      return next;
+    next.status = NodeStatus::slip;
+    next.bound  = bound.of(at.pressure);
+    if (!(next.bound > 0. && size > 0.))
+      {
+        next.bound = 0.;
+        next.error = at.traction.norm();
+        return next;
+      }
+    next.direction      = trial / size;
+    const double excess = (size - next.bound) / next.bound;
+    next.compliance     = excess > least_excess ? excess / at.c : 0.;
+    next.error          = (at.traction - next.bound * next.direction).norm();
+    return next;
+  }
+} // namespace mortise
