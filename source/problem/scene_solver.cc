@@ -46,12 +46,14 @@ namespace mortise
     , run(run)
   {
     if (discretisation.interfaces().have_contact())
-      contact = std::make_unique<ContactStep>(run,
-                                              discretisation,
-                                              *linear_solver,
-                                              preloads,
-                                              last.active_set,
-                                              last.friction);
+      contact = std::make_unique<ContactStep>(
+        run,
+        discretisation,
+        *linear_solver,
+        preloads,
+        last.active_set,
+        // cycles repeat a step, from the unloaded bodies on
+        cycle ? std::nullopt : last.friction);
     // a factorisation gives one of many answers and does not tell
     if (discretisation.choice().method == SolverMethod::direct)
       discretisation.check_multipliers();
