@@ -1,10 +1,8 @@
 // See contact_nodes.h.
 #include <mortise/mortar/contact_nodes.h>
 #include <mortise/mortar/coupling.h>
-#include <mortise/mortar/kinematic_normals.h>
 #include <mortise/mortar/nodal_block.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -26,11 +24,12 @@ namespace mortise
       gap_sum,
       stiffness_sum,
       force_sum,
-      moment_sum   = force_sum + dim,
-      place_sum    = moment_sum + dim,
-      normal_sum   = place_sum + dim,
-      rotation_sum = normal_sum + dim,
-      share_sum    = rotation_sum + dim * dim, ///< of these two
+      moment_sum    = force_sum + dim,
+      place_sum     = moment_sum + dim,
+      kinematic_sum = place_sum + dim,
+      normal_sum    = kinematic_sum + dim,
+      rotation_sum  = normal_sum + dim,
+      share_sum     = rotation_sum + dim * dim, ///< of these two
       n_normal_sums
     };
 
@@ -202,6 +201,8 @@ namespace mortise
                           sums[moment_sum + c](index) += w * about_origin[c];
                           sums[place_sum + c](index) +=
                             w * along * local.position_moment[i][c];
+                          sums[kinematic_sum + c](index) +=
+                            w * own * coupling.frames[s][i][0][c];
                         }
                     });
       if (by_component)
@@ -229,6 +230,28 @@ namespace mortise
       return result;
     }
 
+    /// From entry @p i of the @p sums from @p first on.
+    Tensor<1, dim>
+    vector_of(const std::vector<Vector> &sums,
+              const unsigned int         first,
+              const unsigned int         i)
+    {
+      Tensor<1, dim> result;
+      for (unsigned int c = 0; c < dim; ++c)
+        result[c] = sums[first + c].local_element(i);
+      return result;
+    }
+
+    /// The entries of @p value for the multipliers of @p node.
+    Tensor<1, dim>
+    along_axes(const ContactNode &node, const Tensor<1, dim> &value)
+    {
+      Tensor<1, dim> result;
+      for (unsigned int r = 0; r < node.n_multipliers; ++r)
+        result[r] = value * node.axis(r);
+      return result;
+    }
+
     /// Set the directions of a node with friction from the sums @p all of the
     /// multiplier at @p own, which has no part of a rim.
     void
@@ -236,27 +259,14 @@ namespace mortise
                    const unsigned int         own,
                    ContactNode               &node)
     {
-      std::array<Tensor<1, dim>, dim> axes;
-      for (unsigned int r = 0; r < node.n_multipliers; ++r)
-        axes[r] = node.forces[r] / node.forces[r].norm();
       const double   share = all[share_sum].local_element(own);
-      Tensor<1, dim> normal;
-      Tensor<2, dim> rotation;
+      Tensor<2, dim> rotation; // in space
       for (unsigned int c = 0; c < dim; ++c)
-        {
-          normal[c] = all[normal_sum + c].local_element(own);
-          for (unsigned int d = 0; d < dim; ++d)
-            rotation[c][d] =
-              all[rotation_sum + dim * c + d].local_element(own) / share;
-        }
-      const Tensor<1, dim> mean = rotation * normal / normal.norm();
-      for (unsigned int r = 0; r < node.n_multipliers; ++r)
-        {
-          node.normal[r] = mean * axes[r];
-          for (unsigned int q = 0; q < node.n_multipliers; ++q)
-            node.mean_rotation[r][q] = axes[r] * (rotation * axes[q]);
-        }
-      const double length = node.normal.norm();
+        rotation[c] = vector_of(all, rotation_sum + dim * c, own) / share;
+      const Tensor<1, dim> normal = vector_of(all, normal_sum, own),
+                           mean   = rotation * normal / normal.norm();
+      node.normal                 = along_axes(node, mean);
+      const double length         = node.normal.norm();
       if (length * length < least_free_part)
         {
           node.normal = 0.;
@@ -264,9 +274,29 @@ namespace mortise
         }
       node.normal /= length;
       node.length_of_mean = mean.norm();
-      node.area           = 0.;
+      node.kinematic_normal =
+        along_axes(node, vector_of(all, kinematic_sum, own));
+      node.kinematic_normal /= node.kinematic_normal.norm();
+      node.area = 0.;
       for (unsigned int r = 0; r < node.n_multipliers; ++r)
         node.area += std::pow(node.normal[r], 2) * node.areas[r];
+      // between tangents; the identity along the normal, and for components
+      // that have no multiplier
+      Tensor<2, dim> of_tangents;
+      for (unsigned int c = 0; c < dim; ++c)
+        {
+          Tensor<1, dim> unit, in_space;
+          unit[c]                      = 1.;
+          const Tensor<1, dim> tangent = node.tangential(unit);
+          for (unsigned int r = 0; r < node.n_multipliers; ++r)
+            in_space += tangent[r] * node.axis(r);
+          of_tangents[c] =
+            c < node.n_multipliers ?
+              node.tangential(along_axes(node, rotation * in_space)) +
+                node.normal[c] * node.normal :
+              unit;
+        }
+      node.rotation = transpose(of_tangents);
     }
   } // namespace
 
@@ -282,12 +312,6 @@ namespace mortise
     const auto local = [&](const unsigned int k) {
       return sums[area_sum].get_partitioner()->global_to_local(first + k);
     };
-    const auto tensor = [&](const unsigned int sum, const unsigned int i) {
-      Tensor<1, dim> result;
-      for (unsigned int c = 0; c < dim; ++c)
-        result[c] = sums[sum + c].local_element(i);
-      return result;
-    };
     std::vector<ContactNode> result;
     for (const auto &of_node : multipliers_of_nodes(*coupling.multipliers))
       {
@@ -299,60 +323,22 @@ namespace mortise
             const unsigned int i = local(k), r = node.n_multipliers++;
             node.multipliers[r] = coupling.multipliers->range().first + k;
             node.areas[r]       = sums[area_sum].local_element(i);
-            node.forces[r]      = tensor(force_sum, i);
-            node.moments[r]     = tensor(moment_sum, i);
+            node.forces[r]      = vector_of(sums, force_sum, i);
+            node.moments[r]     = vector_of(sums, moment_sum, i);
             gap[r] = sums[gap_sum].local_element(i) / node.areas[r];
             // others have a part of a rim as well
             if (node.areas[r] < sums[area_sum].local_element(own))
               own = i;
           }
         node.area     = sums[area_sum].local_element(own);
-        node.position = Point<dim>(tensor(place_sum, own) / node.area);
+        node.position = Point<dim>(vector_of(sums, place_sum, own) / node.area);
         node.complementarity =
           sums[stiffness_sum].local_element(own) / node.area;
-        node.normal[0] = 1.;
         if (coupling.law.has_friction())
           set_directions(sums, own, node);
+        else
+          node.normal[0] = node.kinematic_normal[0] = 1.;
         node.gap = node.normal * gap;
-      }
-    return result;
-  }
-
-  std::vector<Tensor<1, dim>>
-  kinematic_normals(const Coupling &coupling,
-                    const IndexSet &owned_multiplier,
-                    const MPI_Comm  comm)
-  {
-    if (owned_multiplier.size() == 0)
-      return {};
-    auto sums = make_sums(dim, coupling, owned_multiplier, comm);
-    for_each_part(coupling,
-                  [&](const unsigned int s,
-                      const unsigned int i,
-                      const Tensor<1, dim> &,
-                      const auto   index,
-                      const double w) {
-                    for (unsigned int c = 0; c < dim; ++c)
-                      sums[c](index) += w * integral(coupling, s, i) *
-                                        coupling.frames[s][i][0][c];
-                  });
-    for (auto &sum : sums)
-      sum.compress(VectorOperation::add);
-    std::vector<Tensor<1, dim>> result;
-    for (const ContactNode &node : coupling.contact_nodes)
-      {
-        // the multiplier that has no part of a rim
-        const unsigned int own =
-          std::min_element(node.areas.begin(),
-                           node.areas.begin() + node.n_multipliers) -
-          node.areas.begin();
-        Tensor<1, dim> mean, normal;
-        for (unsigned int c = 0; c < dim; ++c)
-          mean[c] = sums[c].local_element(node.multipliers[own]);
-        for (unsigned int r = 0; r < node.n_multipliers; ++r)
-          normal[r] = mean * node.forces[r] / node.forces[r].norm();
-        result.push_back(node.normal.norm() > 0. ? normal / normal.norm() :
-                                                   node.normal);
       }
     return result;
   }

@@ -24,12 +24,17 @@ namespace mortise
     unsigned int n_multipliers = 0; ///< at most dim
     /// Among the owned ones of the scene.
     std::array<unsigned int, dim> multipliers{};
-    /// Of unit length; zero where the normal displacement is prescribed. What
-    /// is across it is tangential.
+    /// Along the pressure, of unit length; zero where the normal displacement
+    /// is prescribed. What is across it is tangential.
     dealii::Tensor<1, dim> normal;
-    /// With friction traction() is this times the traction in the frame of the
-    /// node: the mean of the rotations from its normal to those around it.
-    dealii::Tensor<2, dim> mean_rotation;
+    /// Across which a slip along the surface has the mean int psi s, of unit
+    /// length or zero. On curved faces the two differ, since tractions are
+    /// means with other weights.
+    dealii::Tensor<1, dim> kinematic_normal;
+    /// With friction the tangential part of traction() is this times that in
+    /// the frame of the node: a mean of the rotations from its normal to those
+    /// around it.
+    dealii::Tensor<2, dim> rotation;
     double                 length_of_mean = 1.; ///< of the mean of the normals
     /// int psi, of the normal; and by multiplier: at a rim a component that is
     /// prescribed there has the share of the rim in addition.
@@ -45,6 +50,26 @@ namespace mortise
     /// Complementarity parameter c, about E / h of the softer side, force per
     /// volume.
     double complementarity = 0.;
+
+    bool
+    has_normal() const
+    {
+      return normal.norm_square() > 0.;
+    }
+
+    /// The direction of multiplier @p r in space, of unit length.
+    dealii::Tensor<1, dim>
+    axis(const unsigned int r) const
+    {
+      return forces[r] / forces[r].norm();
+    }
+
+    /// What of @p value is across the normal.
+    dealii::Tensor<1, dim>
+    tangential(const dealii::Tensor<1, dim> &value) const
+    {
+      return value - (normal * value) * normal;
+    }
 
     /// Of the coefficients @p lambda, by owned multiplier of the scene: the force
     /// of the node per area.

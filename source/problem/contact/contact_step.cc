@@ -204,7 +204,7 @@ namespace mortise
       1e-10 * std::sqrt(Utilities::MPI::sum(area, run.comm));
     const Vector weighted = discretisation.weighted_gaps(
       load, last ? x : discretisation.linear_system().zero_vector());
-    const std::vector<double> gaps = friction.gaps(weighted);
+    const std::vector<double> gaps = discretisation.gaps(weighted);
     std::vector<bool>         guess(gaps.size());
     if (!last && first)
       guess = first->nearest(positions);
@@ -253,7 +253,7 @@ namespace mortise
     // what a linear solve leaves is no reason to turn
     const double              accuracy = std::max(least_accuracy, tolerance);
     const Vector              weighted = discretisation.weighted_gaps(*load, x);
-    const std::vector<double> gaps     = friction.gaps(weighted);
+    const std::vector<double> gaps     = discretisation.gaps(weighted);
     ActiveSet                 next     = set;
     const ActiveSet::Change   change =
       next.advance(pressures(x),

@@ -4,7 +4,6 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <mortise/base/error.h>
-#include <mortise/mortar/kinematic_normals.h>
 #include <mortise/problem/contact/friction_set.h>
 
 #include <algorithm>
@@ -26,12 +25,6 @@ namespace mortise
     across(const Tensor<1, dim> &normal, const Tensor<1, dim> &value)
     {
       return value - (normal * value) * normal;
-    }
-
-    Tensor<1, dim>
-    tangential(const ContactNode &node, const Tensor<1, dim> &value)
-    {
-      return across(node.normal, value);
     }
 
     /// Orthonormal rows of @p m components: the @p normal, what of @p direction
@@ -62,39 +55,12 @@ namespace mortise
       return rows;
     }
 
-    /// ContactNode::mean_rotation in the tangential plane, the identity along
-    /// the normal.
-    Tensor<2, dim>
-    tangential_rotation(const ContactNode &node)
-    {
-      Tensor<2, dim> result;
-      for (unsigned int c = 0; c < dim; ++c)
-        {
-          Tensor<1, dim> axis;
-          axis[c] = 1.;
-          Tensor<1, dim> column =
-            c < node.n_multipliers ?
-              tangential(node, node.mean_rotation * tangential(node, axis)) +
-                node.normal[c] * node.normal :
-              axis;
-          for (unsigned int d = 0; d < dim; ++d)
-            result[d][c] = column[d];
-        }
-      return result;
-    }
-
     /// The tangential traction in the frame of the node.
     Tensor<1, dim>
     in_frame(const ContactNode &node, const Vector &lambda)
     {
-      return invert(tangential_rotation(node)) *
-             tangential(node, node.traction(lambda.begin()));
-    }
-
-    bool
-    has_normal(const ContactNode &node)
-    {
-      return node.normal.norm_square() > 0.5;
+      return invert(node.rotation) *
+             node.tangential(node.traction(lambda.begin()));
     }
   } // namespace
 
@@ -104,22 +70,12 @@ namespace mortise
     , discretisation(discretisation)
   {
     for (const Coupling &coupling : discretisation.interfaces().all())
-      {
-        std::vector<Tensor<1, dim>> normals;
-        if (coupling.law.has_friction())
-          normals =
-            kinematic_normals(coupling,
-                              discretisation.linear_system().owned_multiplier,
-                              run.comm);
-        for (unsigned int k = 0; k < coupling.contact_nodes.size(); ++k)
-          {
-            nodes.emplace_back();
-            nodes.back().contact      = &coupling.contact_nodes[k];
-            nodes.back().has_friction = coupling.law.has_friction();
-            nodes.back().kinematic_normal =
-              normals.empty() ? coupling.contact_nodes[k].normal : normals[k];
-          }
-      }
+      for (const ContactNode &node : coupling.contact_nodes)
+        {
+          nodes.emplace_back();
+          nodes.back().contact      = &node;
+          nodes.back().has_friction = coupling.law.has_friction();
+        }
     total_slip.resize(nodes.size());
     dissipation.resize(nodes.size());
   }
@@ -162,7 +118,7 @@ namespace mortise
   Tensor<1, dim>
   FrictionSet::slip(const Node &node, const Vector &weighted_gaps) const
   {
-    return across(node.kinematic_normal,
+    return across(node.contact->kinematic_normal,
                   -node.contact->mean(weighted_gaps.begin()) - node.origin);
   }
 
@@ -193,14 +149,14 @@ namespace mortise
           continue;
         const ContactNode &of = *node.contact;
         FrictionPoint      at;
-        if (!has_normal(of))
+        if (!of.has_normal())
           {
             node.law.status = NodeStatus::slip;
             continue;
           }
         at.pressure = of.pressure(lambda.begin());
         at.traction = in_frame(of, lambda);
-        at.slip     = tangential(of, slip(node, weighted_gaps));
+        at.slip     = of.tangential(slip(node, weighted_gaps));
         at.c        = of.complementarity;
         if (!node.touched)
           node.law.status = NodeStatus::slip;
@@ -301,10 +257,10 @@ namespace mortise
       if (node.has_friction && node.law.status == NodeStatus::slip)
         {
           const ContactNode &of = *node.contact;
-          sum += node.law.bound * of.area *
-                 (transpose(tangential_rotation(of)) *
-                  tangential(of, of.mean(motion.begin())))
-                   .norm();
+          sum +=
+            node.law.bound * of.area *
+            (transpose(of.rotation) * of.tangential(of.mean(motion.begin())))
+              .norm();
         }
     return Utilities::MPI::sum(sum, run.comm);
   }
@@ -342,11 +298,9 @@ namespace mortise
       }
 
       /// A node that slips with @p law along the direction @p d of its
-      /// multipliers, where the pressure brings @p along times itself, and that
-      /// keeps the bodies apart along @p kinematic_normal.
+      /// multipliers, where the pressure brings @p along times itself.
       void
       turn_node(const ContactNode    &node,
-                const Tensor<1, dim> &kinematic_normal,
                 const Friction       &law,
                 const Tensor<1, dim> &d,
                 const double          along)
@@ -354,10 +308,11 @@ namespace mortise
         constexpr double   rounding = 1e-12;
         const unsigned int m        = node.n_multipliers;
         const auto         rows     = directions_of(node.normal, m, d),
-                   kinematic_rows   = directions_of(kinematic_normal, m, d);
-        const bool resists          = law.bound > 0.;
-        is_unsymmetric              = is_unsymmetric || along > 0. ||
-                         (kinematic_normal - node.normal).norm() > rounding;
+                   kinematic_rows = directions_of(node.kinematic_normal, m, d);
+        const bool resists        = law.bound > 0.;
+        is_unsymmetric =
+          is_unsymmetric || along > 0. ||
+          (node.kinematic_normal - node.normal).norm() > rounding;
         for (unsigned int r = 0; r < m; ++r)
           {
             const unsigned int at = node.multipliers[r];
@@ -439,7 +394,7 @@ namespace mortise
             continue;
           }
         slips = true;
-        if (!has_normal(of))
+        if (!of.has_normal())
           {
             system.set_all(of, false);
             continue;
@@ -447,11 +402,9 @@ namespace mortise
         // Coulomb's traction within the system, or given
         const bool within = iteration == FrictionIteration::newton &&
                             node.law.bound > 0. && node.bound.coefficient > 0.;
-        const Tensor<1, dim> carried =
-          tangential_rotation(of) * node.law.direction;
-        const double length = carried.norm();
+        const Tensor<1, dim> carried = of.rotation * node.law.direction;
+        const double         length  = carried.norm();
         system.turn_node(of,
-                         node.kinematic_normal,
                          node.law,
                          length > 0. ? carried / length : carried,
                          within ?
@@ -515,16 +468,6 @@ namespace mortise
         }
   }
 
-  namespace
-  {
-    /// The direction of multiplier @p r in space.
-    Tensor<1, dim>
-    axis(const ContactNode &node, const unsigned int r)
-    {
-      return node.forces[r] / node.forces[r].norm();
-    }
-  } // namespace
-
   std::vector<FrictionRecord>
   FrictionSet::records(const std::vector<bool> &closed) const
   {
@@ -539,7 +482,7 @@ namespace mortise
         own.dissipated          = dissipation[i];
         for (unsigned int r = 0; r < node.n_multipliers; ++r)
           for (unsigned int c = 0; c < dim; ++c)
-            own.slip[c] += total_slip[i][r] * axis(node, r)[c];
+            own.slip[c] += total_slip[i][r] * node.axis(r)[c];
       }
     return result;
   }
@@ -556,7 +499,7 @@ namespace mortise
         dissipation[i] = records[i].dissipated;
         for (unsigned int r = 0; r < node.contact->n_multipliers; ++r)
           for (unsigned int c = 0; c < dim; ++c)
-            total_slip[i][r] += records[i].slip[c] * axis(*node.contact, r)[c];
+            total_slip[i][r] += records[i].slip[c] * node.contact->axis(r)[c];
       }
   }
 

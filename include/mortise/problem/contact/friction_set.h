@@ -85,17 +85,6 @@ namespace mortise
     double
     resistance(const Vector &motion) const;
 
-    /// Along the kinematic normals, lengths, from weighted gaps.
-    std::vector<double>
-    gaps(const Vector &weighted) const
-    {
-      std::vector<double> result;
-      for (const Node &node : nodes)
-        result.push_back(node.kinematic_normal *
-                         node.contact->mean(weighted.begin()));
-      return result;
-    }
-
     /// With the status of those that are not @p closed.
     std::vector<Friction>
     laws(const std::vector<bool> &closed) const;
@@ -151,7 +140,6 @@ namespace mortise
     struct Node
     {
       const ContactNode     *contact;
-      dealii::Tensor<1, dim> kinematic_normal; ///< see kinematic_normals()
       bool                   has_friction;
       FrictionBound          bound;
       Friction               law;

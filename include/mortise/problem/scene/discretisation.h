@@ -65,7 +65,8 @@ namespace mortise
     Vector
     weighted_gaps(const SceneLoad &load, const SystemVector &x) const;
 
-    /// By owned node of contact, a length, from weighted_gaps().
+    /// By owned node of contact along its kinematic normal, a length, from
+    /// weighted_gaps().
     std::vector<double>
     gaps(const Vector &weighted) const;
 
