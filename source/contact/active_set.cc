@@ -69,11 +69,13 @@ namespace mortise
                      const std::function<void(std::vector<bool> &)> &extend)
   {
     seen.insert(fingerprint());
-    double largest[2] = {0., 0.}; // of pressures, of gaps that overlap
+    // of pressures, of those that overlaps stand for, of gaps
+    double largest[3] = {0., 0., 0.};
     for (unsigned int i = 0; i < now.size(); ++i)
       {
         largest[0] = std::max(largest[0], std::fabs(pressure[i]));
         largest[1] = std::max(largest[1], -gap[i] * complementarity[i]);
+        largest[2] = std::max(largest[2], std::fabs(gap[i]));
       }
     Utilities::MPI::max(ArrayView<const double>(largest),
                         comm,
@@ -83,7 +85,7 @@ namespace mortise
     for (unsigned int i = 0; i < now.size(); ++i)
       {
         const double value    = now[i] ? pressure[i] : gap[i],
-                     rounding = rounding_of_gaps * length,
+                     rounding = rounding_of_gaps * std::max(length, largest[2]),
                      small    = now[i] ?
                                   std::max(least, rounding * complementarity[i]) :
                                   std::max(least / complementarity[i], rounding);

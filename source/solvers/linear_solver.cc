@@ -1,6 +1,5 @@
 #include <deal.II/base/timer.h>
 
-#include <mortise/base/error.h>
 #include <mortise/base/timers.h>
 #include <mortise/solvers/linear_solver.h>
 

@@ -2,7 +2,6 @@
 // are drawn by their places.
 #pragma once
 
-#include <mortise/mortar/nodal_block.h>
 #include <mortise/problem/results/solved_step.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/scene/scene_data.h>
@@ -83,49 +82,6 @@ namespace mortise::testing
     Discretisation  discretisation;
     const SceneLoad load;
   };
-
-  /// Where the owned multipliers are: the mean of the nodes that they move.
-  inline std::vector<dealii::Point<dim>>
-  positions(const Discretisation &discretisation, const MPI_Comm comm)
-  {
-    const dealii::IndexSet &owned =
-      discretisation.linear_system().owned_multiplier;
-    dealii::IndexSet ghosts(owned);
-    for (const Coupling &coupling : discretisation.interfaces().all())
-      for (const auto &rows : coupling.multipliers->rows())
-        ghosts.add_indices(rows.index.begin(), rows.index.end());
-    std::vector<dealii::LinearAlgebra::distributed::Vector<double>> sums(dim +
-                                                                         1);
-    for (auto &sum : sums)
-      sum.reinit(owned, ghosts, comm);
-    for (const Coupling &coupling : discretisation.interfaces().all())
-      {
-        const BodySurface &slave = coupling.interface->slave();
-        for (unsigned int s = 0; s < slave.faces.size(); ++s)
-          {
-            const auto &rows = coupling.multipliers->rows()[s];
-            const auto  nodes =
-              face_nodes(slave.traces[s].shape, slave.traces[s].degree);
-            for (unsigned int r = 0; r + 1 < rows.begin.size(); ++r)
-              for (unsigned int e = rows.begin[r]; e < rows.begin[r + 1]; ++e)
-                {
-                  const dealii::Point<dim> x =
-                    face_point(slave.faces[s], nodes[r % rows.n_nodes()]);
-                  const double w = std::fabs(rows.weight[e]);
-                  for (unsigned int c = 0; c < dim; ++c)
-                    sums[c](rows.index[e]) += w * x[c];
-                  sums[dim](rows.index[e]) += w;
-                }
-          }
-      }
-    for (auto &sum : sums)
-      sum.compress(dealii::VectorOperation::add);
-    std::vector<dealii::Point<dim>> result(owned.n_elements());
-    for (unsigned int i = 0; i < result.size(); ++i)
-      for (unsigned int c = 0; c < dim; ++c)
-        result[i][c] = sums[c].local_element(i) / sums[dim].local_element(i);
-    return result;
-  }
 
   /// A number from 0 to 1 that only the place decides.
   inline double

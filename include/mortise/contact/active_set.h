@@ -52,7 +52,8 @@ namespace mortise
     /// descend() chooses the sets.
     ///
     /// By owned node: @p pressure, and @p gap, a length. @p length: scale of the
-    /// rounding of gaps. @p accuracy: of both, relative to the largest pressure.
+    /// rounding of gaps, where that is more than the largest gap. @p accuracy: of
+    /// both, relative to the largest pressure.
     /// @p extend: may add nodes to those that change; called only if some
     /// change. Collective.
     Change

@@ -3,7 +3,6 @@
 
 #include <mortise/base/error.h>
 #include <mortise/problem/contact/contact_step.h>
-#include <mortise/problem/contact/rigid_closing.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +20,6 @@ namespace mortise
     /// Of solves on the way to the set: doc/measurements/contact.md.
     constexpr double loose = 1e-2;
 
-    /// The root of the energy of the error beside that of the solution, as a
-    /// multiple of the tolerance: where the first set may be the last one, and
-    /// on the way from a first set that is far from it.
-    constexpr double loose_energy = 0.1, loosest_energy = 3.;
-
     /// As many as fields of load with factors of their own.
     constexpr unsigned int max_increments = 4;
 
@@ -41,9 +35,6 @@ namespace mortise
 
     /// Of it, from one to the next where signs are not known yet.
     constexpr double finer = 1e-2;
-
-    /// More of them tell of a preconditioner that has seen too little.
-    constexpr unsigned int few_iterations = 40;
 
     MultiplierPositions
     node_positions(const Discretisation &discretisation)
@@ -66,24 +57,6 @@ namespace mortise
       for (const ContactNode *node :
            discretisation.interfaces().contact_nodes())
         result.push_back(node->complementarity);
-      return result;
-    }
-
-    double
-    largest(const std::vector<double> &values, const MPI_Comm comm)
-    {
-      double result = 0.;
-      for (const double value : values)
-        result = std::max(result, std::fabs(value));
-      return Utilities::MPI::max(result, comm);
-    }
-
-    std::vector<Friction>
-    laws_of(const std::vector<bool> &closed, const NodeStatus of_closed)
-    {
-      std::vector<Friction> result(closed.size());
-      for (unsigned int i = 0; i < closed.size(); ++i)
-        result[i].status = closed[i] ? of_closed : NodeStatus::open;
       return result;
     }
   } // namespace
@@ -126,21 +99,6 @@ namespace mortise
     if (friction.empty())
       return {};
     return FrictionHistory(positions, friction.records(set.active()), run.comm);
-  }
-
-  std::string
-  ContactStep::free_motions(const std::vector<Friction> &laws) const
-  {
-    try
-      {
-        discretisation.interfaces().check_no_free_motion(
-          laws, preloads.have_forces());
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
   }
 
   void
@@ -251,25 +209,23 @@ namespace mortise
     const double asked   = run.parameters.solver.tolerance;
     const bool   is_last = tolerance == asked;
     // what a linear solve leaves is no reason to turn
-    const double              accuracy = std::max(least_accuracy, tolerance);
-    const Vector              weighted = discretisation.weighted_gaps(*load, x);
-    const std::vector<double> gaps     = discretisation.gaps(weighted);
-    ActiveSet                 next     = set;
-    const ActiveSet::Change   change =
+    const double            accuracy = std::max(least_accuracy, tolerance);
+    const Vector            weighted = discretisation.weighted_gaps(*load, x);
+    ActiveSet               next     = set;
+    const ActiveSet::Change change =
       next.advance(pressures(x),
-                   gaps,
-                   std::max(largest(gaps, run.comm),
-                            x.displacement.linfty_norm()),
+                   discretisation.gaps(weighted),
+                   x.displacement.linfty_norm(),
                    accuracy,
                    [&](std::vector<bool> &turns) {
                      if (extends && !is_last)
                        edge.extend(set.active(), turns);
                    });
-    const FrictionSet         before = friction;
-    const FrictionSet::Change of_friction =
+    const std::vector<Friction> before = friction.laws();
+    const FrictionSet::Change   of_friction =
       friction.empty() ?
-        FrictionSet::Change() :
-        friction.advance(next.active(),
+          FrictionSet::Change() :
+          friction.advance(next.active(),
                          x.multiplier,
                          weighted,
                          std::max(least_accuracy, loose * tolerance));
@@ -303,7 +259,7 @@ namespace mortise
           change.undecided > 0 ? std::max(asked, finer * tolerance) : asked;
         reduction = changes ? 0. : fine_reduction;
         if (changes)
-          friction.restore(before);
+          friction.take(before);
         set.start_from(set.active());
         return tolerance;
       }
@@ -334,210 +290,29 @@ namespace mortise
   }
 
   void
-  ContactStep::catch_bodies(const SystemVector &x, ActiveSet &next)
+  ContactStep::print(const ActiveSet::Change     &change,
+                     const std::vector<Friction> &before,
+                     const FrictionSet::Change   &of_friction) const
   {
-    if (free_motions(friction.laws(next.active())).empty())
-      return;
-    SystemVector            at     = x;
-    const std::vector<bool> caught = close_gaps_rigidly(
-      discretisation, preloads, *load, friction.laws(next.active()), at);
+    std::string slips, changes;
     if (!friction.empty())
       {
-        std::vector<bool> touches;
-        for (unsigned int i = 0; i < caught.size(); ++i)
-          touches.push_back(caught[i] && !next.active()[i]);
-        friction.set_origin(discretisation.weighted_gaps(*load, at), touches);
+        std::uint64_t n_slip = 0;
+        for (unsigned int i = 0; i < before.size(); ++i)
+          n_slip +=
+            set.active()[i] && before[i].status == NodeStatus::slip ? 1 : 0;
+        slips =
+          std::to_string(Utilities::MPI::sum(n_slip, run.comm)) + " slip, ";
+        changes = std::to_string(of_friction.slip) + " begin to slip, " +
+                  std::to_string(of_friction.stick) + " to stick, violation " +
+                  RunLog::number(of_friction.error) + ", ";
       }
-    next.start_from(caught);
-    if (const std::string free = free_motions(friction.laws(next.active()));
-        !free.empty())
-      throw InputError(
-        "Contact is lost: the contact that remains active does not hold the bodies. " +
-        free);
-  }
-
-  void
-  ContactStep::check_hold(const std::vector<bool> &next)
-  {
-    /// Of work, that rounding and linear solves leave.
-    constexpr double rounding = 1e-8;
-
-    // what moves if nodes that slip resist nothing
-    std::vector<Friction> laws = friction.laws(next);
-    for (Friction &law : laws)
-      law.bound = 0.;
-    const std::optional<double> before = std::exchange(used_strength, {});
-    lost.clear();
-    const std::string motions = free_motions(laws);
-    if (motions.empty())
-      return;
-    const SystemVector motion = driven_motion(
-      discretisation,
-      preloads,
-      *load,
-      discretisation.interfaces().free_motions(laws, preloads.have_forces()));
-    const double driving =
-      work_of_loads(discretisation, preloads, *load, motion);
-    if (!(driving > 0.))
-      return;
-    Vector moved(load->rhs.multiplier);
-    discretisation.linear_system().constraint.vmult(moved, motion.displacement);
-    used_strength = friction.resistance(moved) / driving;
-    lost          = *used_strength < 1. - rounding ?
-                      "Friction does not hold the bodies: they slip. " + motions :
-                      "";
-    // pressures that change still may raise the resistance
-    if (before && 1. - *used_strength >
-                    rounding + 2. * std::fabs(*used_strength - *before))
-      throw InputError(lost);
-  }
-
-  void
-  ContactStep::hold_bodies(const std::vector<bool> &next,
-                           const FrictionSet       &before)
-  {
-    const auto is_free = [&] {
-      return !free_motions(friction.laws(next)).empty();
-    };
-    // would the bodies be held if all that is closed stuck?
-    if (!is_free() || !free_motions(laws_of(next, NodeStatus::stick)).empty())
-      return;
-    while (is_free() && friction.keep_one(before))
-      {
-      }
-    if (is_free())
-      friction.restore(before);
-    if (is_free())
-      friction.stick();
-  }
-
-  void
-  ContactStep::report_held() const
-  {
-    const std::vector<bool> all(positions.points.size(), true);
-    const std::string       free = free_motions(laws_of(all, NodeStatus::slip));
-    if (!free.empty())
-      run.log.line("  friction alone prevents rigid motions. " + free);
-  }
-
-  void
-  ContactStep::linearise(const SystemVector &)
-  {
-    const bool turns    = friction.select(set.active(), iteration);
-    const auto statuses = this->statuses();
-    // coarse levels go on with the ties that they saw, which costs next to no
-    // iteration (doc/measurements/contact.md) as long as about as many hold
-    const std::uint64_t n_held = n_holding(statuses);
-    shows =
-      !n_shown || n_held > 2 * *n_shown ||
-      (tolerance == run.parameters.solver.tolerance && 2 * n_held < *n_shown);
-    if (shows)
-      show();
-    else if (turns)
-      solver.update_directions();
-    else
-      solver.update_active();
-    if (turns)
-      preloads.system_changed();
-  }
-
-  SolveReport
-  ContactStep::solve(SystemVector &x)
-  {
-    const unsigned int most  = run.parameters.solver.max_iterations;
-    const SystemVector start = shows ? SystemVector() : x;
-    SolveReport        result =
-      solve_set(shows ? most : std::min(most, few_iterations), x);
-    if (!shows && !result.converged)
-      {
-        const SolveReport tried = result;
-        show();
-        x      = start;
-        result = solve_set(most, x);
-        result.iterations += tried.iterations;
-        result.setup_seconds += tried.setup_seconds;
-        result.solve_seconds += tried.solve_seconds;
-      }
-    iterations = result.iterations;
-    return result;
-  }
-
-  SolveReport
-  ContactStep::solve_set(const unsigned int max_iterations, SystemVector &x)
-  {
-    const double asked = run.parameters.solver.tolerance;
-    if (!friction.empty())
-      {
-        solver.set_limits(asked,
-                          SolverOptions().energy_fraction,
-                          max_iterations,
-                          reduction);
-        return solve_with_friction(x);
-      }
-    solver.set_limits(tolerance,
-                      tolerance == asked ? SolverOptions().energy_fraction :
-                      cold && sets > 1   ? loosest_energy :
-                                           loose_energy,
-                      max_iterations);
-    return preloads.solve(x.displacement.size() > 0, *load, x);
-  }
-
-  SolveReport
-  ContactStep::solve_with_friction(SystemVector &x)
-  {
-    SystemVector of_load = load->rhs;
-    friction.apply(load->rhs);
-    const Vector      applied = load->rhs.multiplier;
-    const SolveReport result =
-      preloads.solve(x.displacement.size() > 0, *load, x);
-    // shortenings of preloads become part of the load
-    load->rhs.multiplier -= applied;
-    of_load.multiplier += load->rhs.multiplier;
-    load->rhs = of_load;
-    friction.complete(x.multiplier);
-    tolerance = result.tolerance;
-    return result;
-  }
-
-  std::uint64_t
-  ContactStep::n_holding(const std::vector<NodeStatus> &statuses) const
-  {
-    std::uint64_t n = 0;
-    for (const NodeStatus status : statuses)
-      n += status == NodeStatus::stick ? 2 : status == NodeStatus::slip ? 1 : 0;
-    return Utilities::MPI::sum(n, run.comm);
-  }
-
-  void
-  ContactStep::show()
-  {
-    const std::vector<NodeStatus> statuses = this->statuses();
-    n_shown                                = n_holding(statuses);
-    discretisation.update_penalties(statuses);
-    solver.update();
-  }
-
-  void
-  ContactStep::print(const ActiveSet::Change   &change,
-                     const FrictionSet         &before,
-                     const FrictionSet::Change &of_friction) const
-  {
-    std::uint64_t n_slip = 0;
-    for (const Friction &law : before.laws(set.active()))
-      n_slip += law.status == NodeStatus::slip ? 1 : 0;
-    n_slip = Utilities::MPI::sum(n_slip, run.comm);
     run.log.line(
       "  active set " + std::to_string(sets) + ": " +
-      std::to_string(set.n_active()) + " active, " +
-      (friction.empty() ? "" : std::to_string(n_slip) + " slip, ") +
+      std::to_string(set.n_active()) + " active, " + slips +
       std::to_string(change.opened) + " open, " +
       std::to_string(change.closed) + " close, " +
-      std::to_string(change.undecided) + " undecided, " +
-      (friction.empty() ?
-         "" :
-         std::to_string(of_friction.slip) + " begin to slip, " +
-           std::to_string(of_friction.stick) + " to stick, violation " +
-           RunLog::number(of_friction.error) + ", ") +
+      std::to_string(change.undecided) + " undecided, " + changes +
       std::to_string(iterations) + " iterations" +
       (set.cycles() ? ", chosen by the energy, since sets recurred" : ""));
   }
@@ -547,9 +322,6 @@ namespace mortise
   {
     const double asked = run.parameters.solver.tolerance;
     load               = &of_step;
-    iteration          = run.parameters.solver.friction == "newton" ?
-                           FrictionIteration::newton :
-                           FrictionIteration::fixed_point;
     friction.begin(data);
     // a factorisation gives all digits at once
     tolerance = discretisation.choice().method == SolverMethod::direct ?

@@ -39,9 +39,9 @@ namespace mortise
     /// undeformed meshes; all nodes if it leaves a rigid motion free. Before
     /// the last set linear solves are as loose as the choice of the next set
     /// allows. The report is that of the last one, its seconds those of all;
-    /// not converged after 1000 sets. Throws InputError with body and motion if
-    /// contact is lost, or friction does not hold a body that nothing else
-    /// does. Collective.
+    /// not converged after 1000 sets, 60 with friction. Throws InputError with
+    /// body and motion if contact is lost, or friction does not hold a body
+    /// that nothing else does. Collective.
     SolveReport
     solve(const SceneData &data, SceneLoad &load, SystemVector &x);
 
@@ -128,7 +128,8 @@ namespace mortise
     /// If the nodes of @p next do not hold the bodies, let some of those that
     /// stuck @p before stick for once more.
     void
-    hold_bodies(const std::vector<bool> &next, const FrictionSet &before);
+    hold_bodies(const std::vector<bool>     &next,
+                const std::vector<Friction> &before);
     /// Say once what friction alone holds.
     void
     report_held() const;
@@ -149,9 +150,9 @@ namespace mortise
     std::vector<double>
     pressures(const SystemVector &x) const;
     void
-    print(const ActiveSet::Change   &change,
-          const FrictionSet         &before,
-          const FrictionSet::Change &of_friction) const;
+    print(const ActiveSet::Change     &change,
+          const std::vector<Friction> &before,
+          const FrictionSet::Change   &of_friction) const;
     /// Directions in which nodes hold, along the normal and tangentially.
     std::uint64_t
     n_holding(const std::vector<NodeStatus> &statuses) const;
@@ -187,7 +188,6 @@ namespace mortise
     std::string           lost; ///< what that says against the present set
     unsigned int          sets       = 0;
     unsigned int          iterations = 0; ///< of the last set
-    FrictionIteration     iteration  = FrictionIteration::newton;
     /// Nodes that hold in the penalties of coarse levels.
     std::optional<std::uint64_t> n_shown;
     bool shows = false; ///< is the next one to be in these?

@@ -13,13 +13,6 @@
 
 namespace mortise
 {
-  /// How the bound of Coulomb's law follows the pressure.
-  enum class FrictionIteration : unsigned char
-  {
-    newton,     ///< within a linear system, which is not symmetric
-    fixed_point ///< from one symmetric system to the next
-  };
-
   /// Vectors are by owned node of contact, see Pairing::contact_nodes(); those
   /// without friction stick once they are closed.
   class FrictionSet
@@ -44,12 +37,19 @@ namespace mortise
     void
     stick();
 
-    /// Take the laws of @p other.
-    void
-    restore(const FrictionSet &other)
+    /// Of closed nodes, by which open ones begin when they close.
+    std::vector<Friction>
+    laws() const
     {
-      nodes = other.nodes;
+      std::vector<Friction> result;
+      for (const Node &node : nodes)
+        result.push_back(node.law);
+      return result;
     }
+
+    /// The inverse of laws().
+    void
+    take(const std::vector<Friction> &laws);
 
     struct Change
     {
@@ -74,25 +74,25 @@ namespace mortise
             const Vector            &weighted_gaps,
             double                   accuracy);
 
-    /// Of those that slip now, but stuck with the laws of @p before, let the one
-    /// that exceeds its bound least stick for once more. False if there is
+    /// Of those that slip now, but stuck with the laws() of @p before, let the
+    /// one that exceeds its bound least stick for once more. False if there is
     /// none. Collective.
     bool
-    keep_one(const FrictionSet &before);
+    keep_one(const std::vector<Friction> &before);
 
     /// Work of friction, at most, on a motion with the constraint residual
     /// @p motion. Collective.
     double
     resistance(const Vector &motion) const;
 
-    /// With the status of those that are not @p closed.
+    /// laws() with the status of those that are not @p closed.
     std::vector<Friction>
     laws(const std::vector<bool> &closed) const;
 
     /// Set the linear system; returns whether its directions changed, so that
     /// LinearSolver::update_directions() must follow. Collective.
     bool
-    select(const std::vector<bool> &closed, FrictionIteration iteration);
+    select(const std::vector<bool> &closed);
 
     /// Change @p rhs of a load to that of the selected system.
     void
@@ -153,19 +153,22 @@ namespace mortise
     dealii::Tensor<1, dim>
     slip(const Node &node, const Vector &weighted_gaps) const;
     /// Anderson's acceleration of the bounds, which followed from a system with
-    /// the bounds @p before. Source: Walker, Ni (2011). Collective.
+    /// the laws of @p before. Source: Walker, Ni (2011). Collective.
     void
-    accelerate(std::vector<double> before);
+    accelerate(const std::vector<Friction> &before);
 
-    const RunContext                   &run;
-    Discretisation                     &discretisation;
+    const RunContext &run;
+    Discretisation   &discretisation;
+    /// Does the bound follow the pressure within a linear system, and not from
+    /// one to the next?
+    const bool                          within_system;
     std::vector<Node>                   nodes;
     std::vector<dealii::Tensor<1, dim>> total_slip;
     std::vector<double>                 dissipation;
     /// Of the selected system: tractions of nodes that slip, by multiplier.
     Vector given;
-    /// Bounds of linear systems with the same nodes that slip, and those that
-    /// followed from them; the newest last.
+    /// For accelerate(): bounds of linear systems with the same nodes that
+    /// slip, and those that followed from them; the newest last.
     std::vector<std::array<std::vector<double>, 2>> bounds;
     bool turned = false; ///< does the selected system have directions?
   };

@@ -1,0 +1,119 @@
+// The linear solves of a ContactStep.
+#include <deal.II/base/mpi.h>
+
+#include <mortise/problem/contact/contact_step.h>
+
+#include <algorithm>
+
+namespace mortise
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The root of the energy of the error beside that of the solution, as a
+    /// multiple of the tolerance: where the first set may be the last one, and
+    /// on the way from a first set that is far from it.
+    constexpr double loose_energy = 0.1, loosest_energy = 3.;
+
+    /// More of them tell of a preconditioner that has seen too little.
+    constexpr unsigned int few_iterations = 40;
+  } // namespace
+
+  void
+  ContactStep::linearise(const SystemVector &)
+  {
+    const bool turns    = friction.select(set.active());
+    const auto statuses = this->statuses();
+    // coarse levels go on with the ties that they saw, which costs next to no
+    // iteration (doc/measurements/contact.md) as long as about as many hold
+    const std::uint64_t n_held = n_holding(statuses);
+    shows =
+      !n_shown || n_held > 2 * *n_shown ||
+      (tolerance == run.parameters.solver.tolerance && 2 * n_held < *n_shown);
+    if (shows)
+      show();
+    else if (turns)
+      solver.update_directions();
+    else
+      solver.update_active();
+    if (turns)
+      preloads.system_changed();
+  }
+
+  SolveReport
+  ContactStep::solve(SystemVector &x)
+  {
+    const unsigned int most  = run.parameters.solver.max_iterations;
+    const SystemVector start = shows ? SystemVector() : x;
+    SolveReport        result =
+      solve_set(shows ? most : std::min(most, few_iterations), x);
+    if (!shows && !result.converged)
+      {
+        const SolveReport tried = result;
+        show();
+        x      = start;
+        result = solve_set(most, x);
+        result.iterations += tried.iterations;
+        result.setup_seconds += tried.setup_seconds;
+        result.solve_seconds += tried.solve_seconds;
+      }
+    iterations = result.iterations;
+    return result;
+  }
+
+  SolveReport
+  ContactStep::solve_set(const unsigned int max_iterations, SystemVector &x)
+  {
+    const double asked = run.parameters.solver.tolerance;
+    if (!friction.empty())
+      {
+        solver.set_limits(asked,
+                          SolverOptions().energy_fraction,
+                          max_iterations,
+                          reduction);
+        return solve_with_friction(x);
+      }
+    solver.set_limits(tolerance,
+                      tolerance == asked ? SolverOptions().energy_fraction :
+                      cold && sets > 1   ? loosest_energy :
+                                           loose_energy,
+                      max_iterations);
+    return preloads.solve(x.displacement.size() > 0, *load, x);
+  }
+
+  SolveReport
+  ContactStep::solve_with_friction(SystemVector &x)
+  {
+    SystemVector of_load = load->rhs;
+    friction.apply(load->rhs);
+    const Vector      applied = load->rhs.multiplier;
+    const SolveReport result =
+      preloads.solve(x.displacement.size() > 0, *load, x);
+    // shortenings of preloads become part of the load
+    load->rhs.multiplier -= applied;
+    of_load.multiplier += load->rhs.multiplier;
+    load->rhs = of_load;
+    friction.complete(x.multiplier);
+    tolerance = result.tolerance;
+    return result;
+  }
+
+  std::uint64_t
+  ContactStep::n_holding(const std::vector<NodeStatus> &statuses) const
+  {
+    std::uint64_t n = 0;
+    for (const NodeStatus status : statuses)
+      n += status == NodeStatus::stick ? 2 : status == NodeStatus::slip ? 1 : 0;
+    return Utilities::MPI::sum(n, run.comm);
+  }
+
+  void
+  ContactStep::show()
+  {
+    const std::vector<NodeStatus> statuses = this->statuses();
+    n_shown                                = n_holding(statuses);
+    discretisation.update_penalties(statuses);
+    solver.update();
+  }
+} // namespace mortise
