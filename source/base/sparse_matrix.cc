@@ -279,6 +279,53 @@ namespace mortise
   }
 
   SparseMatrix
+  SparseMatrix::times(const SparseMatrix &B) const
+  {
+    Assert(n_components == 1 && B.n_components == 1, ExcNotImplemented());
+    const CompressedRows of_columns = B.fetch(column_indices);
+    std::vector<Index>   numbers    = of_columns.columns;
+    std::sort(numbers.begin(), numbers.end());
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    std::vector<unsigned int> places;
+    for (const Index column : of_columns.columns)
+      places.push_back(
+        std::lower_bound(numbers.begin(), numbers.end(), column) -
+        numbers.begin());
+    std::vector<double>       sums(numbers.size());
+    std::vector<bool>         is_entry(numbers.size());
+    std::vector<unsigned int> of_row;
+    CompressedRows            result;
+    for (unsigned int i = 0; i < n_rows(); ++i)
+      {
+        const Row own = row(i);
+        for (unsigned int k = 0; k < own.length; ++k)
+          for (std::size_t e = of_columns.begin[own.columns[k]];
+               e < of_columns.begin[own.columns[k] + 1];
+               ++e)
+            {
+              if (!is_entry[places[e]])
+                of_row.push_back(places[e]);
+              is_entry[places[e]] = true;
+              sums[places[e]] += own.values[k] * of_columns.values[e];
+            }
+        std::sort(of_row.begin(), of_row.end());
+        for (const unsigned int place : of_row)
+          {
+            result.columns.push_back(numbers[place]);
+            result.values.push_back(sums[place]);
+            sums[place]     = 0.;
+            is_entry[place] = false;
+          }
+        result.begin.push_back(result.columns.size());
+        of_row.clear();
+      }
+    return SparseMatrix(owned_rows,
+                        B.owned_unknowns(),
+                        communicator(),
+                        std::move(result));
+  }
+
+  SparseMatrix
   SparseMatrix::transposed() const
   {
     std::vector<Entry> entries;

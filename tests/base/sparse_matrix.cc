@@ -112,6 +112,13 @@ namespace
         std::vector<double> again(columns.n_elements());
         A.transposed().vmult(again.data(), vector(rows, 1).data());
         say(what + ", transposed", error(columns, again, 1, true));
+        std::vector<double> square(A.n_rows()), of_square(A.n_rows());
+        A.times(A.transposed()).vmult(square.data(), vector(rows, 1).data());
+        A.vmult(of_square.data(), transposed.data());
+        double difference = 0.;
+        for (unsigned int i = 0; i < square.size(); ++i)
+          difference = std::max(difference, std::abs(square[i] - of_square[i]));
+        say(what + ", A A^T", difference);
         const auto fetched = A.fetch({12, 0, 5, 12});
         double     worst   = fetched.begin.size() == 5 ? 0. : 1.;
         Index      k       = 0;

@@ -176,6 +176,11 @@ namespace mortise
     SparseMatrix
     transposed() const;
 
+    /// The product with @p B, whose rows are dealt out as these columns, of one
+    /// component both. Collective.
+    SparseMatrix
+    times(const SparseMatrix &B) const;
+
     /// dst = A src, both by owned index. Collective.
     void
     vmult(double *dst, const double *src) const
