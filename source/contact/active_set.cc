@@ -41,8 +41,11 @@ namespace mortise
     }
   } // namespace
 
-  ActiveSet::ActiveSet(std::vector<double> complementarity, const MPI_Comm comm)
+  ActiveSet::ActiveSet(std::vector<double> complementarity,
+                       const bool          has_energy,
+                       const MPI_Comm      comm)
     : complementarity(std::move(complementarity))
+    , has_energy(has_energy)
     , comm(comm)
     , first(first_of_rank(this->complementarity.size(), comm))
     , undecided_nodes(this->complementarity.size(), false)
@@ -108,12 +111,18 @@ namespace mortise
             fewest   = n_wrong;
             patience = max_patience;
           }
-        else
+        else if (patience > 0)
           --patience;
-        if (patience == 0 || seen.count(fingerprint()) > 0)
-          descending = true;
-        else
+        const bool is_stuck =
+          patience == 0 || (has_energy && seen.count(fingerprint()) > 0);
+        descending = is_stuck && has_energy;
+        if (!is_stuck)
           turns = std::move(more);
+        else if (!has_energy)
+          {
+            keep_worst(pressure, gap, turns);
+            turn(turns);
+          }
       }
     if (descending)
       {
@@ -129,6 +138,23 @@ namespace mortise
       }
     MPI_Allreduce(counts, sums, 3, MPI_UINT64_T, MPI_SUM, comm);
     return {sums[0], sums[1], sums[2]};
+  }
+
+  void
+  ActiveSet::keep_worst(const std::vector<double> &pressure,
+                        const std::vector<double> &gap,
+                        std::vector<bool>         &turns) const
+  {
+    const auto violation = [&](const unsigned int i) {
+      return std::max(-pressure[i], -complementarity[i] * gap[i]);
+    };
+    double largest = 0.;
+    for (unsigned int i = 0; i < turns.size(); ++i)
+      if (turns[i])
+        largest = std::max(largest, violation(i));
+    largest = Utilities::MPI::max(largest, comm);
+    for (unsigned int i = 0; i < turns.size(); ++i)
+      turns[i] = turns[i] && violation(i) >= 0.5 * largest;
   }
 
   void

@@ -10,7 +10,7 @@ namespace mortise
 {
   using namespace dealii;
 
-  ContactEdge::ContactEdge(MultiplierPositions positions, const MPI_Comm comm)
+  ContactEdge::ContactEdge(NodePositions positions, const MPI_Comm comm)
     : positions(std::move(positions))
     , n_surfaces(last_surface(this->positions, comm))
     , comm(comm)

@@ -10,7 +10,7 @@ namespace mortise
     /// Of a trial traction over the bound: with less a node is held across its
     /// direction, since linear solvers cannot tell such stiff springs from
     /// ties.
-    constexpr double least_excess = 1e-6;
+    constexpr double least_excess = 1e-3;
   } // namespace
 
   Friction
@@ -22,9 +22,13 @@ namespace mortise
     const Tensor<1, 3> trial  = at.traction + at.c * at.slip;
     const double       size   = trial.norm();
     const bool         sticks = now.status == NodeStatus::stick;
-    Friction           next;
-    if (sticks ? size <= bound.at_rest(at.pressure) + rounding :
-                 at.c * (at.slip * now.direction) < -rounding)
+    const double       limit =
+      (sticks ? bound.at_rest(at.pressure) : bound.of(at.pressure)) + rounding;
+    Friction next;
+    // what slipped without a bound has no direction, and may stick at once
+    if (sticks || now.bound == 0. ?
+          size <= limit :
+          at.c * (at.slip * now.direction) < -rounding)
       return next;
     next.status = NodeStatus::slip;
     next.bound  = bound.of(at.pressure);

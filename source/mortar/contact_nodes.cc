@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "multiplier_sums.h"
 
@@ -24,9 +25,12 @@ namespace mortise
       gap_sum,
       stiffness_sum,
       force_sum,
-      moment_sum    = force_sum + dim,
-      place_sum     = moment_sum + dim,
-      kinematic_sum = place_sum + dim,
+      moment_sum   = force_sum + dim,
+      place_sum    = moment_sum + dim,
+      pressure_sum = place_sum + dim,
+      pressed_sum,
+      pressure_force_sum,
+      kinematic_sum = pressure_force_sum + dim,
       normal_sum    = kinematic_sum + dim,
       rotation_sum  = normal_sum + dim,
       share_sum     = rotation_sum + dim * dim, ///< of these two
@@ -38,7 +42,7 @@ namespace mortise
 
     /// The smallest rotation from one unit vector to another.
     Tensor<2, dim>
-    rotation(const Tensor<1, dim> &from, const Tensor<1, dim> &to)
+    smallest_rotation(const Tensor<1, dim> &from, const Tensor<1, dim> &to)
     {
       const Tensor<1, dim> axis = cross_product_3d(from, to);
       Tensor<2, dim>       across, result;
@@ -49,6 +53,49 @@ namespace mortise
           result[c][c]             = 1.;
         }
       return result + across + across * across / (1. + from * to);
+    }
+
+    /// int phi_i phi_k of the nodal functions phi of slave face @p s.
+    FullMatrix<double>
+    nodal_mass(const Coupling &coupling, const unsigned int s)
+    {
+      const FaceTrace &trace = coupling.interface->slave().traces[s];
+      const auto      &functions =
+        face_nodal_basis(trace.shape, trace.degree).functions;
+      FullMatrix<double> by_mode(functions.n(), functions.n()), result(by_mode);
+      functions.Tmmult(by_mode, coupling.local[s].mass);
+      by_mode.mmult(result, functions);
+      return result;
+    }
+
+    /// By node: int psi_i n, and int psi_i n n^T.
+    using NormalIntegrals =
+      std::vector<std::pair<Tensor<1, dim>, Tensor<2, dim>>>;
+
+    /// Of the normals n of slave face @p s, interpolated between nodes.
+    NormalIntegrals
+    normal_integrals(const Coupling &coupling, const unsigned int s)
+    {
+      const LocalCoupling &local  = coupling.local[s];
+      const auto          &frames = coupling.frames[s];
+      NormalIntegrals      result(frames.size());
+      if (local.partners.empty())
+        return result;
+      FullMatrix<double> weights(frames.size(), frames.size());
+      if (local.is_dual())
+        for (unsigned int i = 0; i < weights.m(); ++i)
+          weights(i, i) = local.weights[i];
+      else
+        weights = nodal_mass(coupling, s);
+      for (unsigned int i = 0; i < weights.m(); ++i)
+        for (unsigned int k = 0; k < weights.m(); ++k)
+          if (weights(i, k) != 0.)
+            {
+              const Tensor<1, dim> &normal = frames[k][0];
+              result[i].first += weights(i, k) * normal;
+              result[i].second += weights(i, k) * outer_product(normal, normal);
+            }
+      return result;
     }
 
     /// On a slave face, the means of rotations of normals that the coefficients
@@ -66,12 +113,7 @@ namespace mortise
           weights(i, i) = 1.;
         if (!local.is_dual())
           return;
-        const FaceTrace &trace = coupling.interface->slave().traces[s];
-        const auto      &functions =
-          face_nodal_basis(trace.shape, trace.degree).functions;
-        FullMatrix<double> by_mode(weights.m(), weights.m());
-        functions.Tmmult(by_mode, local.mass);
-        by_mode.mmult(weights, functions);
+        weights = nodal_mass(coupling, s);
         for (unsigned int i = 0; i < weights.m(); ++i)
           for (unsigned int k = 0; k < weights.m(); ++k)
             weights(i, k) /= local.weights[i];
@@ -87,8 +129,8 @@ namespace mortise
         for (unsigned int i = 0; i < weights.m(); ++i)
           for (unsigned int k = 0; k < weights.m() && of_values[i] != 0.; ++k)
             if (weights(i, k) != 0.)
-              result +=
-                of_values[i] * weights(i, k) * rotation(normal, frames[k][0]);
+              result += of_values[i] * weights(i, k) *
+                        smallest_rotation(normal, frames[k][0]);
         return result;
       }
 
@@ -175,7 +217,10 @@ namespace mortise
                        const MPI_Comm  comm)
     {
       auto sums = make_sums(n_normal_sums, coupling, owned_multiplier, comm);
-      const bool by_component = coupling.law.has_friction();
+      const bool                   by_component = coupling.law.has_friction();
+      std::vector<NormalIntegrals> of_normals;
+      for (unsigned int s = 0; s < coupling.local.size() && by_component; ++s)
+        of_normals.push_back(normal_integrals(coupling, s));
       for_each_part(coupling,
                     [&](const unsigned int    s,
                         const unsigned int    i,
@@ -188,11 +233,21 @@ namespace mortise
                                      by_component ?
                                        1. :
                                        direction * coupling.frames[s][i][0];
+                      Tensor<1, dim> normal, presses; // weighted with psi
+                      if (by_component)
+                        {
+                          normal  = w * of_normals[s][i].first;
+                          presses = w * (of_normals[s][i].second * direction);
+                        }
                       sums[area_sum](index) += w * own * along;
                       sums[gap_sum](index) +=
                         w * (local.gap_moment[i] * direction);
                       sums[stiffness_sum](index) +=
                         w * own * along * local.penalty;
+                      sums[pressure_sum](index) +=
+                        by_component ? normal * direction : w * own * along;
+                      sums[pressed_sum](index) +=
+                        by_component ? presses * direction : w * own * along;
                       const auto about_origin =
                         cross_product_3d(local.position_moment[i], direction);
                       for (unsigned int c = 0; c < dim; ++c)
@@ -201,8 +256,8 @@ namespace mortise
                           sums[moment_sum + c](index) += w * about_origin[c];
                           sums[place_sum + c](index) +=
                             w * along * local.position_moment[i][c];
-                          sums[kinematic_sum + c](index) +=
-                            w * own * coupling.frames[s][i][0][c];
+                          sums[pressure_force_sum + c](index) += presses[c];
+                          sums[kinematic_sum + c](index) += normal[c];
                         }
                     });
       if (by_component)
@@ -242,16 +297,6 @@ namespace mortise
       return result;
     }
 
-    /// The entries of @p value for the multipliers of @p node.
-    Tensor<1, dim>
-    along_axes(const ContactNode &node, const Tensor<1, dim> &value)
-    {
-      Tensor<1, dim> result;
-      for (unsigned int r = 0; r < node.n_multipliers; ++r)
-        result[r] = value * node.axis(r);
-      return result;
-    }
-
     /// Set the directions of a node with friction from the sums @p all of the
     /// multiplier at @p own, which has no part of a rim.
     void
@@ -265,7 +310,7 @@ namespace mortise
         rotation[c] = vector_of(all, rotation_sum + dim * c, own) / share;
       const Tensor<1, dim> normal = vector_of(all, normal_sum, own),
                            mean   = rotation * normal / normal.norm();
-      node.normal                 = along_axes(node, mean);
+      node.normal                 = node.along_axes(mean);
       const double length         = node.normal.norm();
       if (length * length < least_free_part)
         {
@@ -274,9 +319,10 @@ namespace mortise
         }
       node.normal /= length;
       node.length_of_mean = mean.norm();
-      node.kinematic_normal =
-        along_axes(node, vector_of(all, kinematic_sum, own));
-      node.kinematic_normal /= node.kinematic_normal.norm();
+      const Tensor<1, dim> kinematic =
+        node.along_axes(vector_of(all, kinematic_sum, own));
+      node.kinematic =
+        smallest_rotation(node.normal, kinematic / kinematic.norm());
       node.area = 0.;
       for (unsigned int r = 0; r < node.n_multipliers; ++r)
         node.area += std::pow(node.normal[r], 2) * node.areas[r];
@@ -285,14 +331,12 @@ namespace mortise
       Tensor<2, dim> of_tangents;
       for (unsigned int c = 0; c < dim; ++c)
         {
-          Tensor<1, dim> unit, in_space;
-          unit[c]                      = 1.;
-          const Tensor<1, dim> tangent = node.tangential(unit);
-          for (unsigned int r = 0; r < node.n_multipliers; ++r)
-            in_space += tangent[r] * node.axis(r);
+          Tensor<1, dim> unit;
+          unit[c]                       = 1.;
+          const Tensor<1, dim> in_space = node.in_space(node.tangential(unit));
           of_tangents[c] =
             c < node.n_multipliers ?
-              node.tangential(along_axes(node, rotation * in_space)) +
+              node.tangential(node.along_axes(rotation * in_space)) +
                 node.normal[c] * node.normal :
               unit;
         }
@@ -321,10 +365,13 @@ namespace mortise
         for (const unsigned int k : of_node)
           {
             const unsigned int i = local(k), r = node.n_multipliers++;
-            node.multipliers[r] = coupling.multipliers->range().first + k;
-            node.areas[r]       = sums[area_sum].local_element(i);
-            node.forces[r]      = vector_of(sums, force_sum, i);
-            node.moments[r]     = vector_of(sums, moment_sum, i);
+            node.multipliers[r]     = coupling.multipliers->range().first + k;
+            node.areas[r]           = sums[area_sum].local_element(i);
+            node.forces[r]          = vector_of(sums, force_sum, i);
+            node.moments[r]         = vector_of(sums, moment_sum, i);
+            node.pressures[r]       = sums[pressure_sum].local_element(i);
+            node.pressed_areas[r]   = sums[pressed_sum].local_element(i);
+            node.pressure_forces[r] = vector_of(sums, pressure_force_sum, i);
             gap[r] = sums[gap_sum].local_element(i) / node.areas[r];
             // others have a part of a rim as well
             if (node.areas[r] < sums[area_sum].local_element(own))
@@ -337,7 +384,10 @@ namespace mortise
         if (coupling.law.has_friction())
           set_directions(sums, own, node);
         else
-          node.normal[0] = node.kinematic_normal[0] = 1.;
+          {
+            node.normal[0] = 1.;
+            node.kinematic = unit_symmetric_tensor<dim>();
+          }
         node.gap = node.normal * gap;
       }
     return result;

@@ -32,10 +32,8 @@ namespace mortise
     Sections   result{
         {"run", run.dump(-1, ' ', false, Json::error_handler_t::replace)},
         {"contact status",
-         to_bytes(checkpoint.state.active_set.value_or(ActivePositions()))},
+         to_bytes(checkpoint.state.contact.value_or(ContactRecords()))},
         {"shortenings", to_bytes(checkpoint.state.shortenings)}};
-    if (checkpoint.state.friction)
-      result["friction"] = to_bytes(*checkpoint.state.friction);
     if (!checkpoint.adaptivity.empty())
       result["adaptivity"] = checkpoint.adaptivity;
     return result;
@@ -120,14 +118,11 @@ namespace mortise
                            std::string(error.what()).substr(0, 200) + ")");
       }
     State &state      = checkpoint.state;
-    state.active_set  = file.get<ActivePositions>("contact status");
+    state.contact     = file.get<ContactRecords>("contact status");
     state.shortenings = file.get<std::vector<double>>("shortenings");
-    if (file.has("friction"))
-      state.friction = file.get<FrictionHistory>("friction");
     if (file.has("adaptivity"))
       checkpoint.adaptivity = file.read("adaptivity");
-    if (!state.active_set->is_finite() ||
-        (state.friction && !state.friction->is_finite()) ||
+    if (!state.contact->is_finite() ||
         !std::all_of(state.shortenings.begin(),
                      state.shortenings.end(),
                      [](const double x) { return std::isfinite(x); }))

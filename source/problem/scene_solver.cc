@@ -47,13 +47,7 @@ namespace mortise
   {
     if (discretisation.interfaces().have_contact())
       contact = std::make_unique<ContactStep>(
-        run,
-        discretisation,
-        *linear_solver,
-        preloads,
-        last.active_set,
-        // cycles repeat a step, from the unloaded bodies on
-        cycle ? std::nullopt : last.friction);
+        run, discretisation, *linear_solver, preloads, last.contact);
     // a factorisation gives one of many answers and does not tell
     if (discretisation.choice().method == SolverMethod::direct)
       discretisation.check_multipliers();
@@ -116,10 +110,7 @@ namespace mortise
                             "sizes this different" :
                             ""));
     if (contact)
-      {
-        next.active_set = contact->active_positions();
-        next.friction   = contact->friction_history();
-      }
+      next.contact = contact->records();
     next.shortenings = preloads.shortenings_by_interface();
     return result;
   }

@@ -95,8 +95,8 @@ namespace mortise
     if (bodies.empty())
       create_meshes();
     const SceneData data(context.parameters, steps.next(), field_checks);
-    if (!state.active_set && restart.empty())
-      state.active_set = contact_start(context, steps.next(), bodies);
+    if (!state.contact && restart.empty())
+      state.contact = contact_start(context, steps.next(), bodies);
     equations.reset();
     // meshes of the last step do not suit the next one
     if (adaptivity && adaptivity->n_cycles() == 0 && !first)
@@ -294,7 +294,7 @@ namespace mortise
       parameters.assignments,
       steps.longest(),
       steps.n_done(),
-      {steps.time(), {}, state.active_set, state.friction, state.shortenings},
+      {steps.time(), {}, state.contact, state.shortenings},
       adaptivity && (!parameters.steps.given() || !is_last_cycle()) ?
         to_bytes(adaptivity->checkpoint()) :
         std::string(),

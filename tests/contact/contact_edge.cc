@@ -4,6 +4,7 @@
 // nodes of other meshes find what the nearest is. The nodes are dealt out to
 // the ranks.
 #include <mortise/contact/contact_edge.h>
+#include <mortise/contact/contact_records.h>
 #include <verdict.h>
 
 #include <cmath>
@@ -32,7 +33,7 @@ namespace
             }
     }
 
-    MultiplierPositions positions;
+    NodePositions positions;
   };
 
   /// The least x of the multipliers that open, if the set is active up to x
@@ -122,19 +123,25 @@ main(int argc, char *argv[])
           0);
 
   // up to 0.41 on the first surface, up to 0.81 on the second
-  std::vector<bool> active;
-  for (unsigned int i = 0; i < both.positions.points.size(); ++i)
-    active.push_back(both.positions.points[i][0] <
-                     (both.positions.surfaces[i] == 1 ? 0.41 : 0.81));
-  const ActivePositions known(both.positions, active, MPI_COMM_WORLD);
+  std::vector<ContactRecord> records(both.positions.points.size());
+  for (unsigned int i = 0; i < records.size(); ++i)
+    {
+      const double x     = both.positions.points[i][0];
+      records[i].closed  = x < (both.positions.surfaces[i] == 1 ? 0.41 : 0.81);
+      records[i].slip[0] = x;
+    }
+  const ContactRecords known(both.positions, records, MPI_COMM_WORLD);
   for (const unsigned int surface : {1, 2})
     {
       const Strip  finer(0.007, MPI_COMM_WORLD, surface);
       const auto   found = known.nearest(finer.positions);
       unsigned int wrong = 0;
       for (unsigned int i = 0; i < found.size(); ++i)
-        wrong +=
-          found[i] != (finer.positions.points[i][0] < 0.4 * surface + 0.01);
+        {
+          const double x = finer.positions.points[i][0];
+          wrong += found[i].closed != (x < 0.4 * surface + 0.01) ||
+                   std::fabs(found[i].slip[0] - x) > 0.0101;
+        }
       verdict("as the nearest on surface " + std::to_string(surface) +
                 ": not so",
               dealii::Utilities::MPI::sum(wrong, MPI_COMM_WORLD),
@@ -143,7 +150,11 @@ main(int argc, char *argv[])
   const Strip fresh(0.02, MPI_COMM_WORLD, 3);
   const auto  found = known.nearest(fresh.positions);
   verdict("all of a surface that had none press: not so",
-          dealii::Utilities::MPI::sum(
-            std::count(found.begin(), found.end(), false), MPI_COMM_WORLD),
+          dealii::Utilities::MPI::sum(std::count_if(found.begin(),
+                                                    found.end(),
+                                                    [](const auto &record) {
+                                                      return !record.closed;
+                                                    }),
+                                      MPI_COMM_WORLD),
           0);
 }

@@ -1,13 +1,14 @@
 // Proves the law of friction at a node: iterates on a spring come to |t| <= F
 // with slip along t where it slips and none where it sticks, for a given bound
 // and for one of Coulomb; the law that is linearised has the derivatives of t -
-// min(1, F / |t + c s|) (t + c s); when a node begins to slip and to stick; and
-// that none of it depends on the axes.
+// min(1, F / |t + c s|) (t + c s); when a node begins to slip and to stick;
+// what violates the law at a point; and that none of it depends on the axes.
 #include <deal.II/lac/full_matrix.h>
 
 #include <deal.II/physics/transformations.h>
 
 #include <mortise/contact/friction.h>
+#include <mortise/contact/interface_law.h>
 #include <mortise/solvers/pseudo_random.h>
 #include <verdict.h>
 
@@ -267,6 +268,62 @@ namespace
             std::to_string(n[1]) + " and " + std::to_string(n[0]));
   }
 
+  /// What violates the law at a point of an interface, as adaptivity sees it.
+  void
+  check_violation()
+  {
+    constexpr double c    = 3.;
+    double           none = 0., beyond = 0., open = 0., moved = 0., back = 0.;
+    bool             tells = true;
+    for (unsigned int number = 0; number < 200; ++number)
+      {
+        Draws        draw(5000 + number);
+        const auto   axes = frame(draw);
+        const Vec   &n    = axes[2];
+        InterfaceLaw law;
+        law.law         = Law::contact;
+        law.constrained = ConstrainedDirections::all;
+        InterfacePoint point;
+        point.normal               = n;
+        point.friction.coefficient = 0.4 + 0.2 * draw();
+        const double p = 1.1 + draw(), F = point.friction.coefficient * p;
+        Vec          along = tangent(axes, draw);
+        along /= along.norm();
+        const double within = 0.5 * (1. + draw()), far = 1.1 + draw();
+        const auto   violation = [&](const Vec &tangential, const Vec &slip) {
+          point.traction = p * n + tangential;
+          point.jump     = -slip; // of the master against the slave
+          return law.violation(point, c);
+        };
+        none  = std::max({none,
+                          violation(within * F * along, Vec()),
+                          violation(F * along, far * along)});
+        tells = tells && !law.sticks(point, c);
+        violation(within * F * along, Vec());
+        tells              = tells && law.sticks(point, c);
+        beyond             = std::max(beyond,
+                          std::fabs(violation((F + far) * along, Vec()) -
+                                    far * far / c));
+        const double small = 0.9 * F / c;
+        moved              = std::max(moved,
+                         std::fabs(violation(Vec(), small * along) -
+                                   c * small * small));
+        back               = std::max(back,
+                        std::fabs(violation(F * along, -small * along) -
+                                  c * small * small));
+        point.offset = 0.5; // pressed, and tangentially as well, across a gap
+        open         = std::max(open,
+                        std::fabs(violation(Vec(), Vec()) -
+                                  std::min(c * 0.25, p * p / c)));
+      }
+    verdict("no violation where it sticks or slips, 1e-13", none, 1e-13);
+    verdict(tells, "tells which of both");
+    verdict("a traction beyond the bound, 1e-12", beyond, 1e-12);
+    verdict("slip without a traction, 1e-12", moved, 1e-12);
+    verdict("slip against the traction, 1e-12", back, 1e-12);
+    verdict("a pressure across a gap, 1e-12", open, 1e-12);
+  }
+
   bool
   slips(const Friction &friction)
   {
@@ -399,5 +456,6 @@ main()
       check_law(what, is_coulomb);
     }
   check_statuses();
+  check_violation();
   check_axes();
 }

@@ -18,8 +18,11 @@ namespace mortise
   public:
     /// All nodes of contact start active. @p complementarity: by owned node, the
     /// complementarity parameter c in lambda - c g, force per volume.
-    /// Collective.
-    ActiveSet(std::vector<double> complementarity, MPI_Comm comm);
+    /// @p has_energy: does the solution with a set minimise one, as without
+    /// friction? Collective.
+    ActiveSet(std::vector<double> complementarity,
+              bool                has_energy,
+              MPI_Comm            comm);
 
     /// By owned node.
     const std::vector<bool> &
@@ -49,7 +52,8 @@ namespace mortise
     /// Compute the next set from the solution with this one: active nodes with
     /// lambda < 0 open, inactive ones with g < 0 close. Once a set recurs, or
     /// eight sets in a row do not reduce the number of violated conditions,
-    /// descend() chooses the sets.
+    /// descend() chooses the sets; without an energy only the conditions that
+    /// are violated most are changed until they are fewer.
     ///
     /// By owned node: @p pressure, and @p gap, a length. @p length: scale of the
     /// rounding of gaps, where that is more than the largest gap. @p accuracy: of
@@ -98,7 +102,15 @@ namespace mortise
             double                     rounding,
             std::vector<bool>         &turns);
 
+    /// Of @p turns, those whose pressure, or that of their gap, is at least half
+    /// of the largest. Collective.
+    void
+    keep_worst(const std::vector<double> &pressure,
+               const std::vector<double> &gap,
+               std::vector<bool>         &turns) const;
+
     std::vector<double>             complementarity;
+    bool                            has_energy;
     MPI_Comm                        comm;
     dealii::types::global_dof_index first; ///< number of the first owned node
     std::vector<bool>               now, undecided_nodes;

@@ -2,7 +2,8 @@
 // which saves active sets on fine meshes.
 #pragma once
 
-#include <mortise/contact/multiplier_positions.h>
+#include <mortise/contact/node_positions.h>
+#include <mpi.h>
 
 #include <vector>
 
@@ -18,7 +19,7 @@ namespace mortise
   {
   public:
     /// Collective.
-    ContactEdge(MultiplierPositions positions, MPI_Comm comm);
+    ContactEdge(NodePositions positions, MPI_Comm comm);
 
     /// Add to @p turns, the multipliers of wrong sign, the active ones within a
     /// distance of them equal to the width of their zone beside the edge. Both
@@ -27,8 +28,8 @@ namespace mortise
     extend(const std::vector<bool> &active, std::vector<bool> &turns) const;
 
   private:
-    const MultiplierPositions positions;
-    const unsigned int        n_surfaces;
-    const MPI_Comm            comm;
+    const NodePositions positions;
+    const unsigned int  n_surfaces;
+    const MPI_Comm      comm;
   };
 } // namespace mortise

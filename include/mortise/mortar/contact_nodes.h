@@ -27,10 +27,10 @@ namespace mortise
     /// Along the pressure, of unit length; zero where the normal displacement
     /// is prescribed. What is across it is tangential.
     dealii::Tensor<1, dim> normal;
-    /// Across which a slip along the surface has the mean int psi s, of unit
-    /// length or zero. On curved faces the two differ, since tractions are
-    /// means with other weights.
-    dealii::Tensor<1, dim> kinematic_normal;
+    /// The rotation from the normal to that across which a slip along the
+    /// surface has the mean int psi s. On curved faces the two differ, since
+    /// tractions are means with other weights.
+    dealii::Tensor<2, dim> kinematic;
     /// With friction the tangential part of traction() is this times that in
     /// the frame of the node: a mean of the rotations from its normal to those
     /// around it.
@@ -44,6 +44,11 @@ namespace mortise
     /// By multiplier, of its direction d: int psi d, and int psi x cross d
     /// about the origin.
     std::array<dealii::Tensor<1, dim>, dim> forces, moments;
+    /// Likewise with the normals n of the slave: int psi n . d, the same times
+    /// the coefficient of a unit pressure, and int psi (n . d) n, the part of
+    /// the force that presses.
+    std::array<double, dim>                 pressures{}, pressed_areas{};
+    std::array<dealii::Tensor<1, dim>, dim> pressure_forces;
     /// Mean of the mesh gap n . (x_master - x_slave), a length; negative on
     /// penetration.
     double gap = 0.;
@@ -64,11 +69,43 @@ namespace mortise
       return forces[r] / forces[r].norm();
     }
 
+    dealii::Tensor<1, dim>
+    kinematic_normal() const
+    {
+      return kinematic * normal;
+    }
+
+    /// The entries for each multiplier of a vector in space.
+    dealii::Tensor<1, dim>
+    along_axes(const dealii::Tensor<1, dim> &in_space) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int r = 0; r < n_multipliers; ++r)
+        result[r] = in_space * axis(r);
+      return result;
+    }
+
+    dealii::Tensor<1, dim>
+    in_space(const dealii::Tensor<1, dim> &along_axes) const
+    {
+      dealii::Tensor<1, dim> result;
+      for (unsigned int r = 0; r < n_multipliers; ++r)
+        result += along_axes[r] * axis(r);
+      return result;
+    }
+
     /// What of @p value is across the normal.
     dealii::Tensor<1, dim>
     tangential(const dealii::Tensor<1, dim> &value) const
     {
       return value - (normal * value) * normal;
+    }
+
+    /// The tangential part of @p traction in the frame of the node.
+    dealii::Tensor<1, dim>
+    in_frame(const dealii::Tensor<1, dim> &traction) const
+    {
+      return invert(rotation) * tangential(traction);
     }
 
     /// Of the coefficients @p lambda, by owned multiplier of the scene: the force

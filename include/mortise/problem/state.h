@@ -1,8 +1,7 @@
 // State of a run, argument and result of a load step.
 #pragma once
 
-#include <mortise/contact/friction_history.h>
-#include <mortise/contact/multiplier_positions.h>
+#include <mortise/contact/contact_records.h>
 #include <mortise/operators/block_system.h>
 
 #include <optional>
@@ -15,10 +14,8 @@ namespace mortise
   {
     double       time = 0.;
     SystemVector solution; ///< without prescribed values; empty: unloaded
-    /// Active set of contact; absent before it is known.
-    std::optional<ActivePositions> active_set;
-    /// Absent without friction, and before the first step.
-    std::optional<FrictionHistory> friction;
+    /// Absent before it is known; before the first step a guess.
+    std::optional<ContactRecords> contact;
     /// By interface, the shortening of its preload, a length; empty before the
     /// first step.
     std::vector<double> shortenings;

@@ -75,15 +75,15 @@ namespace mortise
 
     struct Found
     {
-      std::optional<ActivePositions> active_set;
-      unsigned int                   n_sets = 0;
+      std::optional<ContactRecords> contact;
+      unsigned int                  n_sets = 0;
     };
 
     Found
-    solve(const RunContext              &run,
-          const double                   time,
-          Bodies                        &bodies,
-          std::optional<ActivePositions> start)
+    solve(const RunContext                    &run,
+          const double                         time,
+          Bodies                              &bodies,
+          const std::optional<ContactRecords> &start)
     {
       FieldChecks     checks; // the scene itself tells
       const SceneData data(run.parameters, time, checks);
@@ -93,19 +93,18 @@ namespace mortise
       options.max_gathered = run.parameters.solver.max_gathered;
       const auto solver =
         make_linear_solver(discretisation.linear_system(), options);
-      Preloads    preloads(run, discretisation, *solver);
-      ContactStep step(
-        run, discretisation, *solver, preloads, std::move(start));
+      Preloads     preloads(run, discretisation, *solver);
+      ContactStep  step(run, discretisation, *solver, preloads, start);
       SceneLoad    load = discretisation.load(data);
       SystemVector x;
       preloads.begin(data, load);
       if (!step.solve(data, load, x).converged)
         return {};
-      return {step.active_positions(), step.n_sets()};
+      return {step.records(), step.n_sets()};
     }
   } // namespace
 
-  std::optional<ActivePositions>
+  std::optional<ContactRecords>
   contact_start(const RunContext &run, const double time, Bodies &bodies)
   {
     if (n_nodes(run, bodies) < few_nodes)
@@ -126,19 +125,17 @@ namespace mortise
     std::ostream silent(nullptr);
     RunLog       log(silent, run.comm);
     Timers       timers;
-    std::optional<ActivePositions> active_set;
-    std::string                    n_sets;
+    std::optional<ContactRecords> contact;
+    std::string                   n_sets;
     try
       {
         while (!all.empty())
           {
-            Found found = solve({all.back(), log, timers, run.comm},
-                                time,
-                                bodies,
-                                active_set);
-            if (!found.active_set)
+            Found found =
+              solve({all.back(), log, timers, run.comm}, time, bodies, contact);
+            if (!found.contact)
               break;
-            active_set = std::move(found.active_set);
+            contact = std::move(found.contact);
             n_sets +=
               (n_sets.empty() ? "" : ", ") + std::to_string(found.n_sets);
             all.pop_back();
@@ -150,6 +147,6 @@ namespace mortise
       {}
     stage.details(n_sets.empty() ? "no contact found" :
                                    "active sets of lower degrees: " + n_sets);
-    return active_set;
+    return contact;
   }
 } // namespace mortise

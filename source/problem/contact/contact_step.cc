@@ -29,18 +29,20 @@ namespace mortise
     /// Signs are not known any better.
     constexpr double least_accuracy = 1e-10;
 
-    /// Of residuals, by linear solves between which the sets of friction
-    /// change, and the most exact one of the others.
-    constexpr double coarse_reduction = 0.1, fine_reduction = 1e-4;
+    /// Of residuals, by linear solves with friction. The first tells all nodes
+    /// that slip; later ones are as exact as few nodes turn, down to a least
+    /// reduction; those of a set that stays follow the violation.
+    constexpr double first_reduction = 1e-3, coarse_reduction = 0.1,
+                     finest_of_sets = 1e-3, fine_reduction = 1e-4;
 
     /// Of it, from one to the next where signs are not known yet.
     constexpr double finer = 1e-2;
 
-    MultiplierPositions
+    NodePositions
     node_positions(const Discretisation &discretisation)
     {
-      MultiplierPositions positions;
-      const auto         &all = discretisation.interfaces().all();
+      NodePositions positions;
+      const auto   &all = discretisation.interfaces().all();
       for (unsigned int i = 0; i < all.size(); ++i)
         for (const ContactNode &node : all[i].contact_nodes)
           {
@@ -48,6 +50,15 @@ namespace mortise
             positions.points.push_back(node.position);
           }
       return positions;
+    }
+
+    std::vector<bool>
+    closed_nodes(const std::vector<ContactRecord> &records)
+    {
+      std::vector<bool> result;
+      for (const ContactRecord &record : records)
+        result.push_back(record.closed);
+      return result;
     }
 
     std::vector<double>
@@ -61,44 +72,35 @@ namespace mortise
     }
   } // namespace
 
-  ContactStep::ContactStep(const RunContext                     &run,
-                           Discretisation                       &discretisation,
-                           LinearSolver                         &solver,
-                           Preloads                             &preloads,
-                           std::optional<ActivePositions>        start,
-                           const std::optional<FrictionHistory> &history)
+  ContactStep::ContactStep(const RunContext                    &run,
+                           Discretisation                      &discretisation,
+                           LinearSolver                        &solver,
+                           Preloads                            &preloads,
+                           const std::optional<ContactRecords> &known)
     : run(run)
     , discretisation(discretisation)
     , solver(solver)
     , preloads(preloads)
-    , set(complementarity_parameters(discretisation), run.comm)
+    , set(complementarity_parameters(discretisation),
+          !discretisation.interfaces().have_friction(),
+          run.comm)
     , friction(run, discretisation)
     , positions(node_positions(discretisation))
     , edge(positions, run.comm)
     , n_contact(
         Utilities::MPI::sum<std::uint64_t>(positions.points.size(), run.comm))
-    , first(std::move(start))
     , increments(max_increments)
   {
-    if (friction.empty())
-      return;
-    report_held();
-    if (history)
-      friction.restore(history->nearest(positions));
+    if (known)
+      first = known->nearest(positions);
+    if (!friction.empty())
+      report_held();
   }
 
-  ActivePositions
-  ContactStep::active_positions() const
+  ContactRecords
+  ContactStep::records() const
   {
-    return {positions, set.active(), run.comm};
-  }
-
-  std::optional<FrictionHistory>
-  ContactStep::friction_history() const
-  {
-    if (friction.empty())
-      return {};
-    return FrictionHistory(positions, friction.records(set.active()), run.comm);
+    return {positions, friction.records(set.active()), run.comm};
   }
 
   void
@@ -128,9 +130,12 @@ namespace mortise
   void
   ContactStep::resume(const SceneLoad &load, const SystemVector &x)
   {
-    set.start_from(first->nearest(positions));
+    set.start_from(closed_nodes(*first));
     if (!friction.empty())
-      friction.set_origin(discretisation.weighted_gaps(load, x));
+      {
+        friction.restore(*first);
+        friction.set_origin(discretisation.weighted_gaps(load, x));
+      }
     remember({load.rhs, x, statuses()});
   }
 
@@ -165,7 +170,10 @@ namespace mortise
     const std::vector<double> gaps = discretisation.gaps(weighted);
     std::vector<bool>         guess(gaps.size());
     if (!last && first)
-      guess = first->nearest(positions);
+      {
+        guess = closed_nodes(*first);
+        friction.guess(*first);
+      }
     else if (!last)
       for (unsigned int i = 0; i < gaps.size(); ++i)
         guess[i] = gaps[i] <= closed;
@@ -222,13 +230,15 @@ namespace mortise
                        edge.extend(set.active(), turns);
                    });
     const std::vector<Friction> before = friction.laws();
-    const FrictionSet::Change   of_friction =
+    FrictionSet::Change         of_friction =
       friction.empty() ?
-          FrictionSet::Change() :
-          friction.advance(next.active(),
+                FrictionSet::Change() :
+                friction.advance(next.active(),
                          x.multiplier,
                          weighted,
                          std::max(least_accuracy, loose * tolerance));
+    if (!friction.empty() && !is_last)
+      extend_slip(next.active(), before, x, weighted, of_friction);
     print(change, before, of_friction);
     learn_extension(change, next.cycles());
     const bool changes = change.any() || of_friction.any();
@@ -244,7 +254,8 @@ namespace mortise
     if (!friction.empty())
       check_hold(next.active());
     const auto free = [&] {
-      return !free_motions(friction.laws(next.active())).empty();
+      return !free_motions(friction.laws_without_resistance(next.active()))
+                .empty();
     };
     if (is_last)
       {
@@ -257,24 +268,45 @@ namespace mortise
         // and ask again; what is open until the end costs more there
         tolerance =
           change.undecided > 0 ? std::max(asked, finer * tolerance) : asked;
-        reduction = changes ? 0. : fine_reduction;
+        reduction =
+          changes || of_friction.error <= fine_reduction ? 0. : fine_reduction;
         if (changes)
           friction.take(before);
         set.start_from(set.active());
         return tolerance;
       }
-    reduction = changes ? coarse_reduction :
+    const double turning = double(change.opened + change.closed +
+                                  of_friction.slip + of_friction.stick) /
+                           n_contact;
+    reduction = changes ? std::max(finest_of_sets, coarse_reduction * turning) :
                           std::min(coarse_reduction,
                                    std::max(fine_reduction, of_friction.error));
-    // other bounds make another problem, whose sets may recur
-    if (of_friction.any())
-      next.start_from(next.active());
-    set = std::move(next);
+    set       = std::move(next);
     ++sets;
-    return double(change.opened + change.closed + of_friction.slip +
-                  of_friction.stick) /
-             n_contact +
-           of_friction.error;
+    return turning + of_friction.error;
+  }
+
+  void
+  ContactStep::extend_slip(const std::vector<bool>     &next,
+                           const std::vector<Friction> &before,
+                           const SystemVector          &x,
+                           const Vector                &weighted_gaps,
+                           FrictionSet::Change         &change)
+  {
+    // what sticks again slipped beyond the edge
+    slip_extends = slip_extends && !(slip_extended && change.stick > 0);
+    if (!slip_extends || change.slip == 0)
+      return;
+    const std::vector<Friction> laws = friction.laws();
+    const std::uint64_t         more =
+      friction.extend(positions, next, before, x.multiplier, weighted_gaps);
+    if (!free_motions(friction.laws_without_resistance(next)).empty())
+      friction.take(laws);
+    else
+      {
+        change.slip += more;
+        slip_extended = slip_extended || more > 0;
+      }
   }
 
   void
@@ -329,17 +361,19 @@ namespace mortise
                   std::max(loose, asked);
     used_strength.reset();
     // from lower degrees and from step to step the edge is near already
-    cold       = !first && !last;
-    extends    = cold;
-    extended   = false;
-    overshoots = 0;
-    sets       = 0;
+    cold          = !first && !last;
+    extends       = cold;
+    extended      = false;
+    overshoots    = 0;
+    slip_extends  = true;
+    slip_extended = false;
+    sets          = 0;
     set.start_from(predict(of_step, x));
     // where nothing is predicted to turn one system is all
     const bool turns =
       !last ||
       Utilities::MPI::max(statuses() == last->statuses ? 0 : 1, run.comm) == 1;
-    reduction = tolerance == asked || !turns ? 0. : loose;
+    reduction = tolerance == asked || !turns ? 0. : first_reduction;
     NewtonOptions options;
     options.tolerance      = 0.;
     options.max_iterations = friction.empty() ? max_sets : max_sets_of_friction;

@@ -67,10 +67,7 @@ namespace mortise
     /// Of work, that rounding and linear solves leave.
     constexpr double rounding = 1e-8;
 
-    // what moves if nodes that slip resist nothing
-    std::vector<Friction> laws = friction.laws(next);
-    for (Friction &law : laws)
-      law.bound = 0.;
+    const std::vector<Friction> laws   = friction.laws_without_resistance(next);
     const std::optional<double> before = std::exchange(used_strength, {});
     lost.clear();
     const std::string motions = free_motions(laws);

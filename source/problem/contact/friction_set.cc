@@ -4,6 +4,7 @@
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <mortise/base/error.h>
+#include <mortise/contact/slip_edge.h>
 #include <mortise/problem/contact/friction_set.h>
 
 #include <algorithm>
@@ -15,17 +16,6 @@
 namespace mortise
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// The tangential traction in the frame of the node.
-    Tensor<1, dim>
-    in_frame(const ContactNode &node, const Vector &lambda)
-    {
-      return invert(node.rotation) *
-             node.tangential(node.traction(lambda.begin()));
-    }
-  } // namespace
 
   FrictionSet::FrictionSet(const RunContext &run,
                            Discretisation   &discretisation)
@@ -88,10 +78,27 @@ namespace mortise
   Tensor<1, dim>
   FrictionSet::slip(const Node &node, const Vector &weighted_gaps) const
   {
-    const Tensor<1, dim> &normal = node.contact->kinematic_normal,
-                         moved   = -node.contact->mean(weighted_gaps.begin()) -
+    const Tensor<1, dim> normal = node.contact->kinematic_normal(),
+                         moved  = -node.contact->mean(weighted_gaps.begin()) -
                                  node.origin;
     return moved - (normal * moved) * normal;
+  }
+
+  FrictionPoint
+  FrictionSet::point(const Node   &node,
+                     const Vector &lambda,
+                     const Vector &weighted_gaps) const
+  {
+    const ContactNode &of = *node.contact;
+    FrictionPoint      at;
+    // a node that is to close has none yet
+    at.pressure = of.pressure(lambda.begin()) -
+                  of.complementarity *
+                    (of.kinematic_normal() * of.mean(weighted_gaps.begin()));
+    at.traction = of.in_frame(of.traction(lambda.begin()));
+    at.slip     = transpose(of.kinematic) * slip(node, weighted_gaps);
+    at.c        = of.complementarity;
+    return at;
   }
 
   FrictionSet::Change
@@ -117,17 +124,12 @@ namespace mortise
         node.law               = Friction();
         if (!closed[i])
           continue;
-        const ContactNode &of = *node.contact;
-        FrictionPoint      at;
-        if (!of.has_normal())
+        if (!node.contact->has_normal())
           {
             node.law.status = NodeStatus::slip;
             continue;
           }
-        at.pressure = of.pressure(lambda.begin());
-        at.traction = in_frame(of, lambda);
-        at.slip     = of.tangential(slip(node, weighted_gaps));
-        at.c        = of.complementarity;
+        const FrictionPoint at = point(node, lambda, weighted_gaps);
         if (!node.touched)
           node.law.status = NodeStatus::slip;
         else
@@ -201,6 +203,53 @@ namespace mortise
         }
   }
 
+  std::uint64_t
+  FrictionSet::extend(const NodePositions         &positions,
+                      const std::vector<bool>     &closed,
+                      const std::vector<Friction> &before,
+                      const Vector                &lambda,
+                      const Vector                &weighted_gaps)
+  {
+    std::vector<TangentialForce> forces(nodes.size());
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (const Node &node = nodes[i];
+          closed[i] && node.has_friction && node.touched &&
+          node.contact->has_normal() && before[i].status == NodeStatus::stick &&
+          // with a static coefficient what slips once may slip for good
+          node.bound.static_coefficient <= node.bound.coefficient)
+        {
+          const ContactNode   &of = *node.contact;
+          const Tensor<1, dim> tangential =
+            of.tangential(of.traction(lambda.begin()));
+          forces[i].force = of.area * of.in_space(tangential);
+          // the excess is that in the frame of the node
+          forces[i].bound = of.area * (tangential.norm() - node.excess);
+          forces[i].kind  = node.law.status == NodeStatus::slip ?
+                              TangentialForce::begins :
+                              TangentialForce::may_slip;
+        }
+    const auto    directions = extend_slip(positions, forces, run.comm);
+    std::uint64_t n          = 0;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (directions[i].norm() > 0.)
+        {
+          Node                &node = nodes[i];
+          const ContactNode   &of   = *node.contact;
+          const FrictionPoint  at   = point(node, lambda, weighted_gaps);
+          const Tensor<1, dim> direction =
+            of.in_frame(of.along_axes(directions[i]));
+          const double bound = node.bound.of(at.pressure);
+          if (!(bound > 0. && direction.norm() > 0.))
+            continue;
+          node.law.status    = NodeStatus::slip;
+          node.law.bound     = bound;
+          node.law.direction = direction / direction.norm();
+          node.law.error = (at.traction - bound * node.law.direction).norm();
+          ++n;
+        }
+    return Utilities::MPI::sum(n, run.comm);
+  }
+
   bool
   FrictionSet::keep_one(const std::vector<Friction> &before)
   {
@@ -247,74 +296,12 @@ namespace mortise
     return result;
   }
 
-  void
-  FrictionSet::set_origin(const Vector            &weighted_gaps,
-                          const std::vector<bool> &which)
+  std::vector<Friction>
+  FrictionSet::laws_without_resistance(const std::vector<bool> &closed) const
   {
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      if (nodes[i].has_friction && (which.empty() || which[i]))
-        {
-          nodes[i].origin += slip(nodes[i], weighted_gaps);
-          nodes[i].touched = nodes[i].touched || !which.empty();
-        }
-  }
-
-  std::vector<FrictionRecord>
-  FrictionSet::records(const std::vector<bool> &closed) const
-  {
-    std::vector<FrictionRecord> result;
-    const std::vector<Friction> all = laws(closed);
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      {
-        const ContactNode &node = *nodes[i].contact;
-        FrictionRecord    &own  = result.emplace_back();
-        own.closed              = all[i].status != NodeStatus::open;
-        own.slips               = all[i].status == NodeStatus::slip;
-        own.dissipated          = dissipation[i];
-        for (unsigned int r = 0; r < node.n_multipliers; ++r)
-          for (unsigned int c = 0; c < dim; ++c)
-            own.slip[c] += total_slip[i][r] * node.axis(r)[c];
-      }
+    std::vector<Friction> result = laws(closed);
+    for (Friction &law : result)
+      law.bound = 0.;
     return result;
-  }
-
-  void
-  FrictionSet::restore(const std::vector<FrictionRecord> &records)
-  {
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      {
-        Node &node   = nodes[i];
-        node.touched = records[i].closed;
-        node.law.status =
-          records[i].slips ? NodeStatus::slip : NodeStatus::stick;
-        dissipation[i] = records[i].dissipated;
-        for (unsigned int r = 0; r < node.contact->n_multipliers; ++r)
-          for (unsigned int c = 0; c < dim; ++c)
-            total_slip[i][r] += records[i].slip[c] * node.contact->axis(r)[c];
-      }
-  }
-
-  void
-  FrictionSet::accept(const std::vector<bool> &closed,
-                      const Vector            &lambda,
-                      const Vector            &weighted_gaps)
-  {
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      if (Node &node = nodes[i]; node.has_friction)
-        {
-          const bool sticks = closed[i] && node.law.status == NodeStatus::stick;
-          const Tensor<1, dim> increment =
-            sticks ? Tensor<1, dim>() : slip(node, weighted_gaps);
-          if (closed[i] && node.touched)
-            {
-              total_slip[i] += increment;
-              for (unsigned int r = 0; r < node.contact->n_multipliers; ++r)
-                dissipation[i] +=
-                  node.contact->areas[r] * increment[r] *
-                  lambda.local_element(node.contact->multipliers[r]);
-            }
-          node.origin += increment;
-          node.touched = closed[i];
-        }
   }
 } // namespace mortise

@@ -66,22 +66,35 @@ namespace mortise
           active[node.multipliers[r]] = are_active;
       }
 
-      /// A node that slips with @p law along the direction @p d of its
-      /// multipliers, where the pressure brings @p along times itself.
+      /// A node that slips with @p law, where a pressure brings the traction
+      /// @p carried of its multipliers along.
       void
       turn_node(const ContactNode    &node,
                 const Friction       &law,
-                const Tensor<1, dim> &d,
-                const double          along)
+                const Tensor<1, dim> &carried)
       {
         constexpr double   rounding = 1e-12;
         const unsigned int m        = node.n_multipliers;
-        const auto         rows     = directions_of(node.normal, m, d),
-                   kinematic_rows = directions_of(node.kinematic_normal, m, d);
-        const bool resists        = law.bound > 0.;
-        is_unsymmetric =
-          is_unsymmetric || along > 0. ||
-          (node.kinematic_normal - node.normal).norm() > rounding;
+        const auto         frame = directions_of(node.normal, m, law.direction);
+        const bool         resists = law.bound > 0.;
+        // rows of equal areas; components without a multiplier stay
+        Tensor<2, dim> motions, forces;
+        for (unsigned int r = 0; r < dim; ++r)
+          if (r < m)
+            {
+              motions[r] = node.kinematic * frame[r];
+              forces[r] =
+                r == 0 ? node.normal + carried : node.rotation * frame[r];
+              for (unsigned int c = 0; c < m; ++c)
+                {
+                  motions[r][c] *= node.area / node.areas[c];
+                  forces[r][c] *= node.area / node.areas[c];
+                }
+            }
+          else
+            motions[r][r] = forces[r][r] = 1.;
+        const Tensor<2, dim> to_forces = transpose(invert(forces));
+        is_unsymmetric = is_unsymmetric || (forces - motions).norm() > rounding;
         for (unsigned int r = 0; r < m; ++r)
           {
             const unsigned int at = node.multipliers[r];
@@ -91,18 +104,10 @@ namespace mortise
               compliance[at] = node.area * law.compliance;
             for (unsigned int c = 0; c < m; ++c)
               {
-                // rows of equal areas
-                const double share   = node.area / node.areas[c];
-                const double carried = r == 0 ? along * d[c] : 0.;
-                add(at,
-                    node.multipliers[c],
-                    share * kinematic_rows[r][c],
-                    turn);
-                add(at, node.multipliers[c], rows[r][c] / share, inverse);
-                add(at,
-                    node.multipliers[c],
-                    share * (rows[r][c] + carried),
-                    turn_of_forces);
+                const unsigned int of = node.multipliers[c];
+                add(at, of, motions[r][c], turn);
+                add(at, of, to_forces[r][c], inverse);
+                add(at, of, forces[r][c], turn_of_forces);
               }
           }
       }
@@ -171,13 +176,10 @@ namespace mortise
         const bool within =
           within_system && node.law.bound > 0. && node.bound.coefficient > 0.;
         const Tensor<1, dim> carried = of.rotation * node.law.direction;
-        const double         length  = carried.norm();
-        system.turn_node(of,
-                         node.law,
-                         length > 0. ? carried / length : carried,
-                         within ?
-                           node.bound.coefficient * length / of.length_of_mean :
-                           0.);
+        system.turn_node(
+          of,
+          node.law,
+          (within ? node.bound.coefficient / of.length_of_mean : 0.) * carried);
         const double bound = within ? node.bound.given : node.law.bound;
         for (unsigned int r = 0; r < of.n_multipliers; ++r)
           given.local_element(of.multipliers[r]) =

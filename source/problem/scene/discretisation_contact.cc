@@ -109,7 +109,7 @@ namespace mortise
   {
     std::vector<double> result;
     for (const ContactNode *node : pairing->contact_nodes())
-      result.push_back(node->kinematic_normal * node->mean(weighted.begin()));
+      result.push_back(node->kinematic_normal() * node->mean(weighted.begin()));
     return result;
   }
 

@@ -46,15 +46,15 @@ namespace mortise
 
   namespace
   {
-    /// What the multipliers @p all of a coupling, the first of which is
-    /// @p first, hold at @p node. One that slips is held along the normal and,
-    /// by the force that slips along with it, across its direction.
+    /// Add to @p tie what the multipliers @p all of a coupling, the first of
+    /// which is @p first, hold at @p node. One that slips is held along the normal
+    /// and, by the force that slips along with it, across its direction.
     void
     add_moments(const ContactNode                   &node,
                 const Friction                      &law,
                 const std::vector<MultiplierMoment> &all,
                 const unsigned int                   first,
-                std::vector<MultiplierMoment>       &moments)
+                TieSupport                          &tie)
     {
       if (law.status == NodeStatus::open)
         return;
@@ -70,13 +70,13 @@ namespace mortise
       };
       if (law.status == NodeStatus::stick)
         for (unsigned int r = 0; r < node.n_multipliers; ++r)
-          moments.push_back(all[node.multipliers[r] - first]);
+          tie.multipliers.push_back(all[node.multipliers[r] - first]);
       else
-        moments.push_back(along(node.kinematic_normal));
+        tie.multipliers.push_back(along(node.kinematic_normal()));
       if (law.status == NodeStatus::slip && node.n_multipliers == dim &&
           law.bound > 0.)
-        moments.push_back(
-          along(cross_product_3d(node.kinematic_normal, law.direction)));
+        tie.across_slip.push_back(
+          along(node.kinematic * cross_product_3d(node.normal, law.direction)));
     }
   } // namespace
 
@@ -93,19 +93,15 @@ namespace mortise
           tie.released.reset();
         if (!couplings[i].law.is_one_sided())
           continue;
-        std::vector<MultiplierMoment> moments;
-        bool                          sticks = false;
+        const auto all    = std::exchange(tie.multipliers, {});
+        bool       sticks = false;
         for (const ContactNode &node : couplings[i].contact_nodes)
           {
             const Friction &law = laws[number++];
             sticks              = sticks || law.status == NodeStatus::stick;
-            add_moments(node,
-                        law,
-                        tie.multipliers,
-                        couplings[i].multipliers->range().first,
-                        moments);
+            add_moments(
+              node, law, all, couplings[i].multipliers->range().first, tie);
           }
-        tie.multipliers = std::move(moments);
         if (Utilities::MPI::max(sticks ? 1 : 0, run.comm) == 0)
           tie.constrained = ConstrainedDirections::normal;
       }

@@ -163,6 +163,7 @@ namespace mortise
                         report.covered_area / report.slave_area,
                         couplings[i].law.constrained,
                         {},
+                        {},
                         {}});
         const BodySurface &slave = couplings[i].interface->slave();
         for (unsigned int s = 0; s < slave.faces.size(); ++s)

@@ -177,6 +177,10 @@ namespace mortise
               add(turned, result.along_all);
             }
       }
+    // however little, it is not what facets of a curved surface hold
+    constexpr double of_friction = 100.;
+    for (const MultiplierMoment &m : tie.across_slip)
+      result.along_directions.add(rows(m), of_friction, 0.);
     if (tie.released)
       {
         // rows as if they had an unknown more, the shortening, of which each

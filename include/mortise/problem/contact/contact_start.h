@@ -1,9 +1,9 @@
-// First active set by nested iteration over the degree: solutions with lower
-// degrees are cheap, and the number of sets grows with the nodes between the
-// first guess and the edge of the contact.
+// First guess of the contact by nested iteration over the degree: solutions
+// with lower degrees are cheap, and the number of sets grows with the nodes
+// between the first guess and the edge of the contact.
 #pragma once
 
-#include <mortise/contact/multiplier_positions.h>
+#include <mortise/contact/contact_records.h>
 #include <mortise/problem/input/run_context.h>
 #include <mortise/problem/scene/scene_spaces.h>
 
@@ -15,6 +15,6 @@ namespace mortise
   /// to half of what the parameters say. Nothing without contact, for few
   /// nodes, with the lowest degrees, or if contact is lost, which the scene
   /// itself reports. Changes the spaces of @p bodies. Collective.
-  std::optional<ActivePositions>
+  std::optional<ContactRecords>
   contact_start(const RunContext &run, double time, Bodies &bodies);
 } // namespace mortise

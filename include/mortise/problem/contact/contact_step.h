@@ -5,6 +5,7 @@
 
 #include <mortise/contact/active_set.h>
 #include <mortise/contact/contact_edge.h>
+#include <mortise/contact/contact_records.h>
 #include <mortise/problem/contact/friction_set.h>
 #include <mortise/problem/contact/preloads.h>
 #include <mortise/problem/contact/solved_contact.h>
@@ -24,14 +25,13 @@ namespace mortise
   class ContactStep : private NonlinearProblem
   {
   public:
-    /// References must live on. @p start: the first active set, or that of the
-    /// last step, if known; @p history: of the steps before. Collective.
-    ContactStep(const RunContext                     &run,
-                Discretisation                       &discretisation,
-                LinearSolver                         &solver,
-                Preloads                             &preloads,
-                std::optional<ActivePositions>        start,
-                const std::optional<FrictionHistory> &history = {});
+    /// References must live on. @p known: a guess for the first step, or what
+    /// resume() continues from. Collective.
+    ContactStep(const RunContext                    &run,
+                Discretisation                      &discretisation,
+                LinearSolver                        &solver,
+                Preloads                            &preloads,
+                const std::optional<ContactRecords> &known);
 
     /// Solve for @p load, that of @p data, of which shortenings of preloads
     /// become a part. The first set is extrapolated from the last steps; in the
@@ -45,14 +45,14 @@ namespace mortise
     SolveReport
     solve(const SceneData &data, SceneLoad &load, SystemVector &x);
 
-    /// Continue from @p x, an earlier solution for @p load, with the active set
+    /// Continue from @p x, an earlier solution for @p load, with the contact
     /// of the constructor. Collective.
     void
     resume(const SceneLoad &load, const SystemVector &x);
 
-    /// The present active set. Collective.
-    ActivePositions
-    active_positions() const;
+    /// The present contact. Collective.
+    ContactRecords
+    records() const;
 
     /// Of the last solve().
     unsigned int
@@ -67,10 +67,6 @@ namespace mortise
     {
       return report.converged || !report.linear.converged;
     }
-
-    /// Nothing without friction. Collective.
-    std::optional<FrictionHistory>
-    friction_history() const;
 
     /// Of the last solve().
     SolvedContact
@@ -113,6 +109,14 @@ namespace mortise
     solve_set(unsigned int max_iterations, SystemVector &x);
     SolveReport
     solve_with_friction(SystemVector &x);
+    /// Let nodes beside those that begin to slip slip as well, if @p next holds
+    /// the bodies then, and count them in @p change.
+    void
+    extend_slip(const std::vector<bool>     &next,
+                const std::vector<Friction> &before,
+                const SystemVector          &x,
+                const Vector                &weighted_gaps,
+                FrictionSet::Change         &change);
     /// Is the next set that opens to be extended?
     void
     learn_extension(const ActiveSet::Change &change, bool cycles);
@@ -160,18 +164,19 @@ namespace mortise
     void
     show();
 
-    const RunContext   &run;
-    Discretisation     &discretisation;
-    LinearSolver       &solver;
-    Preloads           &preloads;
-    ActiveSet           set;
-    FrictionSet         friction;
-    MultiplierPositions positions;
-    ContactEdge         edge;
-    std::uint64_t       n_contact; ///< nodes of contact
+    const RunContext &run;
+    Discretisation   &discretisation;
+    LinearSolver     &solver;
+    Preloads         &preloads;
+    ActiveSet         set;
+    FrictionSet       friction;
+    NodePositions     positions;
+    ContactEdge       edge;
+    std::uint64_t     n_contact; ///< nodes of contact
 
-    std::optional<ActivePositions> first; ///< active set of the first step
-    std::optional<Solved>          last;  ///< with steps
+    /// By node: the guess for the first step.
+    std::optional<std::vector<ContactRecord>> first;
+    std::optional<Solved>                     last; ///< with steps
     SuccessiveSolutions
          increments; ///< from step to step, with the set of the last one
     bool mixed_increment =
@@ -196,5 +201,7 @@ namespace mortise
     bool         extends    = false;
     bool         extended   = false; ///< did one open?
     unsigned int overshoots = 0;     ///< sets that closed again
+    /// Likewise of slip.
+    bool slip_extends = true, slip_extended = false;
   };
 } // namespace mortise

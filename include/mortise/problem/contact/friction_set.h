@@ -2,7 +2,8 @@
 // iterate follows from that.
 #pragma once
 
-#include <mortise/contact/friction_history.h>
+#include <mortise/contact/contact_records.h>
+#include <mortise/contact/friction.h>
 #include <mortise/problem/contact/preloads.h>
 #include <mortise/problem/scene/discretisation.h>
 #include <mortise/problem/scene/scene_data.h>
@@ -74,6 +75,16 @@ namespace mortise
             const Vector            &weighted_gaps,
             double                   accuracy);
 
+    /// Let nodes beside those that begin to slip, but stuck with the laws()
+    /// of @p before, slip as well, see extend_slip(); after advance() with the
+    /// same arguments. Returns how many. Collective.
+    std::uint64_t
+    extend(const NodePositions         &positions,
+           const std::vector<bool>     &closed,
+           const std::vector<Friction> &before,
+           const Vector                &lambda,
+           const Vector                &weighted_gaps);
+
     /// Of those that slip now, but stuck with the laws() of @p before, let the
     /// one that exceeds its bound least stick for once more. False if there is
     /// none. Collective.
@@ -88,6 +99,11 @@ namespace mortise
     /// laws() with the status of those that are not @p closed.
     std::vector<Friction>
     laws(const std::vector<bool> &closed) const;
+
+    /// The same as if nodes that slip held nothing across their directions, of
+    /// which a coarse solution does not tell how they differ.
+    std::vector<Friction>
+    laws_without_resistance(const std::vector<bool> &closed) const;
 
     /// Set the linear system; returns whether its directions changed, so that
     /// LinearSolver::update_directions() must follow. Collective.
@@ -114,13 +130,18 @@ namespace mortise
            const Vector            &lambda,
            const Vector            &weighted_gaps);
 
-    /// What the next step needs to know.
-    std::vector<FrictionRecord>
+    /// What the next step, or another discretisation, needs to know.
+    std::vector<ContactRecord>
     records(const std::vector<bool> &closed) const;
 
     /// The inverse of records(); set_origin() must follow.
     void
-    restore(const std::vector<FrictionRecord> &records);
+    restore(const std::vector<ContactRecord> &records);
+
+    /// Begin the first step with the laws that follow from those of another
+    /// discretisation; after begin().
+    void
+    guess(const std::vector<ContactRecord> &records);
 
     /// Sum of the slips of all steps, in the space of the multipliers.
     const std::vector<dealii::Tensor<1, dim>> &
@@ -144,11 +165,17 @@ namespace mortise
       FrictionBound          bound;
       Friction               law;
       dealii::Tensor<1, dim> origin; ///< where slip counts from, a length
+      /// Of the last step, by multiplier.
+      dealii::Tensor<1, dim> traction, increment;
       /// Has the node been closed since then? If not, it has no friction.
       bool   touched = true;
       double excess  = 0.; ///< of the last traction over the bound
     };
 
+    FrictionPoint
+    point(const Node   &node,
+          const Vector &lambda,
+          const Vector &weighted_gaps) const;
     /// Slip since the last step.
     dealii::Tensor<1, dim>
     slip(const Node &node, const Vector &weighted_gaps) const;

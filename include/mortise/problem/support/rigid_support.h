@@ -132,6 +132,8 @@ namespace mortise
     std::vector<Sample> samples;
     /// The direction along which a preload lets the sides approach each other.
     std::optional<dealii::Tensor<1, dim>> released;
+    /// Of this rank, what friction holds across the direction of slip.
+    std::vector<MultiplierMoment> across_slip;
   };
 
   /// Symmetric and positive semidefinite: a sum of squares.
