@@ -61,11 +61,9 @@ namespace mortise
           result.slip += contact.statuses[k] == NodeStatus::slip ? 1 : 0;
           result.slip_max = std::max(result.slip_max, contact.slips[k].norm());
           result.dissipated_energy += contact.dissipated[k];
-          const Tensor<1, dim> traction = node.traction(lambda.begin());
-          const double         normal   = node.normal * traction;
           for (unsigned int r = 0; r < node.n_multipliers; ++r)
-            force -= (traction[r] - normal * node.normal[r]) * node.area /
-                     node.areas[r] * node.forces[r];
+            force -= lambda.begin()[node.multipliers[r]] *
+                     (node.forces[r] - node.pressure_forces[r]);
           ++k;
         }
       result.stick    = Utilities::MPI::sum(result.stick, comm);
@@ -150,11 +148,11 @@ namespace mortise
           ++k;
           if (!active)
             continue;
-          result.area += node.area;
-          work += pressure_at(step, node) * node.area;
           for (unsigned int r = 0; r < node.n_multipliers; ++r)
             {
               const double traction = lambda.begin()[node.multipliers[r]];
+              result.area += node.pressed_areas[r];
+              work += traction * node.pressures[r];
               force -= traction * node.forces[r];
               moment -= traction * node.moments[r];
             }
@@ -238,6 +236,35 @@ namespace mortise
       return range.width(step.run.comm);
     }
 
+    /// On a plane slip changes neither normals nor gaps.
+    void
+    warn_of_large_slip(const StepEvaluation &step,
+                       const unsigned int    i,
+                       const double          slip)
+    {
+      constexpr double rounding = 1e-6;
+      const Coupling  &coupling = step.discretisation.interfaces().all()[i];
+      const InterfaceHandler &interface = *coupling.interface;
+      Tensor<1, dim>          normals;
+      std::vector<double>     counts(2); // of faces, of normals
+      for (const auto &of_face : coupling.frames)
+        {
+          counts[0] += 1.;
+          counts[1] += of_face.size();
+          for (const Frame &frame : of_face)
+            normals += frame[0];
+        }
+      normals = Utilities::MPI::sum(normals, step.run.comm);
+      Utilities::MPI::sum(counts, step.run.comm, counts);
+      const double face = std::sqrt(interface.report().slave_area / counts[0]);
+      if (slip > face && normals.norm() < (1. - rounding) * counts[1])
+        step.run.log.warning(
+          "interface " + interface.name() + ": the bodies slip by up to " +
+          RunLog::number(slip) + ", more than a face of the slave, about " +
+          RunLog::number(face) +
+          "; normals and pairs of faces stay those of the start, which holds for less slip on a curved surface");
+    }
+
     /// Throws InputError where a face without a partner could have met one.
     void
     check_partners(const StepEvaluation &step,
@@ -297,6 +324,8 @@ namespace mortise
                 RunLog::number(contact.penetration_max) +
                 " between nodes, of " + RunLog::number(moved) +
                 " of relative motion; the contact there is smaller than the faces of the slave, which should be finer");
+            if (contact.friction)
+              warn_of_large_slip(step, i, contact.friction->slip_max);
             summary.interfaces[i].contact = contact;
           }
       }
