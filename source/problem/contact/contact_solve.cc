@@ -16,8 +16,9 @@ namespace mortise
     /// on the way from a first set that is far from it.
     constexpr double loose_energy = 0.1, loosest_energy = 3.;
 
-    /// More of them tell of a preconditioner that has seen too little.
-    constexpr unsigned int few_iterations = 40;
+    /// More of them, and more than this times those with a preconditioner that
+    /// has seen the set, tell of one that has seen too little.
+    constexpr unsigned int few_iterations = 40, times_seen = 2;
   } // namespace
 
   void
@@ -47,13 +48,19 @@ namespace mortise
     const unsigned int most  = run.parameters.solver.max_iterations;
     const SystemVector start = shows ? SystemVector() : x;
     SolveReport        result =
-      solve_set(shows ? most : std::min(most, few_iterations), x);
+      solve_set(shows ? most :
+                        std::min(most,
+                                 std::max(few_iterations,
+                                          times_seen * iterations_when_shown)),
+                x);
     if (!shows && !result.converged)
       {
         const SolveReport tried = result;
         show();
         x      = start;
         result = solve_set(most, x);
+        iterations_when_shown =
+          std::max(iterations_when_shown, result.iterations);
         result.iterations += tried.iterations;
         result.setup_seconds += tried.setup_seconds;
         result.solve_seconds += tried.solve_seconds;

@@ -196,7 +196,9 @@ namespace mortise
     /// Nodes that hold in the penalties of coarse levels.
     std::optional<std::uint64_t> n_shown;
     bool shows = false; ///< is the next one to be in these?
-    bool cold  = true;  ///< is the first set of the step a poor guess?
+    /// The most of a set that needed it to be so.
+    unsigned int iterations_when_shown = 0;
+    bool         cold = true; ///< is the first set of the step a poor guess?
     /// Are sets that open extended to the predicted edge of the contact?
     bool         extends    = false;
     bool         extended   = false; ///< did one open?
