@@ -19,10 +19,9 @@ namespace mortise
 {
   enum class NodeStatus : unsigned char
   {
-    open,  ///< no traction
-    slip,  ///< held along the normal alone
-    stick, ///< held in all directions; without friction, closed
-    n_statuses
+    open, ///< no traction
+    slip, ///< held along the normal alone
+    stick ///< held in all directions; without friction, closed
   };
 
   /// Bound F of the tangential traction for the pressure p: force per area.

@@ -1,43 +1,11 @@
 // Contact of a Discretisation.
 #include <mortise/problem/scene/discretisation.h>
 
-#include <map>
-#include <numeric>
 #include <utility>
 
 namespace mortise
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Q R by owned row, where R has the rows of this rank.
-    SparseMatrix
-    product(const SparseMatrix &Q, const SparseMatrix &R)
-    {
-      SparseMatrix::CompressedRows rows;
-      for (unsigned int i = 0; i < Q.n_rows(); ++i)
-        {
-          std::map<SparseMatrix::Index, double> sums;
-          const auto                            turned = Q.row(i);
-          for (unsigned int k = 0; k < turned.length; ++k)
-            {
-              const auto row = R.row(
-                R.rows().index_within_set(Q.global_column(turned.columns[k])));
-              for (unsigned int l = 0; l < row.length; ++l)
-                sums[R.global_column(row.columns[l])] +=
-                  turned.values[k] * row.values[l];
-            }
-          for (const auto &[column, value] : sums)
-            {
-              rows.columns.push_back(column);
-              rows.values.push_back(value);
-            }
-          rows.begin.push_back(rows.columns.size());
-        }
-      return SparseMatrix(Q.rows(), R.owned_unknowns(), Q.communicator(), rows);
-    }
-  } // namespace
 
   void
   Discretisation::select(const std::vector<bool>    &active,
@@ -48,7 +16,7 @@ namespace mortise
   {
     const auto turned = [&](const SparseMatrix &Q) {
       const CouplingMatrix &B = system.constraint;
-      return B.with_frames(B.has_frames() ? product(Q, B.frames()) :
+      return B.with_frames(B.has_frames() ? Q.times(B.frames()) :
                                             SparseMatrix(Q));
     };
     MultiplierDirections directions;
