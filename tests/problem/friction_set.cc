@@ -7,6 +7,7 @@
 #include <mortise/problem/scene_solver.h>
 #include <scenes/scene.h>
 #include <scenes/scenes.h>
+#include <scenes/solutions.h>
 
 #include <algorithm>
 #include <array>
@@ -207,24 +208,6 @@ namespace
            pushed + "\n  end\nend\n";
   }
 
-  double
-  difference(const std::vector<BodySolution> &a,
-             const std::vector<BodySolution> &b)
-  {
-    double squares = 0., of_b = 0.;
-    for (unsigned int i = 0; i < a.size(); ++i)
-      {
-        BodyVector d(a[i].displacement);
-        d.zero_out_ghost_values();
-        BodyVector e(b[i].displacement);
-        e.zero_out_ghost_values();
-        d -= e;
-        squares += d.norm_sqr();
-        of_b += e.norm_sqr();
-      }
-    return std::sqrt(squares / of_b);
-  }
-
   /// The largest differences of statuses, tractions and slips beside the
   /// largest traction and slip, of nodes at the same places. @p turned: from
   /// the one to the other.
@@ -371,7 +354,7 @@ namespace
             const Nodes nodes = scenes[i]->step(time);
             verdict(scenes[i]->converged, what + ": converged");
             verdict(what + ": displacements 1e-8",
-                    difference(scenes[i]->fields(), fields),
+                    relative_difference(scenes[i]->fields(), fields),
                     1e-8);
             check_same(what, difference(first, nodes, as_it_is), 1e-7);
           }
@@ -434,10 +417,10 @@ namespace
         small.step(time);
         const std::string at = ", t = " + number(time);
         verdict("zero coefficient" + at + ": as without friction 1e-9",
-                difference(zero.fields(), none.fields()),
+                relative_difference(zero.fields(), none.fields()),
                 1e-9);
         verdict("tiny coefficient" + at + ": as without friction 1e-9",
-                difference(small.fields(), none.fields()),
+                relative_difference(small.fields(), none.fields()),
                 1e-9);
         double most = 0.;
         for (const NodeResult &node : nodes)
@@ -468,7 +451,7 @@ namespace
                             }),
                 "large coefficient, t = " + number(time) + ": all sticks");
         verdict("large coefficient, t = " + number(time) + ": as a tie 1e-8",
-                difference(large.fields(), tie.fields()),
+                relative_difference(large.fields(), tie.fields()),
                 1e-8);
       }
   }

@@ -5,6 +5,7 @@
 #include <mortise/base/error.h>
 #include <scenes/active_sets.h>
 #include <scenes/scene.h>
+#include <scenes/solutions.h>
 
 #include <cmath>
 #include <limits>
@@ -108,24 +109,6 @@ namespace
     return d.l2_norm() / std::max(b.l2_norm(), 1e-300);
   }
 
-  double
-  difference(const std::vector<BodySolution> &a,
-             const std::vector<BodySolution> &b)
-  {
-    double squares = 0., of_b = 0.;
-    for (unsigned int i = 0; i < a.size(); ++i)
-      {
-        BodyVector d(a[i].displacement);
-        d.zero_out_ghost_values();
-        BodyVector e(b[i].displacement);
-        e.zero_out_ghost_values();
-        d -= e;
-        squares += d.norm_sqr();
-        of_b += e.norm_sqr();
-      }
-    return std::sqrt(squares / of_b);
-  }
-
   void
   check_agreement(const std::string &name,
                   const std::string &text,
@@ -148,7 +131,7 @@ namespace
                 result.relative_residual,
                 std::max(1e-11, residual));
         verdict(name + ": " + method + ", displacements 1e-8",
-                difference(scene.fields(x), assembled.fields(exact)),
+                relative_difference(scene.fields(x), assembled.fields(exact)),
                 1e-8);
         if (scene.system().owned_multiplier.size() == 0)
           continue;
